@@ -13,11 +13,13 @@ from __future__ import annotations
 
 import itertools
 import json
+from collections.abc import Callable, Iterable, Sequence
 from importlib import resources
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import Chebyshev
+from numpy.typing import NDArray
 from scipy.integrate import cubature
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq, minimize_scalar
@@ -26,15 +28,18 @@ from scipy.special import ndtr
 
 from .errors import NoEquilibrium
 from .laws.asperity.jg import JG
-from .laws.base import REGIMES
+from .laws.base import REGIMES, AbstractAsperityLaw
 from .laws.particle.tension import confined
-from .populations.distributions import Monodisperse
-from .populations.materials import reduced_modulus
-from .populations.shape import Sphere
+from .populations.distributions import Distribution, Monodisperse
+from .populations.materials import Material, reduced_modulus
+from .populations.particles import Particles
+from .populations.shape import Angular, Shape
 
 __all__ = ["Side", "Tip", "asperities", "particles", "separation", "squeezed", "state"]
 
-
+Array = NDArray[np.float64]
+Formula = Callable[[Array], Array]
+Numbers = float | Array
 MOST_STEPS = 100
 """Steps of a search for a separation: of σ each on the way down, growing on the way up."""
 
@@ -73,7 +78,7 @@ def state(contact: Any, d: float) -> dict[str, float]:
 
 
 # ---------------------------------------------------------------- asperities
-def asperities(contact: Any, d: float) -> Any:
+def asperities(contact: Any, d: float) -> Array:
     """η∫F_1(ω) φ(z) dz with ω = σ_s z − d, and the area of each regime alike: (4,)."""
     rough, pair, heights = contact.roughness, contact.surfaces, contact.roughness.heights
     datum = contact.law_of(contact.populations[0]).centre if contact.populations else 0.0
@@ -84,7 +89,7 @@ def asperities(contact: Any, d: float) -> Any:
         law = contact.asperity_law if ratio is None else contact.asperity_law.replace(ratio=ratio)
         tip = Tip(law, radius * rough.R, pair.E_star, pair.H, pair.softer.nu)
 
-        def pressed(z: Any, tip: Any = tip) -> Any:
+        def pressed(z: Array, tip: Tip = tip) -> Array:
             return heights.pdf(z) * tip(rough.sigma_s * (z - h))
 
         starts, end = h + tip.kinks / rough.sigma_s, heights.pieces[-1]
@@ -97,13 +102,13 @@ def asperities(contact: Any, d: float) -> Any:
 class Tip:
     """One tip pressed into a flat by ω [m]: load [N], and area [m²] under its regime, (4, ...)."""
 
-    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float):
+    def __init__(self, law: AbstractAsperityLaw, R: float, E_star: float, H: float, nu: float):
         self.law = law.bound(R=R, E_star=E_star, H=H, nu=nu)
         self.omega_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
         self.unit, self.H = np.pi * R * self.omega_1, H
         self.kinks = self.omega_1 * np.array([self.law.start, *self.law.breakpoints])
 
-    def __call__(self, omega: Any) -> Any:
+    def __call__(self, omega: Numbers) -> Array:
         y = np.asarray(omega) / self.omega_1
         branch = np.searchsorted(self.law.breakpoints, y, side="right")
         regime = np.array([each.regime for each in self.law.branches])[branch]
@@ -113,7 +118,7 @@ class Tip:
 
 
 # ---------------------------------------------------------------- particles
-def particles(contact: Any, some: Any, d: float) -> Any:
+def particles(contact: Any, some: Particles, d: float) -> Array:
     """F_sa, areas on surface 1 by regime, area on surface 2, shadow ς, of one population: (6,)."""
     law, rough = contact.law_of(some), contact.roughness
     one, two = [
@@ -124,14 +129,14 @@ def particles(contact: Any, some: Any, d: float) -> Any:
     width = law.zeta_std * rough.sigma if law.seat == "rough" else 0.0
     gap = d - law.h_0 if law.seat != "rough" else d + rough.y_s - law.zeta_mean * rough.sigma
 
-    def on_plane(x: Any) -> Any:
+    def on_plane(x: Array) -> Array:
         return x**2 * squeezed(one, two, 1 - gap / x)
 
-    def on_seats(x: Any, e: Any) -> Any:
+    def on_seats(x: Array, e: Array) -> Array:
         z = (gap - x * (1 - e)) / width
         return x**3 * np.exp(-0.5 * z**2) / (np.sqrt(2 * np.pi) * width) * sides_at(e)
 
-    def embedded(x: Any) -> Any:  # what a particle carries no longer changes beyond eps[-1]
+    def embedded(x: Array) -> Array:  # what a particle carries no longer changes beyond eps[-1]
         z = (x * (1 - eps[-1]) - gap) / width
         return x**2 * ndtr(z) * squeezed(one, two, 2 * eps[-1:] * np.ones_like(x))
 
@@ -141,7 +146,7 @@ def particles(contact: Any, some: Any, d: float) -> Any:
         if cascade:
             found = cascade.over(sizes, gap, width)
         elif width:
-            found = over_sizes(sizes, on_seats, eps) + over_sizes(sizes, embedded)
+            found = over_sizes(sizes, on_seats, eps.tolist()) + over_sizes(sizes, embedded)
         else:
             found = over_sizes(sizes, on_plane, splits=gap / (1 - eps[eps != 1]))
         total += share * some.areal_density * found
@@ -154,7 +159,15 @@ def particles(contact: Any, some: Any, d: float) -> Any:
 class Side(Tip):
     """A particle of size 1 on one surface: its contact ends at its great circle, or ``full``."""
 
-    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float, full: float = 0.0):
+    def __init__(
+        self,
+        law: AbstractAsperityLaw,
+        R: float,
+        E_star: float,
+        H: float,
+        nu: float,
+        full: float = 0.0,
+    ):
         super().__init__(law, R, E_star, H, nu)
         self.full = full or 0.5 * np.pi * R
         self.plastic = self.law.branches[-1].regime == "plastic"
@@ -162,7 +175,7 @@ class Side(Tip):
         self.cap = brentq(lambda u: super(Side, self).__call__(u)[1:].sum() - self.full, 0, most)
         self.kinks = np.sort([*self.kinks[1:], self.cap])
 
-    def __call__(self, delta: Any) -> Any:
+    def __call__(self, delta: Numbers) -> Array:
         """As `Tip`; from the great circle on, the mean pressure alone may still rise."""
         delta = np.asarray(delta)
         out = super().__call__(delta if self.plastic else np.minimum(delta, self.cap))
@@ -180,7 +193,9 @@ class Faced(Side):
         r_c = 1 + (\pi/2-1)(\delta_j/\delta_t-1), \qquad \delta_t = \tfrac12 r\tan^2\beta
     """
 
-    def __init__(self, law: Any, E_star: float, H: float, nu: float, shape: Any):
+    def __init__(
+        self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, shape: Angular
+    ):
         r, slope = 0.5 * shape.roundness, np.tan(shape.angle)
         super().__init__(law, r, E_star, H, nu, np.pi / 4 * shape.flatness**2)
         b = r * slope
@@ -194,7 +209,7 @@ class Faced(Side):
         points = [*(u for u in self.kinks if u < self.joint), self.joint, self.cap]
         self.kinks = np.sort(points)
 
-    def __call__(self, delta: Any) -> Any:
+    def __call__(self, delta: Numbers) -> Array:
         delta = np.asarray(delta, dtype=float)
         tip = self.tip(np.minimum(delta, self.joint))
         area = np.pi * self.radius(np.minimum(delta, self.cap)) ** 2
@@ -205,11 +220,11 @@ class Faced(Side):
         return np.where(delta < self.joint, tip, np.stack([self.p * area, *faces]))
 
 
-def half_of(law: Any, E_star: float, surface: Any, particle: Any, shape: Any) -> Side:
+def half_of(law: Any, E_star: float, surface: Material, particle: Material, shape: Shape) -> Side:
     """What a particle does on one surface: squashed where it is round and the softer of the two."""
     softer = min(surface, particle, key=lambda each: each.H)
     body = E_star, softer.H, softer.nu
-    if not isinstance(shape, Sphere):
+    if isinstance(shape, Angular):
         if shape.faced:
             return Faced(law.law, *body, shape)
         return Side(law.law, shape.tip_radius, *body, np.pi / 4 * shape.flatness**2)
@@ -232,7 +247,9 @@ class Squashed(Side):
     with q = min(1, 2a), up to where p is the hardness of the surface.
     """
 
-    def __init__(self, law: Any, E_star: float, H: float, nu: float, most: float, m: float):
+    def __init__(
+        self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, most: float, m: float
+    ):
         super().__init__(law, 0.5, E_star, H, nu)
         self.m, self.end = m, 0.5
         self.cap = self.first(self.over_volume)
@@ -245,23 +262,23 @@ class Squashed(Side):
         points += [0.5 - (0.5 - u) / 4**i for i in range(1, 30)]
         self.kinks = np.unique([*(u for u in points if u < self.end), self.end])
 
-    def first(self, excess: Any) -> float:
+    def first(self, excess: Formula) -> float:
         """The first indentation at which this is positive."""
         u = np.linspace(0, 0.49999, 2001)[1:]
         i = int(np.argmax(excess(u) > 0))
         return brentq(excess, u[i] - u[0], u[i])
 
-    def free(self, delta: Any) -> Any:
+    def free(self, delta: Numbers) -> Array:
         """As a tip that knows nothing of a volume."""
         return Tip.__call__(self, delta)
 
-    def over_volume(self, delta: Any) -> Any:
+    def over_volume(self, delta: Array) -> Array:
         return self.free(delta)[1:].sum(axis=0) - np.pi / 6
 
     def more(self) -> list[float]:
         return []
 
-    def at(self, delta: Any) -> Any:
+    def at(self, delta: Numbers) -> tuple[Array, Array]:
         """Mean pressure and area."""
         load, *areas = self.free(delta)
         area, t = np.sum(areas, axis=0), 1 - 2 * delta
@@ -272,7 +289,7 @@ class Squashed(Side):
         p = np.divide(load, area, out=np.zeros_like(wide), where=area > 0)
         return p * (1 + (hill - fall) / 2.84), wide
 
-    def __call__(self, delta: Any) -> Any:
+    def __call__(self, delta: Numbers) -> Array:
         u = np.minimum(delta, self.end)
         p, area = self.at(u)
         areas = np.where(self.free(u)[1:] > 0, area, 0.0)
@@ -287,7 +304,7 @@ class SquashedOfJG(Squashed):
         self.S_y, self.C = H / 2.8, 1.295 * np.exp(0.736 * nu)
         super().__init__(JG(), E_star, H, nu, most, m)
 
-    def over_volume(self, delta: Any) -> Any:
+    def over_volume(self, delta: Array) -> Array:
         return self.free(delta)[1:].sum(axis=0) * (1 - 2 * delta) - np.pi / 6
 
     def more(self) -> list[float]:
@@ -298,12 +315,12 @@ class SquashedOfJG(Squashed):
             for i in np.flatnonzero(off[1:] * off[:-1] < 0)
         ]
 
-    def area(self, delta: Any) -> Any:
+    def area(self, delta: Numbers) -> Array:
         return np.where(
             delta < self.cap, self.free(delta)[1:].sum(axis=0), np.pi / 6 / (1 - 2 * delta)
         )
 
-    def bare(self, delta: Any) -> Any:
+    def bare(self, delta: Numbers) -> Array:
         """Mean pressure without friction."""
         y, area = delta / self.omega_1, np.maximum(self.area(delta), 1e-300)
         H_G = 2.84 - 0.92 * (1 - np.cos(np.pi * np.minimum(1, 2 * np.sqrt(area / np.pi))))
@@ -311,7 +328,7 @@ class SquashedOfJG(Squashed):
         first = np.exp(-0.25 * y ** (5 / 12)) * y**1.5
         return F_c * (first + 4 / self.C * H_G * (1 - np.exp(-(y ** (5 / 9)) / 25)) * y) / area
 
-    def at(self, delta: Any) -> Any:
+    def at(self, delta: Numbers) -> tuple[Array, Array]:
         area, load = self.area(delta), self.free(delta)[0]
         elastic = np.divide(load, area, out=np.zeros_like(area), where=area > 0)
         p = np.where(delta < 1.9 * self.omega_1, elastic, np.maximum(self.bare(delta), self.S_y))
@@ -328,7 +345,9 @@ class Deep(Side):
     to where its mean pressure is the hardness of the surface.
     """
 
-    def __init__(self, law: Any, E_star: float, H: float, nu: float, ratio: float, m: float):
+    def __init__(
+        self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, ratio: float, m: float
+    ):
         super().__init__(law, 0.5, E_star, H, nu)
         self.tables = [series_of(name, ratio, m, E_star / H) for name in ("own", "area")]
         self.hill, self.end, self.own = m / (3 * np.sqrt(3)), 0.475, own_part(ratio, m)
@@ -353,23 +372,23 @@ class Deep(Side):
             points += [(0.5 - np.exp(v_0) / 2 / 4**i) / self.own for i in range(1, 25)]
         self.kinks = np.unique([u for u in points if u <= self.end])
 
-    def table(self, delta: Any) -> Any:
+    def table(self, delta: Array) -> tuple[Array, Array]:
         """Load and area of the curves."""
         at = place(np.clip(2 * delta, 0.05, 0.95))
         load, area = (np.exp(series(at)) for series in self.tables)
         return load * self.H / 2.84 / 4, area * np.pi / 4
 
-    def disc(self, log_t: Any) -> Any:
+    def disc(self, log_t: Numbers) -> tuple[Array, Array]:
         """Mean pressure and area beyond the curves, of a half as high as t radii."""
         load, area = self.table(np.array(0.475))
         t, thick = np.exp(log_t), 1 - 0.95 * self.own
         rise = lambda area, t: 1 + self.hill * np.sqrt(area / (np.pi / 4)) / t  # noqa: E731
         return load / area * rise(area * thick / t, t) / rise(area, thick), area * thick / t
 
-    def area(self, delta: Any) -> Any:
+    def area(self, delta: Numbers) -> Array:
         return self(delta)[1:].sum(axis=0)
 
-    def __call__(self, delta: Any) -> Any:
+    def __call__(self, delta: Numbers) -> Array:
         u = np.minimum(np.asarray(delta, dtype=float), self.end)
         tip, (load, area) = Tip.__call__(self, u), self.table(u)
         v = np.clip(np.log(np.maximum(u, 1e-300) / 0.025) / np.log(3.0), 0.0, 1.0)
@@ -392,8 +411,8 @@ def own_part(ratio: float, m: float) -> float:
     rigid = [run for run in runs_of_the_table() if run["soft"] == 0]
     factors, rows = sorted({run["m"] for run in rigid}), []
     for f in factors:
-        x, sinks = zip(*sorted((r["x"], r["sink"]) for r in rigid if r["m"] == f), strict=True)
-        rows.append([np.interp(np.log(ratio), x, at) for at in zip(*sinks, strict=True)])
+        x, found = zip(*sorted((r["x"], r["sink"]) for r in rigid if r["m"] == f), strict=True)
+        rows.append(np.array([np.interp(np.log(ratio), x, at) for at in zip(*found, strict=True)]))
     sinks = across(m, factors, rows)
     for i in range(1, 19):
         sinks[i] = min(max(sinks[i], sinks[i - 1]), sinks[i - 1] + 0.05)
@@ -401,13 +420,13 @@ def own_part(ratio: float, m: float) -> float:
     return part if part > 1e-3 else 0.0
 
 
-def place(eps: Any, low: float = 0.05, high: float = 0.95) -> Any:
+def place(eps: Numbers, low: float = 0.05, high: float = 0.95) -> Array:
     """Where ln ε/(1 − ε) lies between that of two squeezes, as −1 and 1."""
     at, first, last = (np.log(e / (1 - e)) for e in (eps, low, high))
     return (2 * at - first - last) / (last - first)
 
 
-def runs_of_the_table() -> Any:
+def runs_of_the_table() -> list[dict[str, Any]]:
     """The computed curves between two surfaces."""
     text = resources.files("thirdbody").joinpath("data/deep_series.json").read_text("utf-8")
     runs = [run for run in json.loads(text)["curves"] if run["surfaces"] == 2]
@@ -419,16 +438,14 @@ def runs_of_the_table() -> Any:
     return runs
 
 
-def across(at: float, nodes: Any, rows: Any) -> Any:
+def across(at: float, nodes: Iterable[float], rows: Iterable[Array]) -> Array:
     """Rows between nodes, by a monotone cubic."""
-    order = np.argsort(nodes)
-    nodes, rows = np.array(nodes)[order], np.array(rows)[order]
-    if len(nodes) == 1:
-        return rows[0]
-    return PchipInterpolator(nodes, rows, axis=0)(np.clip(at, nodes[0], nodes[-1]))
+    x, y = np.array(list(nodes)), np.array(list(rows))
+    x, y = x[order := np.argsort(x)], y[order]
+    return y[0] if len(x) == 1 else PchipInterpolator(x, y, axis=0)(np.clip(at, x[0], x[-1]))
 
 
-def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
+def series_of(name: str, ratio: float, m: float, kappa: float) -> Chebyshev:
     """ln F/(Y R²), Y of the softer body, or ln A/(πR²), between the computed runs.
 
     First value and roots of the slope go by monotone cubics over ln ρ and m and in straight lines
@@ -438,7 +455,7 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
     x, soft = np.log(np.clip(ratio, 0.4, 10.0)), 1 / max(kappa, 8.0)
     rigid = [run for run in runs if run["soft"] == 0]
 
-    def row(run: Any, eps: Any) -> Any:
+    def row(run: dict[str, Any], eps: Array) -> Array:
         step = place(0.95, run["from"], run["to"]) - place(0.05, run["from"], run["to"])
         root = Chebyshev(run[name]["root"])(place(eps, run["from"], run["to"]))
         own = name == "own" and run["rho"] not in (0, np.inf)
@@ -446,15 +463,15 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
         inside = eps <= run["to"] * (1 + 1e-9)
         return np.append(first, np.where(inside, root * np.sqrt(step / 2), 0.0))
 
-    def change(run: Any, eps: Any) -> Any:
+    def change(run: dict[str, Any], eps: Array) -> Array:
         twin = next(it for it in rigid if (it["m"], it["rho"]) == (1, run["rho"]))
         shorter = min(run["to"], twin["to"]) * (1 + 1e-9)
         return (row(run, eps) - row(twin, eps)) * np.append(1.0, eps <= shorter)
 
-    def over_hardness(some: Any, of: Any) -> Any:
+    def over_hardness(some: list[dict[str, Any]], of: Callable[[dict[str, Any]], Array]) -> Array:
         return across(x, [run["x"] for run in some], [of(run) for run in some])
 
-    def values(s: Any) -> Any:
+    def values(s: Array) -> Array:
         eps = 1 / (1 + np.exp(-np.log(19.0) * s))
         out = over_hardness([run for run in rigid if run["m"] == 1], lambda run: row(run, eps))
         factors = sorted({run["m"] for run in rigid})
@@ -475,7 +492,7 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
     return (root * root).integ(lbnd=-1) + values(np.zeros(1))[0]
 
 
-def squeezed(one: Side, two: Side, eps: Any) -> Any:
+def squeezed(one: Side, two: Side, eps: Array) -> Array:
     """A particle of size 1 squeezed by ε: both sides carry one load, F_1(δ_1) = F_2(ε − δ_1).
 
     Load, area on side 1 by regime, area on side 2, the larger of both, projected area: (7, ...).
@@ -491,7 +508,7 @@ def squeezed(one: Side, two: Side, eps: Any) -> Any:
     return np.where(np.asarray(eps) > 0, rows, 0.0)
 
 
-def squeezes(one: Side, two: Side) -> Any:
+def squeezes(one: Side, two: Side) -> Array:
     """Increasing ε at which a side changes its formula, from 0 to where nothing changes more."""
     out = [0.0]
     for side, other in ((one, two), (two, one)):
@@ -520,7 +537,8 @@ class Cascade:
     with the largest tension :math:`\hat\sigma` on the way down.
     """
 
-    def __init__(self, some: Any, one: Side, two: Side):
+    def __init__(self, some: Particles, one: Side, two: Side):
+        assert some.strength is not None
         self.strength, self.nu, self.one, self.two = some.strength, some.material.nu, one, two
         self.x_c = some.strength.least(some.material)
         self.eps = squeezes(one, two)[1:]
@@ -534,7 +552,7 @@ class Cascade:
         ).x for i in tops]  # fmt: skip
         self.tops = np.unique([*found, *self.eps])
 
-    def tension(self, eps: Any) -> Any:
+    def tension(self, eps: Array) -> Array:
         """σ_t of a particle of size 1 [Pa]."""
         load, *areas, second = squeezed(self.one, self.two, eps)[:5]
         if self.strength.confinement == "none":
@@ -542,7 +560,7 @@ class Cascade:
         s = [np.minimum(2 * np.sqrt(a / np.pi), 1.0) for a in (np.sum(areas, axis=0), second)]
         return load * 0.5 * (confined(s[0], self.nu) + confined(s[1], self.nu))
 
-    def survival(self, x: Any, eps: Any) -> Any:
+    def survival(self, x: Array, eps: Array) -> Array:
         """P_s of particles of sizes x [m] that are squeezed by ε."""
         eps = np.minimum(eps, self.eps[-1])
         before = np.where(self.tops <= eps[..., None], self.tension(self.tops), 0.0).max(axis=-1)
@@ -550,7 +568,7 @@ class Cascade:
         broken = (met / self.strength.of_size(x)) ** self.strength.m
         return np.where(x <= self.x_c, 1.0, np.exp(-broken))
 
-    def __call__(self, x: Any, gap: Any) -> Any:
+    def __call__(self, x: Array, gap: Numbers) -> Array:
         """Seven sums over what has become of a particle of size x in a gap [m]: (7, ...)."""
         x, gap = np.broadcast_arrays(np.asarray(x, float), np.asarray(gap, float))
         total, number = np.zeros((7, *x.shape)), np.ones(x.shape)
@@ -562,7 +580,7 @@ class Cascade:
             number, x = np.where(x > gap, number, 0.0), x * self.strength.ratio
         return total
 
-    def over(self, sizes: Any, gap: float, width: float) -> Any:
+    def over(self, sizes: Distribution, gap: float, width: float) -> Array:
         """Over the sizes, and over seats of a width where there is one."""
         k = self.strength.ratio ** np.arange(12)
         ends = np.array([1.0, *(1 - self.tops)])
@@ -577,7 +595,12 @@ class Cascade:
 
 
 # ---------------------------------------------------------------- integrals
-def over_sizes(sizes: Any, f: Any, *edges: Any, splits: Any = ()) -> Any:
+def over_sizes(
+    sizes: Distribution,
+    f: Callable[..., Array],
+    *edges: Sequence[float],
+    splits: Iterable[float] = (),
+) -> Array:
     """∫φ_a(x) f(x, ...) dx and over the other variables."""
     if isinstance(sizes, Monodisperse):
         return integral(lambda *others: f(np.array([sizes.mean]), *others), *edges)
@@ -586,7 +609,7 @@ def over_sizes(sizes: Any, f: Any, *edges: Any, splits: Any = ()) -> Any:
     return integral(lambda x, *others: sizes.pdf(x) * f(x, *others), x, *edges)
 
 
-def integral(f: Any, *edges: Any) -> Any:
+def integral(f: Callable[..., Array], *edges: Sequence[float]) -> Array:
     """∫f over the boxes between increasing edges, one sequence a variable; f gives (m, points)."""
     if not edges:
         return f()[:, 0]
@@ -594,15 +617,15 @@ def integral(f: Any, *edges: Any) -> Any:
         tuple(zip(*box, strict=True)) for box in itertools.product(*map(itertools.pairwise, edges))
     ]
 
-    values: dict[bytes, Any] = {}
+    values: dict[bytes, Array] = {}
 
-    def values_at(v: Any) -> Any:
+    def values_at(v: Array) -> Array:
         """f, which both passes ask for at the points of every box."""
         if (key := v.tobytes()) not in values:
             values[key] = f(*v.T).T
         return values[key]
 
-    def total(f: Any, rtol: float, atol: float) -> Any:
+    def total(f: Formula, rtol: float, atol: float) -> Array:
         return sum(cubature(f, *box, rtol=rtol, atol=atol).estimate for box in boxes)
 
     size = np.abs(total(values_at, 0.1, 0.0))
@@ -610,11 +633,11 @@ def integral(f: Any, *edges: Any) -> Any:
     return size * total(lambda v: values_at(v) / size, 1e-11, 1e-12)
 
 
-def at_distinct(f: Any) -> Any:
+def at_distinct(f: Formula) -> Formula:
     """f of one variable, asked once for the coordinate that rows of points of a box share."""
-    values: dict[bytes, Any] = {}
+    values: dict[bytes, Array] = {}
 
-    def values_at(v: Any) -> Any:
+    def values_at(v: Array) -> Array:
         distinct, back = np.unique(v, return_inverse=True)
         if (key := distinct.tobytes()) not in values:
             values[key] = f(distinct)
@@ -623,6 +646,6 @@ def at_distinct(f: Any) -> Any:
     return values_at
 
 
-def between(low: float, high: float, points: Any) -> Any:
+def between(low: float, high: float, points: Iterable[float]) -> Sequence[float]:
     """The distinct points from low to high, both ends among them; none where low is above high."""
-    return np.unique([low, *(p for p in points if low < p < high), high]) if low < high else []
+    return sorted({low, *(p for p in points if low < p < high), high}) if low < high else []

@@ -12,7 +12,6 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable
 from types import FrameType
-from typing import Any
 
 __all__ = [
     "InvalidValue",
@@ -81,7 +80,7 @@ class Problem(str):
         self.path, self.rule, self.value, self.hint, self.owner = path, rule, value, hint, owner
         return self
 
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]:
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, object]]:
         return (), vars(self)
 
     @property
@@ -89,7 +88,7 @@ class Problem(str):
         """The dotted place, from the outermost name that is known."""
         return ".".join(filter(None, (self.owner, self.path)))
 
-    def changed(self, **changes: Any) -> Problem:
+    def changed(self, **changes: object) -> Problem:
         """The same mistake with some of its parts changed."""
         return Problem(**{**vars(self), **changes})
 
@@ -136,7 +135,7 @@ class Note(str):
         self.code, self.effect, self.action = code, effect, action
         return self
 
-    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, Any]]:
+    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, object]]:
         return (str(self),), {"code": self.code, "effect": self.effect}
 
 

@@ -1,6 +1,5 @@
 """What a command may write: what it made itself, and files that its user names."""
 
-import inspect
 import json
 import os
 import re
@@ -14,6 +13,7 @@ from damage import empty, flipped, missing, truncated
 
 import thirdbody as tb
 from thirdbody.cli.commands import COMMANDS
+from thirdbody.cli.options import parameters_of
 from thirdbody.cli.own_files import need_places
 from thirdbody.quantities.files import need_folders, refuse_clashes, whole, write_text
 from thirdbody.study.analyses import design_study
@@ -304,7 +304,7 @@ def test_the_usual_report_takes_the_place_of_a_report_only(tmp_path, monkeypatch
 def options_of(command):
     return {
         name
-        for each in inspect.signature(command, eval_str=True).parameters.values()
+        for each in parameters_of(command)
         for kind in getattr(each.annotation, "__metadata__", ())
         for name in (getattr(kind, "default", None), *(getattr(kind, "param_decls", None) or ()))
     }

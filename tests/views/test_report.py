@@ -22,7 +22,7 @@ from thirdbody.study import load_study
 from thirdbody.study.one_surface import one_surface
 from thirdbody.views.explicit_words import comparison_table, headline
 from thirdbody.views.html import figure, symbols, text_table, words
-from thirdbody.views.report import Report, Row, laws_of, report, rows_of, source_of
+from thirdbody.views.report import Row, laws_of, report, rows_of, source_of
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -129,7 +129,7 @@ def two_body(tmp_path_factory):
 @pytest.fixture
 def no_figures(monkeypatch):
     """Figures cost most of a page; what a test says of its text needs none."""
-    monkeypatch.setattr(Report, "_figures", lambda report: [])
+    monkeypatch.setattr("thirdbody.views.report.page.figures_of", lambda report: [])
 
 
 # ---------------------------------------------------------------- the answer

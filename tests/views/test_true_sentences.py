@@ -18,6 +18,7 @@ from thirdbody.equilibrium.modes import EPS_1, EPS_2
 from thirdbody.quantities.say import number, percent, signed, value_of
 from thirdbody.study import check
 from thirdbody.views.report import report
+from thirdbody.views.report.sentences import ranked_inputs
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 NUMBER = r"[−+]?\d[\d.]*(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
@@ -291,7 +292,7 @@ class Held:
 
     def ranking(self):
         """Inputs are ranked by a result that is not at its end."""
-        of, order = self.found.ranked()
+        of, order = ranked_inputs(self.found)
         if not order:
             return
         share = self.states["particle_load_share"][self.found.at]

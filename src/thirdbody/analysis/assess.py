@@ -17,6 +17,7 @@ from ..contact.broken_averages import roughly
 from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
 from ..equilibrium.engine.run import own_columns
+from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import varied
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
@@ -314,16 +315,15 @@ class _Own(NamedTuple):
 
 
 def _own_state(contact: Contact, load: str, value: float) -> _Own | NoEquilibrium:
-    given: dict[str, Any] = {load: value}
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         try:
-            state = solve(contact, **given)
+            state = solve(contact, **as_load(load, value))
         except NoEquilibrium as error:
             return error
     told = dict.fromkeys(str(item.message) for item in heard)
     notes = [f"Warning: {text}." for text in told]
-    return _Own(str(state.mode), notes + about_fragments(contact, given))
+    return _Own(str(state.mode), notes + about_fragments(contact, as_load(load, value)))
 
 
 def _page(
@@ -380,7 +380,7 @@ BEAR = {"gone": "nothing", "footprint": "their footprint", "all": "all of them, 
 EXPONENT = "particles.strength.size_exponent"
 
 
-def about_fragments(contact: Contact, load: dict[str, Any]) -> list[str]:
+def about_fragments(contact: Contact, load: Load[float]) -> list[str]:
     """What it is worth that nobody has measured what pieces of broken particles bear."""
     if all(each.strength is None for each in contact.populations):
         return []

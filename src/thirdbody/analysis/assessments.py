@@ -43,7 +43,7 @@ class Assessments:
     unsolved: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Everything as plain data ready for JSON: every page as `Assessment.to_dict` has it."""
         from ..version import __version__
 

@@ -27,6 +27,7 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.columns import COLUMNS, PLASTIC_SHARE, Equilibrium
 from ..equilibrium.doubts import BEYOND
+from ..equilibrium.load import ForceLoad, as_force_load
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, Problem, RangeWarning, code_of
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
@@ -183,7 +184,7 @@ class Comparison:
         import xarray as xr
 
         load = self.load
-        coords: dict[str, Any] = {
+        coords: dict[str, object] = {
             "law": ("law", list(self.laws), {"long_name": "asperity law"}),
             load: (load, self.loads[load], _about(load)),
             "title": ("law", list(self.laws.values())),
@@ -216,7 +217,7 @@ def compared(
         given = values
         loads = {"pressure": values, "F_star": values / contact.E_ss}
     rows = _rows(contact, laws)
-    solved = [_solved(contact, law, {load: given}) for law in rows.values()]
+    solved = [_solved(contact, law, as_force_load(load, given)) for law in rows.values()]
     notes, common = _without_repeats(solved)
     used = [_under(contact, law) for law in rows.values() if isinstance(law, AbstractAsperityLaw)]
     cited = "\n".join(cite(each) for each in used)
@@ -356,7 +357,7 @@ def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
 
 
 def _solved(
-    contact: Contact, law: AbstractAsperityLaw | Persson | type, load: dict[str, Any]
+    contact: Contact, law: AbstractAsperityLaw | Persson | type, load: ForceLoad[Array]
 ) -> _Solved:
     if isinstance(law, Persson):
         if not contact.two_body:

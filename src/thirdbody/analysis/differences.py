@@ -284,7 +284,7 @@ class Places:
             out[load] = self._entries_of(Slope(*(0 * part for part in columns)), size, 1.0)
         return out
 
-    def _entries_of(self, total: Slope, size: Array, scale: Any) -> list[Entry]:
+    def _entries_of(self, total: Slope, size: Array, scale: object) -> list[Entry]:
         return _entries(total, size, scale, self.rule.doubtful)
 
 

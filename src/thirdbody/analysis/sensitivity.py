@@ -22,6 +22,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium, quantity_of
+from ..equilibrium.load import as_loads
 from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
@@ -224,7 +225,7 @@ def _default_inputs(contact: Contact) -> list[str]:
     known = inputs(contact)
     pair = contact.surfaces
     alike = pair.alike
-    groups: dict[Any, list[str]] = {}
+    groups: dict[object, list[str]] = {}
     for name, value in known.items():
         side, _, last = name.rpartition(".")
         body = side in ("surfaces.first", "surfaces.second") or side.endswith(".material")
@@ -408,7 +409,7 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
 def _derived(
     contact: Contact,
     results: Sequence[str],
-    given: Mapping[str, Any],
+    given: Mapping[str, ArrayLike],
     moved: Sequence[Input],
     load: str,
     rule: Rule,
@@ -417,7 +418,7 @@ def _derived(
     value: dict[str, Array] = {}
     entries: dict[str, dict[str, Entry]] = {}
     if plain := [name for name in results if name not in CRITICAL]:
-        state = solve(contact, **given)
+        state = solve(contact, **as_loads(given))
         columns = state.columns()
         value = {name: columns[name] for name in plain}
         entries = _of_columns(contact, state, moved, load, plain, rule)

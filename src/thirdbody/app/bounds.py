@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from ..errors import InvalidValue
 
@@ -42,7 +41,7 @@ LIMITS = {"points": MOST_POINTS, "samples": MOST_SAMPLES}
 END = "the page takes at most {most}; for more use the command line"
 
 
-def refuse_large(study: dict[str, Any]) -> None:
+def refuse_large(study: dict[str, object]) -> None:
     """Refuse a study that would take long to draw.
 
     Raises
@@ -65,8 +64,8 @@ def refuse_large(study: dict[str, Any]) -> None:
         raise InvalidValue(*found)
 
 
-def _problems(study: dict[str, Any]) -> Iterator[str]:
-    waiting: list[tuple[str, int, Any]] = [("", 0, study)]
+def _problems(study: dict[str, object]) -> Iterator[str]:
+    waiting: list[tuple[str, int, object]] = [("", 0, study)]
     entries = 0
     while waiting:
         where, depth, value = waiting.pop()
@@ -114,7 +113,7 @@ def _short(where: str) -> str:
     return where if len(where) <= 60 else f"{where[:57]}..."
 
 
-def _number(value: Any) -> float:
+def _number(value: object) -> float:
     return value if isinstance(value, (int, float)) else 0.0
 
 

@@ -10,12 +10,14 @@ those of the model that are, at another place of the surface if need be.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from html import escape
 from typing import Any
 
 import numpy as np
+from numpy.random import Generator
 from numpy.typing import NDArray
 
 import thirdbody as tb
@@ -26,6 +28,7 @@ from ..views.plot.style import OKABE_ITO
 __all__ = ["Section", "section", "to_svg"]
 
 Array = NDArray[np.float64]
+Scale = Callable[[float], float]
 WAVES = 96
 POINTS = 900
 DRAWN = 12
@@ -169,7 +172,7 @@ def _shares(state: tb.Equilibrium) -> list[float]:
 
 def _chances(contact: tb.Contact, dust: tb.Particles, z: Array, h: float) -> tuple[Array, Array]:
     """Seat heights along the profile, and how probable a particle there is loaded."""
-    law: Any = contact.law_of(dust)
+    law = contact.law_of(dust)
     seats = z if getattr(law, "seat", "plane") == "rough" else np.full_like(z, _flat(contact, law))
     sizes = np.asarray(dust.diameter.ppf(TAIL), dtype=float)
     larger = np.searchsorted(sizes, h - seats, side="right")
@@ -177,7 +180,13 @@ def _chances(contact: tb.Contact, dust: tb.Particles, z: Array, h: float) -> tup
 
 
 def _loaded(
-    number: int, dust: tb.Particles, x: Array, seats: Array, chances: Array, h: float, rng: Any
+    number: int,
+    dust: tb.Particles,
+    x: Array,
+    seats: Array,
+    chances: Array,
+    h: float,
+    rng: Generator,
 ) -> Grain:
     """One of the particles of the model that are loaded."""
     at = int(rng.choice(len(x), p=chances / chances.sum()))
@@ -188,7 +197,7 @@ def _loaded(
 
 
 def _seat(
-    contact: tb.Contact, dust: tb.Particles, place: float, x: Array, z: Array, rng: Any
+    contact: tb.Contact, dust: tb.Particles, place: float, x: Array, z: Array, rng: Generator
 ) -> tuple[float, float]:
     """Place and seat height of one particle, by the seat of its law."""
     law: Any = contact.law_of(dust)
@@ -260,7 +269,7 @@ def to_svg(drawn: Section, *, title: str = "Cross-section") -> str:
     return "".join(out) + "</svg>"
 
 
-def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
+def _grain(drawn: Section, grain: Grain, X: Scale, Y: Scale, scale: float) -> str:
     """One particle: round while free, sunk into both surfaces or flattened under load."""
     radius = 0.5 * grain.diameter
     middle = grain.seat + radius
@@ -287,7 +296,7 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
     ) + pointer * (scale * ry < LEAST)
 
 
-def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[str]:
+def _measures(drawn: Section, X: Scale, Y: Scale, H: float, scale: float) -> list[str]:
     """The mean plane, the separation, and a bar for scale."""
     length = _round_length(drawn.width / 6)
     bar = value_of(length, "m")

@@ -71,7 +71,7 @@ class Entries:
         """Called when other entries are needed than before."""
         self.shown: dict[str, Entry] = {}
         self.rest: Any = None
-        self.left: tuple[Any, list[Problem]] = (None, [])
+        self.left: tuple[object, list[Problem]] = (None, [])
         """Where mistakes without a field stand, and which."""
 
     # ------------------------------------------------------------------ mistakes
@@ -190,13 +190,13 @@ class Entries:
             self.shown[dotted(place)] = Entry(menu)
         return menu
 
-    def change(self, *path_and_value: Any) -> None:
+    def change(self, *path_and_value: object) -> None:
         """Set an entry on which depends which others there are."""
         self.state.set(*path_and_value, whole=True)
         self.again()
 
     # ------------------------------------------------------------------ tables
-    def table(self, *place: str | int) -> dict[str, Any]:
+    def table(self, *place: str | int) -> dict[str, object]:
         """A table of the study; an empty one where something else stands."""
         given = self.state.get(*place)
         return given if isinstance(given, dict) else {}
@@ -208,7 +208,7 @@ class Entries:
         library = self.state.library
         options = {OWN: OWN, **{name: name for name in library}}
 
-        def then(value: Any) -> None:
+        def then(value: object) -> None:
             if value != OWN:
                 self.change(*place, value)
                 return
@@ -267,7 +267,7 @@ class Entries:
     def _word_entry(self, place: Place, field: Field, tag: str, word: str) -> None:
         """An entry of a table that is still a word, or left out."""
 
-        def to(value: Any) -> None:
+        def to(value: object) -> None:
             table = self.state.get(*place)
             if value is None and not isinstance(table, dict):
                 return

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tomllib
-from typing import Any
 
 __all__ = ["EXAMPLES", "example"]
 
@@ -85,6 +84,6 @@ pressure = { from = "0.1 MPa", to = "30 MPa", points = 200 }
 """Study files by their title on the page; the first is the one it opens with."""
 
 
-def example(name: str | None = None) -> dict[str, Any]:
+def example(name: str | None = None) -> dict[str, object]:
     """One of the studies, parsed."""
     return tomllib.loads(EXAMPLES[name or next(iter(EXAMPLES))])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-from typing import Any
 
 from ..quantities.files import csv_of, with_units
 from ..study import Study, run_study
@@ -34,6 +33,6 @@ def figure_of(answer: Answer, name: str, suffix: str) -> bytes:
     drawn = getattr(plot, name)(answer.curves).figure
     out = io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
-        more: dict[str, Any] = {"metadata": {"Date": None}} if suffix == "svg" else {"dpi": 200}
+        more: dict[str, object] = {"metadata": {"Date": None}} if suffix == "svg" else {"dpi": 200}
         drawn.savefig(out, format=suffix, bbox_inches="tight", **more)
     return out.getvalue()

@@ -74,7 +74,7 @@ class Field:
     label: str
     about: str
     options: tuple[str, ...] = ()
-    quantity: dict[str, Any] | None = None
+    quantity: dict[str, object] | None = None
     default: Any = None
 
 
@@ -112,7 +112,7 @@ def fields_of(kind: type) -> list[Field]:
     return out
 
 
-def known_keys(study: dict[str, Any], name: str) -> dict[str, dict[str, str]]:
+def known_keys(study: dict[str, object], name: str) -> dict[str, dict[str, str]]:
     """What the reader of study files knows in one table and those inside: keys, what each is."""
     tables = [table for table in TABLES if table.name == name]
     found = Describer(Path(), study).known_of(tables).keys
@@ -120,7 +120,7 @@ def known_keys(study: dict[str, Any], name: str) -> dict[str, dict[str, str]]:
 
 
 def number_field(
-    name: str, about: dict[str, Any], default: Any = None, needed: bool = True
+    name: str, about: dict[str, object], default: object = None, needed: bool = True
 ) -> Field:
     """The field of a quantity."""
     symbol = f" {about['symbol']}" if about["symbol"] != name else ""
@@ -191,7 +191,7 @@ def options_of(kind: Any) -> dict[str, str]:
 
 
 # ---------------------------------------------------------------------- text and values
-def text_of(value: Any) -> str:
+def text_of(value: object) -> str:
     """A value of a study as a field shows it: strings without quotes, the rest as in TOML."""
     if value is None:
         return ""
@@ -226,7 +226,7 @@ def value_from(text: str, *, one: bool = False) -> Any:
     return value_of(text)
 
 
-def number_of(value: Any, about: dict[str, Any]) -> float:
+def number_of(value: object, about: dict[str, object]) -> float:
     """The number in SI that an entry stands for; NaN where it stands for none."""
     try:
         return quantity_to_si(value, about)

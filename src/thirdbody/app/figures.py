@@ -5,10 +5,12 @@ from __future__ import annotations
 import html
 import re
 import textwrap
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Literal, TypedDict, Unpack
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..quantities.plain_data import plain_data
 from ..views.plot.style import MODE_COLOURS, OKABE_ITO, REGIMES
@@ -22,6 +24,9 @@ __all__ = [
     "MODE_FILLS",
     "REGIME_FILLS",
     "SCALES",
+    "Figure",
+    "Part",
+    "band",
     "clipped",
     "empty",
     "figure",
@@ -47,15 +52,51 @@ AXES = {
 """What loads are called, by the arguments of `tb.solve`."""
 SCALES = {"pressure": 1e-6}
 """What loads are drawn in is so much of their SI unit."""
-GREY = "#7f7f7f"
-CONFIG = {
+GREY, CLEAR = "#7f7f7f", "rgba(0,0,0,0)"
+CONFIG: dict[str, object] = {
     "displaylogo": False,
     "responsive": False,
     "modeBarButtonsToRemove": ["select2d", "lasso2d"],
 }
 
 
-def _rgb(colour: Any) -> str:
+Part = dict[str, object]
+"""A curve, a shape, a note or an axis, as Plotly takes it."""
+
+
+class Extras(TypedDict, total=False):
+    """What a figure may be told besides its axes."""
+
+    hovermode: str
+    barmode: str
+    shapes: list[Part]
+    annotations: list[Part]
+
+
+class Layout(Extras, total=False):
+    """What stands around the curves of a figure."""
+
+    title: Part
+    xaxis: Part
+    yaxis: Part
+    margin: Part
+    height: int
+    paper_bgcolor: str
+    plot_bgcolor: str
+    font: Part
+    legend: Part
+    showlegend: bool
+
+
+class Figure(TypedDict):
+    """A figure as Plotly takes it."""
+
+    data: list[Part]
+    layout: Layout
+    config: Part
+
+
+def _rgb(colour: Iterable[float]) -> str:
     return "rgb(" + ",".join(str(round(255 * part)) for part in colour) + ")"
 
 
@@ -88,7 +129,7 @@ def symbol(text: str) -> str:
 
 
 def figure(
-    data: list[dict[str, Any]],
+    data: list[Part],
     *,
     x: str,
     y: str,
@@ -96,55 +137,41 @@ def figure(
     xlog: bool = True,
     ylog: bool = False,
     height: int = 360,
-    **layout: Any,
-) -> dict[str, Any]:
+    **more: Unpack[Extras],
+) -> Figure:
     """Traces with axes; text and grid take their colours from the page."""
-    axis = {"gridcolor": "rgba(127,127,127,0.25)", "zeroline": False, "automargin": True}
-    decades = {
-        name: _decades(data, name) if log else {} for name, log in (("x", xlog), ("y", ylog))
+    layout: Layout = {
+        "title": {"text": title, "font": {"size": 15}, "x": 0.02, "xanchor": "left"},
+        "xaxis": _axis(data, "x", x, xlog),
+        "yaxis": _axis(data, "y", y, ylog),
+        "margin": {"l": 60, "r": 16, "t": 44, "b": 84},
+        "height": height,
+        "paper_bgcolor": CLEAR,
+        "plot_bgcolor": CLEAR,
+        "font": {"color": GREY, "size": 12},
+        "legend": {"orientation": "h", "yref": "container", "y": 0.0, "yanchor": "bottom", "x": 0},
+        "hovermode": "x unified",
+        "showlegend": True,
+        "shapes": [],
+        "annotations": [],
     }
-    made: dict[str, Any] = {
-        "data": data,
-        "layout": {
-            "title": {"text": title, "font": {"size": 15}, "x": 0.02, "xanchor": "left"},
-            "xaxis": axis
-            | {
-                "title": {"text": x, "font": {"size": 13}},
-                "type": "log" if xlog else "linear",
-                "exponentformat": "power",
-            }
-            | decades["x"],
-            "yaxis": axis
-            | {
-                "title": {"text": y, "font": {"size": 13}, "standoff": 10},
-                "type": "log" if ylog else "linear",
-                "exponentformat": "power",
-            }
-            | decades["y"],
-            "margin": {"l": 60, "r": 16, "t": 44, "b": 84},
-            "height": height,
-            "paper_bgcolor": "rgba(0,0,0,0)",
-            "plot_bgcolor": "rgba(0,0,0,0)",
-            "font": {"color": GREY, "size": 12},
-            "legend": {
-                "orientation": "h",
-                "yref": "container",
-                "y": 0.0,
-                "yanchor": "bottom",
-                "x": 0,
-            },
-            "hovermode": "x unified",
-            "showlegend": True,
-            "shapes": [],
-            "annotations": [],
-        }
-        | layout,
-        "config": CONFIG,
-    }
+    made: Figure = {"data": data, "layout": {**layout, **more}, "config": CONFIG}
     curves = [each["y"] for each in data if each.get("type") == "scatter" and each.get("y")]
     if ylog and len(curves) == len(data):
         fix(made, "yaxis", span(clipped(curves), log=True))
     return made
+
+
+def _axis(data: list[Part], name: str, text: str, log: bool) -> Part:
+    title: Part = {"text": text, "font": {"size": 13}}
+    return {
+        "gridcolor": "rgba(127,127,127,0.25)",
+        "zeroline": False,
+        "automargin": True,
+        "title": title if name == "x" else title | {"standoff": 10},
+        "type": "log" if log else "linear",
+        "exponentformat": "power",
+    } | (_decades(data, name) if log else {})
 
 
 FOLLOWED = 6
@@ -155,9 +182,9 @@ TICKS = ((1.0, (1, 2, 5)), (0.6, (1, 2, 3, 4, 6, 8)))
 """Ticks inside a decade of axes that are wider than so many decades."""
 
 
-def _decades(data: list[dict[str, Any]], name: str) -> dict[str, Any]:
+def _decades(data: list[Part], name: str) -> Part:
     """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two or so."""
-    known = [np.asarray(each[name], float) for each in data if each.get(name) is not None]
+    known = [_array(each[name]) for each in data if each.get(name) is not None]
     every = clipped(known) if name == "y" else np.concatenate([*known, [np.nan]])
     every = every[np.isfinite(every) & (every > 0)]
     wide = float(np.log10(every.max() / every.min())) if every.size else 0.0
@@ -186,33 +213,43 @@ def _tick(digit: int, power: int) -> str:
     return (f"{digit}×" if digit > 1 else "") + f"10<sup>{power}</sup>".replace("-", "−")
 
 
-def empty(height: int) -> dict[str, Any]:
-    """A place for a figure: a grey field without axes, which nobody takes for an answer."""
-    field = {
+def band(x0: float, x1: float, colour: str, opacity: float, *, xref: str = "x") -> Part:
+    """A rectangle over the whole height of a figure, between two places of its axis."""
+    return {
         "type": "rect",
-        "xref": "paper",
+        "xref": xref,
         "yref": "paper",
-        "x0": 0,
-        "x1": 1,
+        "x0": x0,
+        "x1": x1,
         "y0": 0,
         "y1": 1,
-        "fillcolor": GREY,
-        "opacity": 0.1,
+        "fillcolor": colour,
+        "opacity": opacity,
         "line": {"width": 0},
     }
-    layout = {
+
+
+def empty(height: int) -> Figure:
+    """A place for a figure: a grey field without axes, which nobody takes for an answer."""
+    hidden = {"visible": False, "fixedrange": True}
+    layout: Layout = {
         "height": height,
-        "xaxis": {"visible": False, "fixedrange": True},
-        "yaxis": {"visible": False, "fixedrange": True},
+        "xaxis": {**hidden},
+        "yaxis": {**hidden},
         "margin": {"l": 16, "r": 16, "t": 16, "b": 16},
-        "paper_bgcolor": "rgba(0,0,0,0)",
-        "plot_bgcolor": "rgba(0,0,0,0)",
-        "shapes": [field],
+        "paper_bgcolor": CLEAR,
+        "plot_bgcolor": CLEAR,
+        "shapes": [band(0, 1, GREY, 0.1, xref="paper")],
     }
     return {"data": [], "layout": layout, "config": CONFIG | {"staticPlot": True}}
 
 
-def clipped(curves: Iterable[Any]) -> np.ndarray:
+def _array(values: object) -> np.ndarray:
+    """Numbers of a curve, NaN where there is none."""
+    return np.array(values, float)
+
+
+def clipped(curves: Iterable[object]) -> np.ndarray:
     """What matters of curves on a logarithmic axis: the upper decades of each.
 
     A curve that dies out has no end: the axis follows each over `FOLLOWED` decades below its
@@ -221,7 +258,7 @@ def clipped(curves: Iterable[Any]) -> np.ndarray:
     >>> clipped([[1.0, 1e-3, 1e-56], [1e-9, 1e-8]]).tolist()
     [1.0, 0.001, 1e-09, 1e-08]
     """
-    every = [np.asarray(curve, float).ravel() for curve in curves]
+    every = [_array(curve).ravel() for curve in curves]
     known = [curve[np.isfinite(curve) & (curve > 0)] for curve in every]
     known = [curve for curve in known if curve.size]
     if not known:
@@ -231,13 +268,13 @@ def clipped(curves: Iterable[Any]) -> np.ndarray:
     return np.concatenate(kept)
 
 
-def json_numbers(values: Any) -> list[float | None]:
+def json_numbers(values: ArrayLike) -> list[float | None]:
     """Numbers for JSON, None where there is none."""
     numbers: list[float | None] = plain_data(np.atleast_1d(np.asarray(values, dtype=float)))
     return numbers
 
 
-def span(values: Any, *, log: bool = False, padded: bool = True) -> list[float] | None:
+def span(values: ArrayLike, *, log: bool = False, padded: bool = True) -> list[float] | None:
     """The range of an axis over these values; None where there is none.
 
     Ends are round, so that an axis stays as it is while a slider moves, or those of the values.
@@ -264,28 +301,35 @@ def span(values: Any, *, log: bool = False, padded: bool = True) -> list[float] 
     return [float(np.floor(low / step) * step), float(np.ceil(high / step) * step)]
 
 
-def fix(made: dict[str, Any], axis: str, ends: list[float] | None) -> None:
-    """Set the range of an axis of a figure, "xaxis" or "yaxis"."""
+def fix(made: Figure, axis: Literal["xaxis", "yaxis"], ends: list[float] | None) -> None:
+    """Set the range of an axis of a figure."""
     if ends is not None:
         made["layout"][axis]["range"] = ends
 
 
-def line(x: Any, y: Any, name: str, number: int = 0, **more: Any) -> dict[str, Any]:
+def line(
+    x: ArrayLike,
+    y: ArrayLike,
+    name: str,
+    number: int = 0,
+    *,
+    line: Mapping[str, object] = MappingProxyType({}),
+    **more: object,
+) -> Part:
     """One curve, told apart by colour and dash."""
-    style = {"color": INKS[number % 6], "dash": DASHES[(number + number // 6) % 6], "width": 2.2}
+    dash = DASHES[(number + number // 6) % 6]
     return {
         "type": "scatter",
         "mode": "lines",
         "x": json_numbers(x),
         "y": json_numbers(y),
         "name": name,
-        "line": style | more.pop("line", {}),
-    } | more
+        "line": {"color": INKS[number % 6], "dash": dash, "width": 2.2, **line},
+        **more,
+    }
 
 
-def mark(
-    x: float, text: str, *, number: int = 0, dash: str = "dot"
-) -> tuple[dict[str, Any], dict[str, Any]]:
+def mark(x: float, text: str, *, number: int = 0, dash: str = "dot") -> tuple[Part, Part]:
     """A vertical line with a word above it: a shape and an annotation."""
     shape = {
         "type": "line",
@@ -311,34 +355,19 @@ def mark(
     return shape, note
 
 
-def log_title(note: dict[str, Any]) -> dict[str, Any]:
+def log_title(note: Part) -> Part:
     """Annotations count in powers of ten on a logarithmic axis, other than shapes."""
-    return note | {"x": float(np.log10(note["x"]))}
+    return note | {"x": float(np.log10(_array(note["x"])))}
 
 
-def mode_bands(x: Any, modes: Any) -> list[dict[str, Any]]:
+def mode_bands(x: ArrayLike, modes: ArrayLike) -> list[Part]:
     """Rectangles behind the curves, one for each run of a mode."""
     x, modes = np.asarray(x, float), np.asarray(modes)
-    out: list[dict[str, Any]] = []
     starts = np.flatnonzero(np.concatenate([[True], modes[1:] != modes[:-1]]))
     ends = [*starts[1:], len(x)]
-    for a, b in zip(starts, ends, strict=True):
-        if str(modes[a]) not in MODE_FILLS:
-            continue
-        last = x[b] if b < len(x) else x[-1]
-        out.append(
-            {
-                "type": "rect",
-                "xref": "x",
-                "yref": "paper",
-                "x0": float(x[a]),
-                "x1": float(last),
-                "y0": 0,
-                "y1": 1,
-                "fillcolor": MODE_FILLS[str(modes[a])],
-                "opacity": 0.32,
-                "line": {"width": 0},
-                "layer": "below",
-            }
-        )
-    return out
+    return [
+        band(float(x[a]), float(x[min(b, len(x) - 1)]), MODE_FILLS[str(modes[a])], 0.32)
+        | {"layer": "below"}
+        for a, b in zip(starts, ends, strict=True)
+        if str(modes[a]) in MODE_FILLS
+    ]

@@ -18,6 +18,7 @@ SPARE = 2**16
 Message = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Message]]
 Send = Callable[[Message], Awaitable[None]]
+Application = Callable[[Message, Receive, Send], Awaitable[None]]
 
 
 def allowed_hosts(host: str) -> tuple[str, ...]:
@@ -40,7 +41,9 @@ class Guard:
     under a name of its own (DNS rebinding), or open a socket to it.
     """
 
-    def __init__(self, app: Any, hosts: Iterable[str], largest: int = LARGEST_UPLOAD) -> None:
+    def __init__(
+        self, app: Application, hosts: Iterable[str], largest: int = LARGEST_UPLOAD
+    ) -> None:
         self.app, self.hosts, self.largest = app, frozenset(hosts), largest + SPARE
 
     async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
@@ -132,7 +135,7 @@ KEPT_TO_ITSELF = (
 class Headers:
     """ASGI middleware that tells the browser what answers may do; scripts of a page get a nonce."""
 
-    def __init__(self, app: Any) -> None:
+    def __init__(self, app: Application) -> None:
         self.app = app
 
     async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:

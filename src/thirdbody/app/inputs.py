@@ -37,7 +37,7 @@ HEIGHTS_GIVEN = {
     "pair": "Ra, Rq or Rz of the drawing",
     "faces": "Ra, Rq or Rz of each face",
 }
-ROUGHNESS_BEGUN: dict[str, dict[str, Any]] = {
+ROUGHNESS_BEGUN: dict[str, dict[str, object]] = {
     "sigma": {"sigma": "100 nm", "R": "2.8 um"},
     "pair": {"Ra": "0.1 um", "process": "lapped"},
     "faces": {
@@ -51,13 +51,13 @@ LOAD_WORDS = {
     "separation": "separation d",
     "force": "force: on a ball, a roller or a face",
 }
-LOADS_BEGUN: dict[str, Any] = {
+LOADS_BEGUN: dict[str, object] = {
     "F_star": {"from": 5e-7, "to": 2.4e-4, "points": 200, "spacing": "log"},
     "pressure": {"from": "50 kPa", "to": "20 MPa", "points": 200, "spacing": "log"},
     "separation": {"from": "100 nm", "to": "500 nm", "points": 200, "spacing": "linear"},
     "force": "5 N",
 }
-BODIES_BEGUN: dict[str, dict[str, Any]] = {
+BODIES_BEGUN: dict[str, dict[str, object]] = {
     "ball-on-flat": {"kind": "ball-on-flat", "diameter": "6 mm"},
     "ball-in-groove": {"kind": "ball-in-groove", "diameter": "6 mm", "conformity": 0.52},
     "roller": {"kind": "roller", "diameter": "10 mm", "length": "12 mm"},
@@ -102,7 +102,7 @@ BODIES_BEGUN: dict[str, dict[str, Any]] = {
 """How a table begins that is chosen in a menu."""
 
 
-def in_words(entry: Any) -> str:
+def in_words(entry: object) -> str:
     """What is known of an input.
 
     >>> in_words({"low": "95 nm", "high": "105 nm"})
@@ -137,13 +137,7 @@ class Inputs(ParticleInputs):
 
         about = "a file, dropped below"
         self.field((), Field(name="materials", kind="string", label="own materials", about=about))
-        made = upload(
-            "materials",
-            "Own materials",
-            max_file_size=LARGEST_TABLE,
-            on_upload=uploaded,
-            on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
-        )
+        made = upload("materials", "Own materials", LARGEST_TABLE, uploaded, most=None)
         made.props('accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:
@@ -197,7 +191,7 @@ class Inputs(ParticleInputs):
         """Round tips, classes of elliptic ones, or two faces at an angle."""
         place: Place = ("roughness", "ellipticity")
         now = self.state.get(*place)
-        starts: dict[str, Any] = {
+        starts: dict[str, object] = {
             "": None,
             "ratios": {"ratios": [1, 2, 5], "weights": [5, 3, 2]},
             "faces": {"first": 4, "second": 2, "angle": "30 deg"},
@@ -373,7 +367,7 @@ class Inputs(ParticleInputs):
 
             ui.button("Add", icon="add", on_click=add).props('dense data-path="uncertain.add"')
 
-    def _set_uncertainty(self, label: str, entry: dict[str, Any] | None) -> None:
+    def _set_uncertainty(self, label: str, entry: dict[str, object] | None) -> None:
         flat = _flat(self.table("uncertainty", "inputs"))
         flat.pop(label, None)
         if entry is not None:
@@ -382,9 +376,9 @@ class Inputs(ParticleInputs):
         self.change("uncertainty", table | {"inputs": flat} if flat else None)
 
 
-def _flat(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
+def _flat(tree: dict[str, object], path: str = "") -> dict[str, object]:
     """Uncertain inputs by their dotted names."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         if isinstance(value, dict) and any(isinstance(part, dict) for part in value.values()):

@@ -50,7 +50,7 @@ class Job:
         self.ends: list[str] = []
         """How processes ended that were to answer."""
 
-    async def run(self, **asked: Any) -> dict[str, Any]:
+    async def run(self, **asked: object) -> Any:
         """The result of the task.
 
         Raises
@@ -78,7 +78,9 @@ class Job:
         finally:
             RUNNING.discard(self)
 
-    async def _run(self, surroundings: dict[str, str], asked: dict[str, Any]) -> dict[str, Any]:
+    async def _run(
+        self, surroundings: dict[str, str], asked: dict[str, object]
+    ) -> dict[str, object]:
         self.process = await asyncio.create_subprocess_exec(
             sys.executable,
             "-m",
@@ -100,7 +102,7 @@ class Job:
         finally:
             await self._end()
 
-    async def _talk(self, asked: dict[str, Any]) -> dict[str, Any]:
+    async def _talk(self, asked: dict[str, object]) -> Any:
         assert self.process is not None
         stdin, stdout = self.process.stdin, self.process.stdout
         assert stdin is not None

@@ -59,7 +59,9 @@ class Start:
         Where the files lie that it names.
     """
 
-    def __init__(self, study: dict[str, Any] | None, folder: Path | None, folders: Folders) -> None:
+    def __init__(
+        self, study: dict[str, object] | None, folder: Path | None, folders: Folders
+    ) -> None:
         self.study = example() if study is None else study
         self.folder = folder
         self.folders = folders
@@ -90,7 +92,7 @@ class Start:
                 state.files[name] = key
                 state.read = None
 
-    def read(self, query: Mapping[str, str]) -> tuple[dict[str, Any], float | None, str, str]:
+    def read(self, query: Mapping[str, str]) -> tuple[dict[str, object], float | None, str, str]:
         """Study, operating load and tab of an address, and what to tell."""
         tab = query.get("tab", "")
         tab = tab if tab in TABS else TABS[0]
@@ -104,7 +106,7 @@ class Start:
             return example(), None, tab, f"{told}; here is the example instead"
 
 
-def _plain_names(study: Any) -> Any:
+def _plain_names(study: object) -> Any:
     """The study with files by their last names, as they lie in the folder of the page."""
     if isinstance(study, dict):
         out = {}
@@ -174,7 +176,7 @@ class Page:
 
     def __init__(self, state: State, told: str, start: Start) -> None:
         self.state, self.told, self.start = state, told, start
-        self.waiting: dict[str, Any] = {}
+        self.waiting: dict[str, ui.element] = {}
         """What stands in the place of each tab until it is drawn."""
         self.draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
         """How each tab that was opened is drawn."""
@@ -206,7 +208,7 @@ class Page:
         self.soon()
 
     # ------------------------------------------------------------------ what there is
-    def _header(self) -> Any:
+    def _header(self) -> ui.element:
         """The bar on top; its first link skips the entries."""
         with ui.header(elevated=False).classes("items-center q-py-xs gap-2 no-wrap"):
             skip = ui.element("a").classes("skip")

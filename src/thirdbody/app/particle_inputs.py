@@ -94,7 +94,7 @@ class ParticleInputs(Entries):
         for each in COUNTED_FIELDS[kind]:
             self.field(place, each)
 
-    def amount(self, place: Place, kind: Any) -> None:
+    def amount(self, place: Place, kind: object) -> None:
         """Per area, or a concentration and the gap; what settles is counted by its class."""
         if kind == "iso14644":
             return

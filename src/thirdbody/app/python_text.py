@@ -56,7 +56,7 @@ def _forces(body: Body, forces: np.ndarray) -> list[str]:
     ]
 
 
-def _homes(part: Any) -> set[tuple[str, str]]:
+def _homes(part: object) -> set[tuple[str, str]]:
     """Modules and names of what a script imports beside `thirdbody`."""
     if isinstance(part, tuple):
         return set().union(*(_homes(item) for item in part))
@@ -72,7 +72,7 @@ def _class_first(name: str) -> tuple[bool, str]:
     return name[0].islower(), name
 
 
-def _changed_fields(value: Any) -> list[tuple[str, Any]]:
+def _changed_fields(value: Any) -> list[tuple[str, object]]:
     """The fields of a value that differ from their defaults."""
     out = []
     for item in dataclasses.fields(value):
@@ -90,7 +90,7 @@ LONG = 8
 """Numbers of a tuple beyond which it is looked whether they are a range."""
 
 
-def _code(part: Any, indent: int = 0, used: int = 20) -> str:
+def _code(part: object, indent: int = 0, used: int = 20) -> str:
     """A value as it is written; what does not fit on a line is broken, field by field."""
     if isinstance(part, tb.Material) and part.name in tb.materials:
         known = tb.materials[part.name]
@@ -108,7 +108,7 @@ def _code(part: Any, indent: int = 0, used: int = 20) -> str:
     return repr(part)
 
 
-def _call(start: str, parts: list[tuple[str, Any]], end: str, indent: int, used: int) -> str:
+def _call(start: str, parts: list[tuple[str, object]], end: str, indent: int, used: int) -> str:
     flat = start + ", ".join(label + _code(own, 0, -9999) for label, own in parts) + end
     if used < 0 or indent + used + len(flat) <= WIDTH or not parts:
         return flat

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from nicegui import ui
 
 from .fields import Field, fields_of
-from .figures import empty
+from .figures import Figure, empty
 from .inputs import Inputs
 from .state import Answer, State
 from .text import with_micro
@@ -25,7 +25,7 @@ class Shown(NamedTuple):
     notes: list[str]
     heads: tuple[str, ...]
     rows: list[list[str]]
-    figure: dict[str, Any]
+    figure: Figure
 
 
 class Question(NamedTuple):

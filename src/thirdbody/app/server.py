@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import logging
 from pathlib import Path
-from typing import Any
 
 from fastapi import Request
 from nicegui import app, run, ui
@@ -22,7 +21,7 @@ __all__ = ["serve"]
 
 
 def serve(
-    study: dict[str, Any] | None = None,
+    study: dict[str, object] | None = None,
     folder: Path | None = None,
     *,
     host: str = "127.0.0.1",

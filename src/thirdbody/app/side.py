@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 from nicegui import ui
 
@@ -60,7 +59,7 @@ class Side:
             if table.name not in FORMED:
                 self._section(f"[{table.name}] as text", partial(self.inputs.as_text, table.name))
 
-    def _section(self, name: str, build: Callable[[], Any]) -> None:
+    def _section(self, name: str, build: Callable[[], None]) -> None:
         fold = ui.expansion(name, value=name in self.open).classes("w-full")
         fold.on_value_change(lambda e: self._folded(name, e.value))
         with fold, ui.column().classes("w-full gap-2"):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import dataclasses
 import math
-from typing import Any
 
 import thirdbody as tb
 
@@ -20,10 +19,12 @@ def size_of(contact: tb.Contact) -> float:
     return float(contact.populations[0].diameter.mean_diameter)
 
 
-def with_size(study: dict[str, Any], size: float) -> dict[str, Any]:
+def with_size(study: dict[str, object], size: float) -> dict[str, object]:
     """The study with the sizes of its first population scaled to another mean diameter [m]."""
     new = copy.deepcopy(study)
-    table = new["particles"][0] if isinstance(new["particles"], list) else new["particles"]
+    several = new["particles"]
+    table = several[0] if isinstance(several, list) else several
+    assert isinstance(table, dict)
     kind = DISTRIBUTIONS.get(table.get("distribution", ""))
     if kind is None or table["distribution"] == "mixture":
         return new

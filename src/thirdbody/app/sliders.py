@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from nicegui import ui
+from nicegui.events import ValueChangeEventArguments
 
 import thirdbody as tb
 
@@ -77,6 +77,47 @@ class Knob:
     read: Callable[[], float | None]
     write: Callable[[float], None]
     say: Callable[[float], str]
+    middle: float | None = None
+    """The number in the middle of the slider."""
+    moved: bool = False
+    """Whether it was the slider that set the number."""
+
+    def build(self) -> None:
+        """Put the slider and its label on the page."""
+        with ui.column().classes("slider gap-0") as self.box:
+            self.text = ui.label(self.label).classes("hint")
+            self.slider = Slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
+            put(self.slider, {"aria-label": self.label, "data-slider": self.place})
+        self.box.set_visibility(False)  # until its number is known
+
+    def follow(self, position: float) -> None:
+        """Set the number by the position of the slider."""
+        if self.middle is None:
+            return
+        value = self.middle * REACH ** (2 * position / STEPS)
+        now = self.read()
+        if now is not None and abs(value / now - 1) < 2e-3:
+            return
+        self.moved = True
+        self.write(value)
+
+    def tell(self) -> None:
+        """Show the number of the study."""
+        now = self.read()
+        self.box.set_visibility(now is not None)
+        if now is None:
+            self.middle = None
+            return
+        # the number and its unit stay in one line
+        said = self.say(now).replace(" ", "\u00a0")
+        self.text.set_text(f"{self.label} = {said}")
+        self.slider.speak(self.say(now))
+        own, self.moved = self.moved and self.middle is not None, False
+        if not own:
+            inside = self.middle is not None and 1 / REACH <= now / self.middle <= REACH
+            self.middle = self.middle if self.middle is not None and inside else now
+            where = round(STEPS / 2 * math.log(now / self.middle) / math.log(REACH))
+            self.slider.set_value(where)
 
 
 class Sliders:
@@ -123,7 +164,7 @@ class Sliders:
             amount,
         ]
 
-    def _rough(self, label: str, name: str, about: dict[str, Any]) -> Knob:
+    def _rough(self, label: str, name: str, about: dict[str, object]) -> Knob:
         """A length of the roughness."""
 
         def read() -> float | None:
@@ -149,29 +190,16 @@ class Sliders:
         value = number_of(self.state.get(*place, "areal_density"), about)
         return value if value > 0 else None
 
-    def _knob(self, knob: Knob) -> dict[str, Any]:
-        made: dict[str, Any] = {"knob": knob, "middle": None}
-        with ui.column().classes("slider gap-0") as box:
-            made["label"] = ui.label(knob.label).classes("hint")
-            made["slider"] = Slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
-            put(made["slider"], {"aria-label": knob.label, "data-slider": knob.place})
-        made["box"] = box
-        box.set_visibility(False)  # until its number is known
+    def _knob(self, knob: Knob) -> Knob:
+        def moved(event: ValueChangeEventArguments[float | None]) -> None:
+            if not self.moving and event.value is not None:
+                knob.follow(float(event.value))
 
-        def moved(event: Any) -> None:
-            if self.moving or made["middle"] is None or event.value is None:
-                return
-            value = made["middle"] * REACH ** (2 * float(event.value) / STEPS)
-            now = knob.read()
-            if now is not None and abs(value / now - 1) < 2e-3:
-                return
-            made["own"] = True
-            knob.write(value)
+        knob.build()
+        knob.slider.on_value_change(moved)
+        return knob
 
-        made["slider"].on_value_change(moved)
-        return made
-
-    def _load_moved(self, event: Any) -> None:
+    def _load_moved(self, event: ValueChangeEventArguments[float | None]) -> None:
         answer = self.state.answer
         if self.moving or answer is None or event.value is None:
             return
@@ -189,25 +217,7 @@ class Sliders:
             self.load.set_value(round(STEPS * part))
             self.load_label.set_text(_load_text(answer, at))
             self.load.speak(_load_text(answer, at))
-            for made in self.knobs:
-                self._tell(made)
+            for knob in self.knobs:
+                knob.tell()
         finally:
             self.moving = False
-
-    def _tell(self, made: dict[str, Any]) -> None:
-        knob: Knob = made["knob"]
-        now = knob.read()
-        made["box"].set_visibility(now is not None)
-        if now is None:
-            made["middle"] = None
-            return
-        # the number and its unit stay in one line
-        said = knob.say(now).replace(" ", "\u00a0")
-        made["label"].set_text(f"{knob.label} = {said}")
-        made["slider"].speak(knob.say(now))
-        middle = made["middle"]
-        if middle is None or not made.pop("own", False):
-            inside = middle is not None and 1 / REACH <= now / middle <= REACH
-            made["middle"] = middle if inside else now
-            where = round(STEPS / 2 * math.log(now / made["middle"]) / math.log(REACH))
-            made["slider"].set_value(where)

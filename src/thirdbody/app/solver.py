@@ -19,7 +19,9 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from multiprocessing import resource_tracker
-from typing import Any
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from typing import TypeVar, TypeVarTuple, cast
 
 from nicegui import ui
 
@@ -38,6 +40,10 @@ SECONDS = 60.0
 
 TRIES = 3
 """Processes that may end under one call before it is given up."""
+
+
+Found = TypeVar("Found")
+Args = TypeVarTuple("Args")
 
 
 class Died(InvalidValue):
@@ -89,7 +95,7 @@ def interrupts_blocked() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _serve(pipe: Any, warm: Callable[[], Any] | None) -> None:
+def _serve(pipe: Connection, warm: Callable[[], None] | None) -> None:
     """Get ready, then answer calls until the page is gone."""
     with contextlib.suppress(ImportError):
         import resource
@@ -108,7 +114,7 @@ def _serve(pipe: Any, warm: Callable[[], Any] | None) -> None:
         except (EOFError, OSError):
             return
         try:
-            said: tuple[list[str] | None, Any] = (None, call(*args))
+            said: tuple[list[str] | None, object] = (None, call(*args))
         except ThirdBodyError as error:
             said = (list(getattr(error, "problems", None) or [str(error)]), None)
         except MemoryError:
@@ -145,7 +151,7 @@ class Solver:
         self,
         most: int = MOST,
         seconds: float = SECONDS,
-        warm: Callable[[], Any] | None = None,
+        warm: Callable[[], None] | None = None,
     ) -> None:
         self.seconds, self.warm = seconds, warm
         self.starts: deque[tuple[float, float]] = deque(maxlen=10 * most)
@@ -153,14 +159,17 @@ class Solver:
         self.starting: set[float] = set()
         """When those were started that are not ready yet."""
         self.threads = ThreadPoolExecutor(most, "thirdbody-wait")
-        self.idle: queue.LifoQueue[tuple[Any, Any]] = queue.LifoQueue()
-        self.all: set[Any] = set()
+        self.idle: queue.LifoQueue[tuple[BaseProcess, Connection]] = queue.LifoQueue()
+        self.all: set[BaseProcess] = set()
         self.lock = threading.Lock()
         self.closed = False
 
     async def ask(
-        self, call: Callable[..., Any], *args: Any, wanted: Callable[[], bool] = lambda: True
-    ) -> Any:
+        self,
+        call: Callable[[*Args], Found],
+        *args: *Args,
+        wanted: Callable[[], bool] = lambda: True,
+    ) -> Found:
         """What a function of a module gives; both ways only what pickle can carry.
 
         Raises
@@ -175,7 +184,12 @@ class Solver:
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self.threads, self._ask, call, args, wanted)
 
-    def _ask(self, call: Callable[..., Any], args: Any, wanted: Callable[[], bool]) -> Any:
+    def _ask(
+        self,
+        call: Callable[[*Args], Found],
+        args: tuple[*Args],
+        wanted: Callable[[], bool],
+    ) -> Found:
         if self.closed or not wanted():
             raise asyncio.CancelledError
         ends: list[str] = []
@@ -203,9 +217,9 @@ class Solver:
         self.idle.put((process, pipe))
         if problems is not None:
             raise InvalidValue(*problems)
-        return found
+        return cast(Found, found)
 
-    def _free(self) -> tuple[Any, Any]:
+    def _free(self) -> tuple[BaseProcess, Connection]:
         with contextlib.suppress(queue.Empty):
             process, pipe = self.idle.get_nowait()
             if process.is_alive():
@@ -252,7 +266,7 @@ class Solver:
         """Whether a process is being started, so that an answer may wait for it."""
         return bool(self.starting)
 
-    def _kill(self, process: Any, pipe: Any) -> None:
+    def _kill(self, process: BaseProcess, pipe: Connection) -> None:
         pipe.close()
         process.kill()
         process.join()
@@ -271,7 +285,7 @@ class Solver:
 _solver: Solver | None = None
 
 
-def solver(warm: Callable[[], Any] | None = None) -> Solver:
+def solver(warm: Callable[[], None] | None = None) -> Solver:
     """The one of this server; who asks for it first says what its processes begin with."""
     global _solver
     if _solver is None:
@@ -279,7 +293,7 @@ def solver(warm: Callable[[], Any] | None = None) -> Solver:
     return _solver
 
 
-async def apart(call: Callable[..., Any], *args: Any) -> Any:
+async def apart(call: Callable[[*Args], Found], *args: *Args) -> Found:
     """`Solver.ask` for the page at hand; nothing comes back to one that was closed."""
     client = ui.context.client
     found = await solver().ask(call, *args, wanted=lambda: not client._deleted)

@@ -12,12 +12,15 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, TypeVar, TypeVarTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 import thirdbody as tb
 
+from ..contact.output import AbstractOutput
+from ..equilibrium.load import as_load
 from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
 from ..study.load import pressed
@@ -38,7 +41,8 @@ __all__ = [
     "refuse_foreign_files",
 ]
 
-Path_ = tuple[str | int, ...]
+Found = TypeVar("Found")
+Args = TypeVarTuple("Args")
 FILES = {
     "topography": "on the tab Surface",
     "sizes": "on the tab Dust",
@@ -91,7 +95,7 @@ class Answer:
             return np.linspace(middle - width, middle + width, POINTS)
         return np.geomspace(middle / 100, middle * 100, POINTS)
 
-    def solve(self, values: Any, *more: Any) -> tb.Equilibrium:
+    def solve(self, values: ArrayLike, *more: AbstractOutput) -> tb.Equilibrium:
         """States under these loads, with more outputs; warnings become notes."""
         contact = self.contact
         known = {type(each) for each in contact.outputs}
@@ -99,7 +103,7 @@ class Answer:
             contact = contact.replace(outputs=(*contact.outputs, *new))
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", RangeWarning)
-            state = tb.solve(contact, **{self.load: values})
+            state = tb.solve(contact, **as_load(self.load, values))
         self.notes += [note_of(item.message) for item in heard]
         self.notes = list(dict.fromkeys(self.notes))
         return state
@@ -156,10 +160,22 @@ class Answer:
         return bool(self.loads[0] <= at <= self.loads[-1])
 
 
+Tables = dict[str, object]
+"""A study as its file is parsed."""
+
+
+class Measured(TypedDict, total=False):
+    """What was found in the measured files of a study."""
+
+    roughness: Tables
+    notes: list[str]
+    problems: list[Problem]
+
+
 Looked = tuple["Answer | None", list[Problem], dict[str, tb.Material] | None]
 
 
-def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = None) -> Looked:
+def look(study: Tables, folder: Path, surface: Measured | None = None) -> Looked:
     """A study as the command line reads it: its answer or its mistakes, and its own materials.
 
     ``surface`` is what `worker.roughness` found in the measured files of the study.
@@ -192,7 +208,7 @@ def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = N
     return answer, problems, library
 
 
-def _checked(study: dict[str, Any], folder: Path) -> tuple[Study, list[Problem]]:
+def _checked(study: Tables, folder: Path) -> tuple[Study, list[Problem]]:
     """The study without the outputs that have mistakes, and those; other mistakes are raised."""
     try:
         return check(study, folder=folder), []
@@ -210,7 +226,7 @@ def _checked(study: dict[str, Any], folder: Path) -> tuple[Study, list[Problem]]
         return found, [*error.problems, *more]
 
 
-def measured(study: dict[str, Any], folder: Path) -> str:
+def measured(study: Tables, folder: Path) -> str:
     """What names a measured surface that the study builds on; empty where there is none."""
     rough = study.get("roughness")
     names = files_of({"topography": rough.get("topography")}) if isinstance(rough, dict) else []
@@ -227,7 +243,9 @@ def loads_as(answer: Answer, name: str) -> np.ndarray:
     return np.asarray(getattr(answer.curves, name))
 
 
-def _with(call: Callable[..., Any], answer: Answer, args: Any) -> tuple[Any, dict[str, Any]]:
+def _with(
+    call: Callable[[Answer, *Args], Found], answer: Answer, args: tuple[*Args]
+) -> tuple[Found, Tables]:
     """What a function of an answer gives, and what the answer has learned by it."""
     before = set(answer.__dict__) - {"notes"}
     found = call(answer, *args)
@@ -250,12 +268,17 @@ class State:
     """
 
     def __init__(
-        self, study: dict[str, Any], folder: Path, at: float | None = None, *, later: bool = False
+        self,
+        study: Tables,
+        folder: Path,
+        at: float | None = None,
+        *,
+        later: bool = False,
     ) -> None:
         self.study = study
         self.folder = folder
         self.later = later
-        self.read: dict[str, Any] | None = None
+        self.read: Tables | None = None
         """The study that answer and problems belong to."""
         self.shelf: Shelf | None = None
         """Where files lie that the address names."""
@@ -263,7 +286,7 @@ class State:
         """Keys there of the files of this page."""
         self.surface: dict[str, str] = {}
         """The file that the tab Surface shows, and how it was read."""
-        self.surfaces: dict[str, dict[str, Any]] = {}
+        self.surfaces: dict[str, Measured] = {}
         """What was found in measured files, the last one asked for."""
         self.library: Mapping[str, tb.Material] = tb.materials
         """The materials that the study can name."""
@@ -275,7 +298,7 @@ class State:
         self.wanted = at
         self.tab = ""
         """The tab in sight."""
-        self.past: list[tuple[dict[str, Any], float | None]] = []
+        self.past: list[tuple[Tables, float | None]] = []
         """Study and operating load before each step."""
         self.steps = 0
         """How many there were."""
@@ -318,14 +341,12 @@ class State:
             where.pop(path[-1], None)
         self.replace(study, kind=None if whole else ".".join(map(str, path)))
 
-    def replace(
-        self, study: dict[str, Any], at: float | None = None, *, kind: str | None = None
-    ) -> None:
+    def replace(self, study: Tables, at: float | None = None, *, kind: str | None = None) -> None:
         """Another study in the place of this one."""
         self._step(kind)
         self._set_study(study, at if at is not None else self.wanted)
 
-    def open(self, study: dict[str, Any]) -> None:
+    def open(self, study: Tables) -> None:
         """A study that begins anew, with an operating load of its own."""
         self._step(None)
         self._set_study(study, None)
@@ -340,7 +361,7 @@ class State:
     def _keep(self) -> None:
         self.past = [*self.past[1 - MOST_STEPS :], (self.study, self.wanted)]
 
-    def _set_study(self, study: dict[str, Any], at: float | None) -> None:
+    def _set_study(self, study: Tables, at: float | None) -> None:
         self.began = time.perf_counter()
         self.study, self.wanted = study, at
         if not self.later:
@@ -354,7 +375,7 @@ class State:
             self.steps += 1
             self._set_study(*self.past.pop())
 
-    def travel(self, study: dict[str, Any], at: float | None) -> None:
+    def travel(self, study: Tables, at: float | None) -> None:
         """What an entry of the browser's history holds."""
         self._keep()
         self.kind = None
@@ -383,18 +404,18 @@ class State:
             found = None, [each.worded(without_paths) for each in error.problems], None
         self._take(study, found)
 
-    def _take(self, study: dict[str, Any], found: Looked) -> None:
+    def _take(self, study: Tables, found: Looked) -> None:
         answer, self.problems, library = found
         self.library = tb.materials if library is None else library
         self.answer = self.answer if answer is None else answer
         self.current = answer is not None
         self.read = study
 
-    async def ask(self, call: Callable[..., Any], *args: Any) -> Any:
+    async def ask(self, call: Callable[[Answer, *Args], Found], *args: *Args) -> Found:
         """What a function of the answer and more arguments gives, computed beside the server."""
         answer = self.answer
-        found, more = await apart(_with, call, answer, args)
         assert answer is not None
+        found, more = await apart(_with, call, answer, args)
         answer.__dict__.update(more)
         return found
 
@@ -415,7 +436,7 @@ class State:
         return {name: self.files[name] for name in names if name in self.files}
 
     # ------------------------------------------------------------------ measured surfaces
-    def _surface(self) -> dict[str, Any] | None:
+    def _surface(self) -> Measured | None:
         return self.surfaces.get(measured(self.study, self.folder))
 
     def _unread(self) -> bool:
@@ -428,7 +449,7 @@ class State:
         tables = {k: v for k, v in self.study.items() if k in ("roughness", "asperity_law")}
         self.reading = Job("roughness", seconds=SECONDS)
         try:
-            found = await self.reading.run(study=tables, folder=str(self.folder))
+            found: Measured = await self.reading.run(study=tables, folder=str(self.folder))
         except Died:
             raise
         except InvalidValue as error:
@@ -472,12 +493,12 @@ class State:
         return self.answer.solve(self.at)
 
 
-def files_of(table: Any) -> list[str]:
+def files_of(table: object) -> list[str]:
     """Names of the files that a study names."""
     return [name for _, name in _files(table)]
 
 
-def _files(table: Any) -> Iterator[tuple[str, str]]:
+def _files(table: object) -> Iterator[tuple[str, str]]:
     """The keys of a study that name files, and the files."""
     if isinstance(table, dict):
         for key, value in table.items():
@@ -499,7 +520,7 @@ def missing(name: str, key: str = "topography") -> str:
     )
 
 
-def refuse_foreign_files(study: dict[str, Any], folder: Path) -> None:
+def refuse_foreign_files(study: Tables, folder: Path) -> None:
     """Refuse files that were not given to this page: a link must not read the user's disk."""
     wrong = [
         missing(name, key)

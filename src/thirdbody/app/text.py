@@ -8,7 +8,6 @@ import math
 import re
 import tomllib
 import zlib
-from typing import Any
 from urllib.parse import quote
 
 from ..errors import InvalidValue
@@ -61,7 +60,7 @@ def without_paths(text: str) -> str:
     return re.sub(rf"(?<![\w.:/<])(?:[A-Za-z]:)?(?:[/\\]{part})+[/\\](?={part})", "", text)
 
 
-def to_toml(study: dict[str, Any]) -> str:
+def to_toml(study: dict[str, object]) -> str:
     """The study as a file: `tomllib.loads` gives it back.
 
     >>> print(to_toml({"title": "t", "load": {"pressure": "5 MPa"}}), end="")
@@ -75,9 +74,9 @@ def to_toml(study: dict[str, Any]) -> str:
     return "\n".join(lines).lstrip("\n") + "\n"
 
 
-def _table(table: dict[str, Any], path: tuple[str, ...], lines: list[str]) -> None:
+def _table(table: dict[str, object], path: tuple[str, ...], lines: list[str]) -> None:
     """Plain keys first, tables under their headings after them."""
-    inner: dict[str, Any] = {}
+    inner: dict[str, object] = {}
     for key, value in table.items():
         heads = isinstance(value, dict) and (len(path) < 1 or _deep(path, key))
         several = isinstance(value, list) and value and all(isinstance(x, dict) for x in value)
@@ -89,6 +88,7 @@ def _table(table: dict[str, Any], path: tuple[str, ...], lines: list[str]) -> No
         name = ".".join(map(_key, (*path, key)))
         for part in value if isinstance(value, list) else [value]:
             lines += ["", f"[[{name}]]" if isinstance(value, list) else f"[{name}]"]
+            assert isinstance(part, dict)
             _table(part, (*path, key), lines)
 
 
@@ -101,7 +101,7 @@ def _key(key: str) -> str:
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else written(key)
 
 
-def written(value: Any) -> str:
+def written(value: object) -> str:
     """One value as in TOML."""
     if isinstance(value, bool):
         return str(value).lower()
@@ -116,7 +116,7 @@ def written(value: Any) -> str:
     return repr(value)
 
 
-def from_toml(text: str) -> dict[str, Any]:
+def from_toml(text: str) -> dict[str, object]:
     """The study that a text holds.
 
     Raises
@@ -137,14 +137,14 @@ def from_toml(text: str) -> dict[str, Any]:
     return study
 
 
-def to_link(study: dict[str, Any], at: float | None = None) -> str:
+def to_link(study: dict[str, object], at: float | None = None) -> str:
     """The query string that reopens a study at an operating load."""
     packed = zlib.compress(to_toml(study).encode(), 9)
     code = base64.urlsafe_b64encode(packed).decode().rstrip("=")
     return f"study={code}" + ("" if at is None else f"&at={quote(repr(at))}")
 
 
-def from_link(code: str) -> dict[str, Any]:
+def from_link(code: str) -> dict[str, object]:
     """The study of a link.
 
     Raises

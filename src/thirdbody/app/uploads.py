@@ -5,12 +5,14 @@ from __future__ import annotations
 import asyncio
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import InvalidValue
 from .guard import LARGEST_UPLOAD
 
 if TYPE_CHECKING:
+    from nicegui.events import UploadEventArguments
+
     from .state import State
 
 __all__ = ["harmless", "keep", "take"]
@@ -32,7 +34,7 @@ def harmless(name: str) -> str:
     return kept or "file"
 
 
-async def keep(folder: Path, event: Any) -> str:
+async def keep(folder: Path, event: UploadEventArguments) -> str:
     """Write an uploaded file into the folder of the page; its name there.
 
     Raises
@@ -54,7 +56,7 @@ async def keep(folder: Path, event: Any) -> str:
     return name
 
 
-async def take(state: State, event: Any) -> str:
+async def take(state: State, event: UploadEventArguments) -> str:
     """Keep an uploaded file for the page and for its address; its name.
 
     Raises

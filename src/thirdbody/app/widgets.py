@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Awaitable, Callable, Iterable, Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import TypeVar
 
-from nicegui import ui
+from nicegui import events, ui
 from nicegui.json import dumps
 
-from .figures import CONFIG, empty
+from .figures import CONFIG, Figure, Part, empty
 
-__all__ = ["Facts", "Plot", "facts", "put", "show_figures", "table", "upload"]
+__all__ = ["Facts", "Plot", "facts", "plot_place", "put", "show_figures", "table", "upload"]
 
 
-def put(element: Any, props: Mapping[str, Any]) -> Any:
+Made = TypeVar("Made", bound=ui.element)
+
+
+def put(element: Made, props: Mapping[str, object]) -> Made:
     """Set attributes of an element by their values, and give it back.
 
     A text written into ``element.props("...")`` is parsed there, so that it could add attributes.
@@ -39,7 +42,7 @@ class Facts:
     def __init__(self, abouts: Mapping[str, str] = MappingProxyType({})) -> None:
         self.abouts = abouts
         self.row = ui.row().classes("facts w-full")
-        self.labels: dict[str, Any] = {}
+        self.labels: dict[str, ui.label] = {}
 
     def show(self, pairs: Iterable[tuple[str, str]]) -> None:
         """These numbers."""
@@ -63,49 +66,59 @@ DRAWS = 10.0
 """Seconds a browser may take to draw a figure."""
 
 
+def plot_place(name: str, height: int = 360) -> ui.plotly:
+    """A place for a figure."""
+    return put(ui.plotly(empty(height)).classes("w-full"), {"data-figure": name})
+
+
 class Plot:
     """A figure; another one in its place goes to the browser past all other elements."""
 
     def __init__(self, name: str, height: int = 360) -> None:
-        self.widget = put(ui.plotly(empty(height)).classes("w-full"), {"data-figure": name})
-        self.made: dict[str, Any] = {}
+        self.widget = plot_place(name, height)
+        self.made: Figure | None = None
         """What the browser has drawn."""
 
-    async def show(self, made: dict[str, Any]) -> bool:
+    async def show(self, made: Figure) -> bool:
         """This figure, as `figures.figure` gives it; whether the browser has drawn it."""
         return await show_figures([(self, made)])
 
-    def change(self, made: dict[str, Any]) -> list[Any]:
+    def change(self, made: Figure) -> list[object]:
         """The function of Plotly that draws this figure, and its arguments: what is new alone."""
         data, layout = made["data"], made["layout"]
-        old = self.made.get("layout", {})
-        if [_without_y(each) for each in self.made.get("data", ())] != list(map(_without_y, data)):
-            return ["react", data, layout, CONFIG]
-        if old.keys() != layout.keys():
-            return ["react", data, layout, CONFIG]
-        new = {name: value for name, value in layout.items() if value != old[name]}
-        for axis in ("xaxis", "yaxis"):
-            parts = new.pop(axis, {})
-            if parts and parts.keys() != old[axis].keys():
-                return ["react", data, layout, CONFIG]
-            new |= {f"{axis}.{k}": v for k, v in parts.items() if v != old[axis][k]}
-        if data == self.made["data"]:
+        anew: list[object] = ["react", data, layout, CONFIG]
+        old = self.made
+        if not old or old["layout"].keys() != layout.keys():
+            return anew
+        if list(map(_without_y, old["data"])) != list(map(_without_y, data)):
+            return anew
+        before: Mapping[str, object] = {**old["layout"]}
+        new = {name: value for name, value in layout.items() if value != before[name]}
+        for axis, was, now in (
+            ("xaxis", old["layout"]["xaxis"], layout["xaxis"]),
+            ("yaxis", old["layout"]["yaxis"], layout["yaxis"]),
+        ):
+            if was.keys() != now.keys():
+                return anew
+            new.pop(axis, None)
+            new |= {f"{axis}.{k}": v for k, v in now.items() if v != was[k]}
+        if data == old["data"]:
             return ["relayout", new]
         return ["update", {"y": [each.get("y") for each in data]}, new]
 
 
-def _without_y(trace: dict[str, Any]) -> dict[str, Any]:
+def _without_y(trace: Part) -> Part:
     return {name: value for name, value in trace.items() if name != "y"}
 
 
-async def show_figures(figures: Iterable[tuple[Plot, dict[str, Any]]]) -> bool:
+async def show_figures(figures: Iterable[tuple[Plot, Figure]]) -> bool:
     """Figures in their places, in one message; whether the browser has drawn all of them."""
     new = [(plot, made) for plot, made in figures if made != plot.made]
     if not new:
         return True
     calls = [[plot.widget.html_id, *plot.change(made)] for plot, made in new]
     for plot, made in new:
-        plot.made = {}
+        plot.made = None
         plot.widget.figure = made
         # every number would be watched by the framework otherwise
         dict.__setitem__(plot.widget.props, "options", made)
@@ -124,9 +137,25 @@ async def show_figures(figures: Iterable[tuple[Plot, dict[str, Any]]]) -> bool:
 PICK = "e => e.currentTarget.closest('.q-uploader').querySelector('input[type=file]').click()"
 
 
-def upload(name: str, label: str, **more: Any) -> Any:
+def upload(
+    name: str,
+    label: str,
+    largest: int,
+    on_upload: Callable[[events.UploadEventArguments], Awaitable[None]],
+    *,
+    refused: Callable[[], object] | None = None,
+    most: int | None = 1,
+) -> ui.upload:
     """A place where a file is dropped or chosen, and sent at once."""
-    made = put(ui.upload(auto_upload=True, **more).props("flat bordered"), {"data-upload": name})
+    too_large = refused or (lambda: ui.notify(f"more than {largest} bytes are not taken"))
+    made = ui.upload(
+        auto_upload=True,
+        max_file_size=largest,
+        max_files=most,
+        on_upload=on_upload,
+        on_rejected=too_large,
+    )
+    put(made.props("flat bordered"), {"data-upload": name})
     with made.add_slot("header"), ui.row().classes("w-full items-center no-wrap q-pa-sm"):
         ui.label(label).classes("grow text-weight-bold")
         button = ui.button(icon="add").on("click", js_handler=PICK)
@@ -141,15 +170,15 @@ SHORT = 20
 """Characters of what stands in one line of a table."""
 
 
-def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: Any) -> None:
+def table(name: str, heads: dict[str, str], rows: list[dict[str, str]]) -> None:
     """Rows under heads, by their keys."""
-    columns: list[dict[str, Any]] = [
+    columns = [
         {"name": key, "label": label, "field": key, "align": "left"} for key, label in heads.items()
     ]
     for column in columns:
         if all(len(str(row[column["name"]])) <= SHORT for row in rows):
             column["style"] = "white-space: nowrap"
-    made = ui.table(columns=columns, rows=rows, **more).classes("w-full")
+    made = ui.table(columns=columns, rows=rows).classes("w-full")
     # narrow windows have a card for each row
     made.props('dense flat wrap-cells :grid="Quasar.Screen.lt.sm"')
     put(made, {"data-figure": name})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import operator
 from collections.abc import Awaitable, Callable
-from typing import Any
+from typing import Generic, TypeVar, cast
 
 from nicegui import background_tasks, ui
 
@@ -37,7 +37,11 @@ def when_left(call: Callable[[], None]) -> None:
     client.on_delete(call)
 
 
-class Work:
+Found = TypeVar("Found")
+Asked = dict[str, object]
+
+
+class Work(Generic[Found]):
     """Widgets around one kind of `Job`.
 
     Parameters
@@ -62,23 +66,23 @@ class Work:
         self,
         task: str,
         label: str,
-        ask: Callable[[], dict[str, Any] | Awaitable[dict[str, Any] | None] | None],
-        show: Callable[[dict[str, Any]], Awaitable[None] | None],
+        ask: Callable[[], Asked | Awaitable[Asked | None] | None],
+        show: Callable[[Found], Awaitable[None] | None],
         seconds: float = 300.0,
         *,
-        key: Callable[[], Any] = lambda: None,
-        same: Callable[[Any, Any], bool] = operator.eq,
-        little: Callable[[dict[str, Any]], dict[str, Any]] | None = None,
+        key: Callable[[], object] = lambda: None,
+        same: Callable[[object, object], bool] = operator.eq,
+        little: Callable[[Asked], Asked] | None = None,
     ) -> None:
         self.task, self.ask, self.show, self.seconds = task, ask, show, seconds
         self.key, self.same, self.little = key, same, little
-        self.done: tuple[Any] | None = None
+        self.done: tuple[object] | None = None
         """What the result that is shown belongs to; None where none is shown."""
-        self.tried: tuple[Any] | None = None
+        self.tried: tuple[object] | None = None
         """What the last preview was asked for."""
         self.trying = False
         """Whether a preview is being computed."""
-        self.failed: tuple[Any] | None = None
+        self.failed: tuple[object] | None = None
         """What the mistakes that are said belong to."""
         self.preview = False
         """Whether it is a preview."""
@@ -124,11 +128,11 @@ class Work:
         self.done, self.preview = None, False
         self._fit()
 
-    def _fits(self, known: tuple[Any] | None) -> bool:
+    def _fits(self, known: tuple[object] | None) -> bool:
         """Whether what is known belongs to the study as it is."""
         return known is not None and self.same(known[0], self.key())
 
-    def fail(self, text: str, key: Any = None) -> None:
+    def fail(self, text: str, key: object = None) -> None:
         """Say what went wrong with the study, or with that of a key, until there is another."""
         self.said.set_text(with_micro(text))
         self.failed = (self.key() if key is None else key,)
@@ -167,8 +171,8 @@ class Work:
             await self._shown(result)
             self._fit()
 
-    async def _shown(self, result: dict[str, Any]) -> None:
-        shown = self.show(result)
+    async def _shown(self, result: object) -> None:
+        shown = self.show(cast(Found, result))
         if shown is not None:
             await shown
 

@@ -14,15 +14,27 @@ import sys
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
 from ..quantities import progress
 from ..quantities.plain_data import plain_data
 
+if TYPE_CHECKING:
+    from ..analysis.uncertainty.propagation import Propagation
+    from ..contact.contact import Contact
+    from ..study import Study
+
 __all__ = [
     "TASKS",
+    "Bands",
+    "Designed",
+    "Laws",
+    "ModeMap",
+    "Pressing",
+    "Reading",
+    "Surface",
     "compare",
     "compared",
     "counted",
@@ -45,6 +57,129 @@ MEMORY = 6 * 2**30
 """Bytes a task may use."""
 
 
+Numbers = list[float | None]
+"""As JSON has them: None where there is none."""
+
+
+class ModeMap(TypedDict):
+    """Modes and load shares, a row a size."""
+
+    sizes: list[float]
+    loads: list[float]
+    mode: list[list[int]]
+    share: list[Numbers]
+    mean: float
+
+
+class Laws(TypedDict):
+    """Results of every asperity law; of each column a row a law."""
+
+    laws: list[str]
+    load: str
+    loads: list[float]
+    columns: dict[str, list[Numbers]]
+    conditions: dict[str, Numbers]
+    notes: list[str]
+    own: str
+
+
+class Bands(TypedDict):
+    """Quantiles of one result over the load and at one, and what each input alone does."""
+
+    of: str
+    loads: list[float]
+    probabilities: list[float]
+    bands: list[Numbers]
+    nominal: Numbers
+    critical: dict[str, Numbers]
+    F_star_at: float
+    samples: int
+    at: float
+    band_at: Numbers
+    nominal_at: float | None
+    tornado: dict[str, Numbers]
+    words: dict[str, str]
+    ends: dict[str, list[str]]
+
+
+class Reading(TypedDict, total=False):
+    """How `from_topography` reads a file."""
+
+    cutoff: float
+    resolution: float
+    spacing: list[float]
+    detrend: str
+    unit: str
+    channel: str
+
+
+class Designed(TypedDict):
+    """The best inputs, and every point that was tried."""
+
+    values: dict[str, str | float]
+    objectives: dict[str, float]
+    points: dict[str, list[str] | Numbers]
+    tolerance: dict[str, tuple[float, float]]
+    feasible: bool
+    reason: str
+    at_bound: list[str]
+    active: list[str]
+
+
+class Picture(TypedDict):
+    """Heights for a drawing."""
+
+    heights: list[float] | list[list[float]]
+    spacing: list[float]
+
+
+class Used(TypedDict):
+    """The moments of a surface."""
+
+    sigma: float
+    R: float
+    eta: float
+    alpha: float
+    sigma_s: float
+    y_s: float
+    cutoff: float | None
+
+
+class Surface(TypedDict):
+    """A measured surface."""
+
+    picture: Picture
+    used: Used
+    curve: dict[str, Numbers]
+    skewness: float
+    kurtosis: float
+    warnings: list[str]
+
+
+class Section(TypedDict):
+    """A cut through one small surface."""
+
+    along: list[float]
+    height: list[float]
+    deformed: list[float]
+    size: float
+    seat: float
+    share: float
+
+
+class Pressing(TypedDict):
+    """One small surface, pressed."""
+
+    h: float
+    spacing: float
+    pressure: list[list[float]]
+    carrying: dict[str, list[float]]
+    section: Section
+    compared: dict[str, tuple[str, str]]
+    headline: str
+    warnings: list[str]
+
+
 def main() -> None:
     """Read one request, do it, tell."""
     _limit()
@@ -53,7 +188,7 @@ def main() -> None:
     out = sys.stdout
     sys.stdout = sys.stderr  # what a reader of instrument files prints is no answer
 
-    def tell(**line: Any) -> None:
+    def tell(**line: object) -> None:
         out.write(json.dumps(line, allow_nan=False) + "\n")
         out.flush()
 
@@ -85,25 +220,25 @@ def _limit() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def in_little(task: str, asked: dict[str, Any]) -> dict[str, Any]:
+def in_little(task: str, asked: dict[str, object]) -> object:
     """A task that is short, without progress."""
     return plain_data(TASKS[task](**asked, report=lambda part: None))
 
 
-def _study(study: dict[str, Any], folder: str) -> Any:
+def _study(study: dict[str, object], folder: str) -> Study:
     from ..study import check
 
     return check(study, folder=Path(folder))
 
 
-def _bare(contact: Any) -> Any:
+def _bare(contact: Contact) -> Contact:
     return contact.replace(outputs=())
 
 
 # ---------------------------------------------------------------------- tasks
 def mode_map(
-    *, study: dict[str, Any], folder: str, sizes: list[float], loads: list[float], report: Report
-) -> dict[str, Any]:
+    *, study: dict[str, object], folder: str, sizes: list[float], loads: list[float], report: Report
+) -> ModeMap:
     """Contact mode over x_a/σ and F*: index into p-s, hybrid, s-s (−1: none) and load share."""
     import thirdbody as tb
 
@@ -114,9 +249,11 @@ def mode_map(
     (dust,) = contact.populations
     mean = float(dust.diameter.mean_diameter)
     names = list(MODES)
-    index, share = [], []
+    index: list[list[int]] = []
+    share: list[Numbers] = []
     for number, size in enumerate(sizes):
-        row, part = [-1] * len(loads), [math.nan] * len(loads)
+        row: list[int] = [-1] * len(loads)
+        part: Numbers = [math.nan] * len(loads)
         try:
             sizes_there = dust.diameter.scaled(size * contact.roughness.sigma / mean)
             made = contact.replace(particles=dust.replace(diameter=sizes_there))
@@ -132,38 +269,38 @@ def mode_map(
 
 
 def compare(
-    *, study: dict[str, Any], folder: str, load: str, loads: list[float], report: Report
-) -> dict[str, Any]:
+    *, study: dict[str, object], folder: str, load: str, loads: list[float], report: Report
+) -> Laws:
     """The same interface under every asperity law."""
     contact = _study(study, folder).contact
     report(0.05)
     return compared(contact, load, loads)
 
 
-def compared(contact: Any, load: str, loads: list[float]) -> dict[str, Any]:
+def compared(contact: Contact, load: str, loads: list[float]) -> Laws:
     """Every asperity law under these loads."""
     import thirdbody as tb
 
+    from ..equilibrium.load import as_force_load
+
     contact = _bare(contact)
-    table = tb.compare(contact, **{load: np.array(loads)})
-    columns = {str(name): table[name].values for name in table.data_vars}
-    for name in ("F_star", "pressure", "note", "status"):
-        if name in table.coords:
-            columns[name] = table[name].values
-    return plain_data(
-        {
-            "laws": [str(law) for law in table.law.values],
-            "load": load,
-            "loads": loads,
-            "columns": columns,
-            "own": table.attrs["own_law"],
-        }
-    )
+    table = tb.compare(contact, **as_force_load(load, np.array(loads)))
+    laws = [str(law) for law in table.law.values]
+    found = {
+        "laws": laws,
+        "load": load,
+        "loads": loads,
+        "columns": {str(name): table[name].values for name in table.data_vars},
+        "conditions": {name: table[name].values for name in ("F_star", "pressure")},
+        "notes": table["note"].values if "note" in table.coords else [""] * len(laws),
+        "own": table.attrs["own_law"],
+    }
+    return plain_data(found)
 
 
 def error_bars(
     *,
-    study: dict[str, Any],
+    study: dict[str, object],
     folder: str,
     load: str,
     loads: list[float],
@@ -171,7 +308,7 @@ def error_bars(
     of: str,
     samples: int,
     report: Report,
-) -> dict[str, Any]:
+) -> Bands:
     """Bands of one result over the load, and its tornado at the operating load.
 
     Critical loads do not depend on the load: all of them have one band each.
@@ -183,6 +320,7 @@ def error_bars(
     from ..analysis.uncertainty.inputs import stated_ranges
     from ..analysis.uncertainty.samples import LEAST, costly
     from ..equilibrium.critical_loads import CRITICAL
+    from ..equilibrium.load import as_load
     from ..errors import InvalidValue
     from ..quantities.say import value_of
 
@@ -199,22 +337,31 @@ def error_bars(
     if costly(asked.contact, inputs):
         samples = min(samples, LEAST)  # each takes tables of its own, which all loads share
     names = list(CRITICAL) if critical else [of]
-    asking: dict[str, Any] = {"samples": samples, "seed": seed, "outputs": [*names, "F_star"]}
     rows, nominal = [], []
+
+    def states_under(value: float) -> Propagation:
+        return tb.propagate(
+            asked.contact,
+            **as_load(load, value),
+            vary=inputs,
+            samples=samples,
+            seed=seed,
+            outputs=[*names, "F_star"],
+        )
 
     def within(done: int, expected: int) -> None:
         report(0.9 * min(done / expected, 1.0) / (1 if critical else len(loads)))
 
     for number, value in enumerate([] if critical else loads):
         with progress.counted(samples, None if number else within):
-            found = tb.propagate(asked.contact, vary=inputs, **(asking | {load: value}))
+            found = states_under(value)
         rows.append(found.bands[of])
         nominal.append(found.nominal[of])
         report(0.9 * (number + 1) / len(loads))
     with progress.counted(samples, within if critical else None):
-        point = tb.propagate(asked.contact, vary=inputs, **(asking | {load: at}))
+        point = states_under(at)
     report(0.95)
-    return {
+    found_at = {
         "of": of,
         "loads": loads,
         "probabilities": point.probabilities,
@@ -233,9 +380,10 @@ def error_bars(
             for label, one in point.inputs.items()
         },
     }
+    return plain_data(found_at)
 
 
-def design(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
+def design(*, study: dict[str, object], folder: str, report: Report) -> dict[str, object]:
     """The best inputs over a range of loads, as the table [design] asks."""
     from ..study.analyses import design_study
 
@@ -244,7 +392,7 @@ def design(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, A
     return design_study(asked).to_dict()
 
 
-def roughness(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
+def roughness(*, study: dict[str, object], folder: str, report: Report) -> dict[str, object]:
     """The table [roughness] in numbers, where it names measured files, and what is told of them."""
 
     base = {"surfaces": {"first": "S45C", "second": "S45C"}, "load": {"F_star": 1e-5}}
@@ -253,46 +401,38 @@ def roughness(*, study: dict[str, Any], folder: str, report: Report) -> dict[str
     heights = rough.heights
     word = heights.name
     numbers = _fields(rough)
-    table: dict[str, Any] = {k: v for k, v in numbers.items() if isinstance(v, float)}
+    table: dict[str, object] = {k: v for k, v in numbers.items() if isinstance(v, float)}
     table["heights"] = {"name": word} | _fields(heights)
     if rough.ellipticity is not None:
         table["ellipticity"] = _fields(rough.ellipticity)
     return {"roughness": table, "notes": list(found.notes)}
 
 
-def _fields(value: Any) -> dict[str, Any]:
+def _fields(value: Any) -> dict[str, object]:
     every = {item.name: getattr(value, item.name) for item in dataclasses.fields(value)}
     return {name: own for name, own in every.items() if own is not None}
 
 
-def surface(*, file: str, options: dict[str, Any], report: Report) -> dict[str, Any]:
+def surface(*, file: str, options: Reading, report: Report) -> Surface:
     """A measured surface: heights for a picture, moments, and their course with the cut-off."""
     from ..populations.measured.topography import from_topography
 
     found = from_topography(file if file == "example" else Path(file), **options)
     report(0.4)
-    out = found.to_dict()
+    told = found.to_dict()
     report(0.9)
-    heights = found.heights
+    heights, used = found.heights, found.moments
     steps = tuple(max(1, math.ceil(n / 160)) for n in heights.shape)
-    small = heights[tuple(slice(None, None, step) for step in steps)]
-    used = found.moments
-    out["picture"] = {
-        "heights": small,
-        "spacing": [d * step for d, step in zip(found.spacing, steps, strict=True)],
+    named = ("sigma", "R", "eta", "alpha", "sigma_s", "y_s")
+    more = {
+        "picture": {
+            "heights": heights[tuple(slice(None, None, step) for step in steps)],
+            "spacing": [d * step for d, step in zip(found.spacing, steps, strict=True)],
+        },
+        "used": {name: getattr(used, name) for name in named} | {"cutoff": found.cutoff},
+        "warnings": list(found.warnings),
     }
-    out["used"] = {
-        "sigma": used.sigma,
-        "R": used.R,
-        "eta": used.eta,
-        "alpha": used.alpha,
-        "sigma_s": used.sigma_s,
-        "y_s": used.y_s,
-        "cutoff": found.cutoff,
-    }
-    out["warnings"] = list(found.warnings)
-    out["dim"] = found.dim
-    return out
+    return plain_data(told | more)
 
 
 def counted(file: str) -> dict[str, list[float]]:
@@ -303,9 +443,7 @@ def counted(file: str) -> dict[str, list[float]]:
     return {"edges": list(bins.edges), "counts": list(bins.counts)}
 
 
-def explicit(
-    *, study: dict[str, Any], folder: str, F_star: float, report: Report
-) -> dict[str, Any]:
+def explicit(*, study: dict[str, object], folder: str, F_star: float, report: Report) -> Pressing:
     """One small surface of the study pressed point by point under one load."""
     from ..study.one_surface import one_surface
     from ..views.explicit_words import headline, rows
@@ -321,7 +459,7 @@ def explicit(
     carries = every["force"] > 0
     total = float(np.sum(field["pressure"])) * step**2 + float(np.sum(every["force"]))
     shown = {name: every[name][carries] for name in ("x", "y", "diameter", "force")}
-    return {
+    pressing = {
         "h": float(maps.attrs["h"]),
         "spacing": step,
         "pressure": field["pressure"],
@@ -331,9 +469,10 @@ def explicit(
         "headline": headline(found, 0),
         "warnings": list(found.warnings),
     }
+    return plain_data(pressing)
 
 
-def handed_on(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
+def handed_on(*, study: dict[str, object], folder: str, report: Report) -> dict[str, object]:
     """What ``thirdbody report`` writes, with the study file at its end."""
     from ..views.report import PARTS
     from ..views.report import report as made
@@ -359,7 +498,7 @@ class _Told(progress.Stages):
         """The page has no place for it."""
 
 
-TASKS: dict[str, Callable[..., dict[str, Any]]] = {
+TASKS: dict[str, Callable[..., object]] = {
     "map": mode_map,
     "compare": compare,
     "error bars": error_bars,

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator
 from itertools import pairwise
 from types import FrameType
-from typing import Any, NoReturn
+from typing import NoReturn
 
 __all__ = ["INTERRUPTED", "Interrupted", "command_line", "interruptible", "interruption", "leave"]
 
@@ -79,7 +79,7 @@ def interruption(error: BaseException | None) -> Interrupted | None:
     return error
 
 
-def _leave_at_once(*_: Any) -> NoReturn:
+def _leave_at_once(*_: object) -> NoReturn:
     with contextlib.suppress(OSError):
         os.write(2, b"error: interrupted\n")
     os._exit(INTERRUPTED)

@@ -6,8 +6,9 @@ import inspect
 import math
 import os
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import MISSING, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
@@ -28,9 +29,12 @@ __all__ = [
     "Settings",
     "StudyFile",
     "XlsxFile",
+    "argument",
     "load_own_code",
     "metres",
     "not_a_folder",
+    "option",
+    "parameters_of",
     "read_study",
     "with_common_options",
 ]
@@ -98,28 +102,61 @@ def load_own_code(files: Iterable[Path] | None) -> None:
             load_file(file)
 
 
-def with_common_options(command: Callable[..., Any], *, warns: bool) -> Callable[..., Any]:
+def option(name: str, help: str, metavar: str | None = None, default: object = None) -> Any:
+    """A field of a record of options: what a command is told behind this name."""
+    known = typer.Option(name, metavar=metavar, help=help)
+    return field(default=default, metadata={"typer": known})
+
+
+def argument(
+    help: str, metavar: str | None = None, *, default: object = MISSING, show_default: bool = True
+) -> Any:
+    """A field of a record of options: what a command is told without a name."""
+    known = typer.Argument(metavar=metavar, help=help, show_default=show_default)
+    return field(default=default, metadata={"typer": known})
+
+
+def parameters_of(command: Callable[..., None]) -> list[inspect.Parameter]:
+    """What a command is told, one parameter an option, where it takes a record of them too."""
+    own = inspect.signature(command, eval_str=True).parameters
+    if "options" not in own:
+        return list(own.values())
+    record, out = own["options"].annotation, []
+    for name, kind in get_type_hints(record, include_extras=True).items():
+        told = record.__dataclass_fields__[name]
+        if told.metadata:
+            kind = Annotated[kind, told.metadata["typer"]]
+        default = inspect.Parameter.empty if told.default is MISSING else told.default
+        one = inspect.Parameter
+        out.append(one(name, one.KEYWORD_ONLY, default=default, annotation=kind))
+    return out
+
+
+def with_common_options(command: Callable[..., None], *, warns: bool) -> Callable[..., None]:
     """The command with the option ``--import`` and, where its answer ``warns``, ``--verbose``.
 
     The files of ``--import`` are loaded before anything is read.
     """
+    own = parameters_of(command)
+    record = inspect.signature(command, eval_str=True).parameters.get("options")
 
-    def run(*, own_code: list[Path] | None = None, verbose: bool = False, **arguments: Any) -> Any:
+    def run(*, own_code: list[Path] | None = None, verbose: bool = False, **told: object) -> None:
         SHOWS_ALL.set(verbose)
         WARNINGS.set(0)
         load_own_code(own_code)
-        return command(**arguments)
+        if record is None:
+            command(**told)
+        else:
+            command(record.annotation(**told))
 
     run.__name__, run.__doc__ = command.__name__, command.__doc__
-    signature = inspect.signature(command, eval_str=True)
     common = {"own_code": (None, OwnCode)} | ({"verbose": (False, Verbose)} if warns else {})
     added = [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind)
         for name, (default, kind) in common.items()
     ]
-    whole = signature.replace(parameters=[*signature.parameters.values(), *added])
-    run.__signature__ = whole  # type: ignore[attr-defined]
-    run.__annotations__ = {name: each.annotation for name, each in whole.parameters.items()}
+    run.__signature__ = inspect.Signature([*own, *added])  # type: ignore[attr-defined]
+    run.__annotations__ = {each.name: each.annotation for each in [*own, *added]}
     return run
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..quantities.say import value_of
 from ..quantities.units import say
@@ -40,7 +40,7 @@ def some(total: int) -> list[int]:
     return [round(row * (total - 1) / max(rows - 1, 1)) for row in range(rows)]
 
 
-def usual(value: Any, unit: str) -> str:
+def usual(value: object, unit: str) -> str:
     """A default as a study file may hold it: numbers whole and with their unit."""
     if value is None:
         return "-"

@@ -32,6 +32,8 @@ from ..quantities.study_words import in_study_words
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from ..views.workbook import Sheet
 
 __all__ = [
@@ -42,7 +44,9 @@ __all__ = [
     "complain",
     "figure_format",
     "open_closed_streams",
+    "print_json",
     "refuse_full_output",
+    "tell_written",
     "warn",
     "warn_of",
     "without_output",
@@ -170,7 +174,7 @@ def complain(sentences: Iterable[str]) -> None:
                 print(_wrap_line(f"error: {line}"), file=sys.stderr)
 
 
-def warn(message: Warning | str, *_: Any, **__: Any) -> None:
+def warn(message: Warning | str, *_: object, **__: object) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
     WARNINGS.set(WARNINGS.get() + 1)
     sentence = in_study_words(" ".join(str(message).split()))
@@ -212,6 +216,17 @@ def remark(sentence: str) -> None:
     print(_wrap_line(f"note: {' '.join(sentence.split())}"), file=sys.stderr)
 
 
+def print_json(data: object) -> None:
+    """An answer as JSON, on standard output."""
+    print(json.dumps(data, indent=1, allow_nan=False))
+
+
+def tell_written(*files: Path) -> None:
+    """Say which files there are now."""
+    for file in files:
+        print(f"written: {file}", file=sys.stderr)
+
+
 class TableFiles(NamedTuple):
     """Files that an answer is written to; None for those not asked for."""
 
@@ -248,7 +263,7 @@ class TableFiles(NamedTuple):
 
     def write(
         self,
-        columns: Mapping[str, list[Any]],
+        columns: Mapping[str, Sequence[object]],
         units: Mapping[str, str],
         *,
         sheets: Callable[[], Sequence[Sheet]] | None = None,
@@ -326,7 +341,7 @@ def figure_format(figure: Path) -> str:
     return kind
 
 
-def write_figure(figure: Path, drawing: Any) -> None:
+def write_figure(figure: Path, drawing: Figure) -> None:
     """A matplotlib figure as a file, the same bytes every time."""
     from matplotlib import rc_context
 
@@ -339,4 +354,4 @@ def write_figure(figure: Path, drawing: Any) -> None:
     made |= {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})  # type: ignore[arg-type]
     with whole(figure) as part, rc_context({"svg.hashsalt": "thirdbody"}):
         drawing.savefig(part, format=kind, metadata=made)
-    print(f"written: {figure}", file=sys.stderr)
+    tell_written(figure)

@@ -484,7 +484,7 @@ class ElectricalConductance(AbstractOutput):
         return bool(self.film or self.mean_free_path or self.A_n)
 
     def of(self, state: Solved) -> dict[str, Array]:
-        small: dict[str, Any] = dict(film=self.film, mean_free_path=self.mean_free_path)
+        small: dict[str, float] = dict(film=self.film, mean_free_path=self.mean_free_path)
         asperities = _through_asperities(state, _electrical, self.form, **small)
         particles = np.zeros_like(state.d)
         if self.particles != "insulate":

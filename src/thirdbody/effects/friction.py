@@ -351,7 +351,7 @@ class Friction(AbstractOutput):
             return rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
         return 0.0 if self.rear == "rigid" else self.rear
 
-    def _plough(self, depth: Array, radius: Array | float, area: Array, yielding: Any) -> Array:
+    def _plough(self, depth: Array, radius: Array | float, area: Array, yielding: object) -> Array:
         """μ_p of a tip; ``yielding`` is its depth at first yield [m]."""
         kappa = self._support(depth, yielding)
         if self.angle == "area":

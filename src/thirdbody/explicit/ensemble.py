@@ -115,7 +115,7 @@ class Ensemble:
         """What the numbers say, in words."""
         return _in_words(self)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Everything as plain data in SI."""
         return {
             "version": __version__,
@@ -177,7 +177,7 @@ def ensemble(
     F_star: ArrayLike,
     size: int = 512,
     spacing: float | None = None,
-    seats: Any = "random",
+    seats: object = "random",
     seed: int = 0,
     cap: Literal["hardness", "none"] | float | None = "hardness",
     tol: float = TOL,
@@ -286,7 +286,7 @@ def ensemble(
     )
 
 
-def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]]:
+def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, object]]:
     """What an earlier run with the same key kept, by the number of the surface.
 
     Raises
@@ -294,7 +294,7 @@ def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]
     InvalidValue
         It was made for other numbers.
     """
-    out: dict[int, dict[str, Any]] = {}
+    out: dict[int, dict[str, object]] = {}
     damaged, others, unchecked = [], [], 0
     for i in range(total):
         file = _file(kept, i)
@@ -389,7 +389,7 @@ def seats_on(
     surface: object,
     *,
     spacing: float | None = None,
-    seats: Any = "random",
+    seats: object = "random",
     seed: int = 0,
 ) -> SeatHeights:
     """Heights over σ at which a rule seats particles on a surface; arguments as of `solve`."""

@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -209,7 +209,7 @@ def interface_of(
     seats: AbstractSeats,
     cap: str | float | None,
     rng: np.random.Generator,
-    particles: Mapping[str, Any] | None = None,
+    particles: Mapping[str, object] | None = None,
 ) -> Interface:
     """A contact on a map, its particles drawn and seated."""
     _fits(surface.z.shape)
@@ -262,7 +262,7 @@ def _draw_bodies(
     surface: Map,
     seats: AbstractSeats,
     rng: np.random.Generator,
-    given: Mapping[str, Any] | None,
+    given: Mapping[str, object] | None,
 ) -> tuple[Bodies, int]:
     populations = contact.populations
     if given is not None:
@@ -305,7 +305,7 @@ def _refuse_countless(density: float, surface: Map) -> None:
 
 
 def _bodies_of_user(
-    contact: Contact, surface: Map, given: Mapping[str, Any], rng: np.random.Generator
+    contact: Contact, surface: Map, given: Mapping[str, object], rng: np.random.Generator
 ) -> tuple[Bodies, int]:
     """Particles of which every one is told: x, y, diameter, population."""
     problems, told = [], {}

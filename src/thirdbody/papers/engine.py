@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from ..quantities.files import whole, write_text
 from ..quantities.run_files import MARK, claim_folder, read_json
@@ -65,7 +65,7 @@ class Summary(ABC):
         """Functions that draw the figures."""
 
     @abstractmethod
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """The content of the ledger."""
 
     @abstractmethod
@@ -181,7 +181,7 @@ def prepare_folder(out: str | Path, paper: str, preset: str | None = None) -> Pa
     return claim_folder(out, told, files=FILES, unmarked=_unmarked_study)
 
 
-def _unmarked_study(folder: Path) -> dict[str, Any] | None:
+def _unmarked_study(folder: Path) -> dict[str, object] | None:
     """Nothing, where a ledger of an earlier version lies in a folder, or surfaces of one."""
     ledgers = ("claims.json", "measurements.json", "comparison.json")
     if any("version" in (read_json(folder / name) or {}) for name in ledgers):

@@ -139,7 +139,7 @@ class WeibullStrength(Value):
         )
 
     @classmethod
-    def from_toughness(cls, K_c: float, **options: Any) -> Self:
+    def from_toughness(cls, K_c: float, **options: object) -> Self:
         r"""An estimate, :math:`\sigma_x = 1.8\,K_c/\sqrt x` and m = 3: one constant, from quartz.
 
         Parameters

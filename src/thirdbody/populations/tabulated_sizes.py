@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import special
@@ -329,7 +329,7 @@ class Mixture(Distribution):
     def retained_mass(self) -> float:
         return sum(w * part.retained_mass for w, part in self.components)
 
-    def _sum(self, method: str, *args: Any) -> Array:
+    def _sum(self, method: str, *args: object) -> Array:
         return sum(w * getattr(part, method)(*args) for w, part in self.components)
 
     def pdf(self, x: ArrayLike) -> Array:

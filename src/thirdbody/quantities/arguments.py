@@ -61,7 +61,7 @@ def names_arguments(function: F) -> F:
     """
 
     @wraps(function)
-    def with_names(*args: Any, **named: Any) -> Any:
+    def with_names(*args: object, **named: object) -> Any:
         try:
             return function(*args, **named)
         except FAILURES as error:
@@ -71,7 +71,7 @@ def names_arguments(function: F) -> F:
     return with_names  # type: ignore[return-value]
 
 
-def need_one(name: str, value: Any, *options: str | int) -> None:
+def need_one(name: str, value: object, *options: str | int) -> None:
     """Refuse a word or a number that an argument does not know, and that passes for another one.
 
     Raises
@@ -93,7 +93,7 @@ def need_one(name: str, value: Any, *options: str | int) -> None:
         raise InvalidValue(Problem(name, rule, shown))
 
 
-def only_one(**quantities: Any) -> tuple[str, Any]:
+def only_one(**quantities: object) -> tuple[str, object]:
     """Name and value of the one quantity that is given, not None."""
     given = {name: value for name, value in quantities.items() if value is not None}
     if len(given) != 1:
@@ -149,8 +149,8 @@ def need_positive(**values: Any) -> None:
 def refuse_misfits(
     error: Exception,
     function: Callable[..., Any],
-    args: tuple[Any, ...],
-    named: Mapping[str, Any],
+    args: tuple[object, ...],
+    named: Mapping[str, object],
     *,
     numbers: Container[str] = (),
     where: str = "",
@@ -183,8 +183,8 @@ def refuse_misfits(
 
 def misfits(
     function: Callable[..., Any],
-    args: tuple[Any, ...],
-    named: Mapping[str, Any],
+    args: tuple[object, ...],
+    named: Mapping[str, object],
     *,
     numbers: Container[str] = (),
 ) -> list[Problem]:
@@ -221,7 +221,7 @@ def misfits(
     return problems
 
 
-def _parsed(annotation: Any) -> ast.expr | None:
+def _parsed(annotation: object) -> ast.expr | None:
     """The tree of an annotation; None where there is none."""
     if annotation is inspect.Parameter.empty:
         return None
@@ -237,7 +237,7 @@ def _tree(text: str) -> ast.expr | None:
         return None
 
 
-def _short_text(value: Any) -> str:
+def _short_text(value: object) -> str:
     """A value in a few letters."""
     if value is None or isinstance(value, (str, bytes, bool, int, float, complex)):
         text = repr(value) if not isinstance(value, int) or value.bit_length() < 200 else "..."
@@ -254,7 +254,7 @@ def _short_text(value: Any) -> str:
 
 
 # ------------------------------------------------------------------ what fits
-def _is_number(value: Any) -> bool:
+def _is_number(value: object) -> bool:
     if isinstance(value, (bool, np.bool_)):
         return False
     if isinstance(value, np.ndarray) or hasattr(value, "__array__"):
@@ -268,7 +268,7 @@ def _is_whole(value: Any) -> bool:
     return _is_number(value) and float(value).is_integer()
 
 
-def _are_numbers(value: Any) -> bool:
+def _are_numbers(value: object) -> bool:
     if isinstance(value, (str, bytes, Mapping, type)) or value is None:
         return False
     if _is_number(value):
@@ -284,12 +284,12 @@ def _are_numbers(value: Any) -> bool:
         return False
 
 
-def _is_array(value: Any) -> bool:
+def _is_array(value: object) -> bool:
     """A number or an array, which are computed with as they are: no list."""
     return _are_numbers(value) and (not isinstance(value, Iterable) or hasattr(value, "__array__"))
 
 
-def _is_listed(value: Any) -> bool:
+def _is_listed(value: object) -> bool:
     return isinstance(value, Iterable) and not isinstance(value, (str, bytes, Mapping))
 
 
@@ -344,11 +344,11 @@ def _inside(node: ast.expr) -> list[ast.expr]:
     return list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
 
 
-def _fits(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
+def _fits(node: ast.expr, value: object, space: Mapping[str, object]) -> bool:
     return any(_fits_one(each, value, space) for each in _alternatives(node))
 
 
-def _fits_one(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
+def _fits_one(node: ast.expr, value: Any, space: Mapping[str, object]) -> bool:
     name, inside = _name(node), _inside(node)
     if name in LEAVES:
         return LEAVES[name][0](value)
@@ -376,7 +376,7 @@ def _fits_one(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
     return kind is None or isinstance(value, kind)
 
 
-def _kind(name: str, space: Mapping[str, Any]) -> type | None:
+def _kind(name: str, space: Mapping[str, object]) -> type | None:
     """The class that an annotation names; None where it names another thing, or is not known."""
     found = space.get(name)
     if found is None:  # imported for types alone
@@ -388,7 +388,7 @@ def _kind(name: str, space: Mapping[str, Any]) -> type | None:
     return found
 
 
-def _words(node: ast.expr, space: Mapping[str, Any]) -> Iterator[str]:
+def _words(node: ast.expr, space: Mapping[str, object]) -> Iterator[str]:
     """What an annotation takes, in words."""
     names = [_name(each) for each in _alternatives(node)]
     for each, name in zip(_alternatives(node), names, strict=True):
@@ -415,6 +415,6 @@ def _words(node: ast.expr, space: Mapping[str, Any]) -> Iterator[str]:
 PLURALS = {"text": "texts", "a number": "numbers", "a whole number": "whole numbers"}
 
 
-def _many(inner: Sequence[ast.expr], space: Mapping[str, Any]) -> str:
+def _many(inner: Sequence[ast.expr], space: Mapping[str, object]) -> str:
     each = " or ".join(dict.fromkeys(_words(inner[0], space)))
     return PLURALS.get(each, f"which each is {each}")

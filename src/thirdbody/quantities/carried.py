@@ -86,7 +86,7 @@ def _may_carry(kind: type) -> bool:
     return any(hasattr(kind, name) for name in ("to", "attrs", "dtype"))
 
 
-def _speaks(value: Any) -> bool:
+def _speaks(value: object) -> bool:
     """Whether this is a quantity of a library of units."""
     return (
         not isinstance(value, type)
@@ -96,7 +96,7 @@ def _speaks(value: Any) -> bool:
     )
 
 
-def _unit_label(value: Any) -> str | None:
+def _unit_label(value: object) -> str | None:
     """The unit that an array says beside its numbers, as xarray's do."""
     if not (hasattr(value, "dims") and hasattr(value, "attrs")):
         return None
@@ -106,7 +106,7 @@ def _unit_label(value: Any) -> str | None:
     return unit if isinstance(unit, str) and unit else None
 
 
-def _has_unit_type(value: Any) -> bool:
+def _has_unit_type(value: object) -> bool:
     """Whether an array says the unit in its type, as pint's in pandas do."""
     return hasattr(getattr(value, "dtype", None), "units")
 
@@ -191,7 +191,7 @@ def _scale(given: np.ndarray, factor: float) -> np.ndarray:
     return np.reshape(shifted, given.shape)
 
 
-def _factor(name: Any, label: str, unit: str) -> float:
+def _factor(name: object, label: str, unit: str) -> float:
     """What an array in the unit of its label is to be taken times."""
     own = "" if label == "1" else label.replace("^", "**")
     wanted = spelled(unit) or "dimensionless"
@@ -252,7 +252,7 @@ def takes_units(function: F) -> F:
     place = function.__code__.co_varnames.index("contact") if of_contact else 0
 
     @wraps(function)
-    def with_units(*args: Any, **named: Any) -> Any:
+    def with_units(*args: object, **named: object) -> Any:
         if of_contact and (len(args) > place or "contact" in named):
             _need_contact(args[place] if len(args) > place else named["contact"])
         if any(map(carries_unit, args)) or (named and any(map(carries_unit, named.values()))):
@@ -294,7 +294,7 @@ LOOKED_AT = 1000
 """Longest list in which each item is looked at, for a truth value among numbers."""
 
 
-def huge_words(value: Any) -> str:
+def huge_words(value: object) -> str:
     """Why a whole number is beyond every float; "" where it is not, or is no such number.
 
     It is not written out: Python refuses to write more than 4300 digits.
@@ -310,7 +310,7 @@ def huge_words(value: Any) -> str:
     )
 
 
-def masked_words(value: Any) -> str:
+def masked_words(value: object) -> str:
     """Why an array cannot be used of which some values are masked; "" where none is.
 
     >>> masked_words(np.ma.masked_array([5e6, 6e6], [False, True])), masked_words([5e6])
@@ -326,7 +326,7 @@ def masked_words(value: Any) -> str:
 
 
 def _refuse_no_numbers(
-    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, Any]
+    function: Callable[..., Any], args: tuple[object, ...], named: dict[str, object]
 ) -> None:
     """Refuse masked and huge values, and truth values where a number with a unit is needed."""
     given = inspect.signature(function).bind_partial(*args, **named).arguments
@@ -349,12 +349,12 @@ def _refuse_no_numbers(
         raise InvalidValue(*problems)
 
 
-def _is_truth(value: Any) -> bool:
+def _is_truth(value: object) -> bool:
     """Whether a value is true or false, or an array of these."""
     return isinstance(value, (bool, np.bool_)) or getattr(value, "dtype", None) == np.bool_
 
 
-def _need_contact(given: Any) -> None:
+def _need_contact(given: object) -> None:
     """Refuse what is no contact: None, a study, a mapping."""
     if hasattr(given, "asperity_law"):
         return
@@ -364,8 +364,8 @@ def _need_contact(given: Any) -> None:
 
 
 def _all_in_si(
-    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, Any]
-) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    function: Callable[..., Any], args: tuple[object, ...], named: dict[str, object]
+) -> tuple[tuple[object, ...], dict[str, object]]:
     """Arguments in SI."""
     given = inspect.signature(function).bind_partial(*args, **named)
     owner = args[0] if args else None
@@ -392,7 +392,7 @@ def _all_in_si(
 
 
 def _argument_in_si(
-    units: Mapping[str, str | None], name: str, value: Any, problems: list[str]
+    units: Mapping[str, str | None], name: str, value: object, problems: list[str]
 ) -> Any:
     """One argument in SI; why not is added to the problems."""
     if not carries_unit(value):

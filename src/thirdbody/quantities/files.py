@@ -16,7 +16,6 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
 from ..errors import InvalidValue
 
@@ -376,8 +375,8 @@ def _why(error: OSError, target: Path) -> str:
 
 
 def with_units(
-    columns: Mapping[str, Sequence[Any]], units: Mapping[str, str]
-) -> dict[str, Sequence[Any]]:
+    columns: Mapping[str, Sequence[object]], units: Mapping[str, str]
+) -> dict[str, Sequence[object]]:
     """The same columns with their unit in their names, where they have one.
 
     Examples
@@ -391,7 +390,7 @@ def with_units(
     }
 
 
-def csv_of(columns: Mapping[str, Sequence[Any]]) -> str:
+def csv_of(columns: Mapping[str, Sequence[object]]) -> str:
     """Columns as comma-separated values; None is an empty cell.
 
     Examples

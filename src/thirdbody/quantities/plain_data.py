@@ -9,7 +9,7 @@ from typing import Any
 __all__ = ["plain_data"]
 
 
-def plain_data(value: Any) -> Any:
+def plain_data(value: object) -> Any:
     """Numbers, texts, lists and dicts, with None for numbers that are not finite.
 
     What has a `to_dict` says itself what it is as plain data.

@@ -65,7 +65,7 @@ class Record:
     not_in_dict: ClassVar[tuple[str, ...]] = ("contact",)
     """Fields that `to_dict` leaves out."""
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Every field, ready for JSON: None for what is not a finite number, lists for arrays."""
         names = (item.name for item in fields(self))  # type: ignore[arg-type]
         kept = (name for name in names if name not in self.not_in_dict)
@@ -96,7 +96,7 @@ class StateRecord(Record):
         every = own | dict(getattr(self, "outputs", {}))
         return {name: np.atleast_1d(values) for name, values in every.items()}
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Every column as a list, ready for JSON: None for what is not a finite number."""
         return plain_data(self.columns())
 
@@ -104,7 +104,7 @@ class StateRecord(Record):
         """What a data set says of all its states."""
         return {"warnings": "\n".join(self.warnings)}
 
-    def more_variables(self) -> tuple[dict[str, Any], dict[str, Any]]:
+    def more_variables(self) -> tuple[dict[str, object], dict[str, object]]:
         """Variables of a data set beside the columns, and their coordinates."""
         return {}, {}
 

@@ -181,7 +181,7 @@ def _on_cluster(parts: Parts[Result], client: Client, part: str, smaller: str) -
 
     run = secrets.token_hex(8)
     waiting = iter(parts)
-    flying: dict[str, tuple[int, Callable[[], Result], Any]] = {}
+    flying: dict[str, tuple[int, Callable[[], Result], object]] = {}
     given_up: dict[int, int] = {}
     results = as_completed(loop=client.loop)
 

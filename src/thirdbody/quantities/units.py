@@ -204,7 +204,7 @@ def _refuse(sentence: str) -> NoReturn:
     raise InvalidValue(sentence)
 
 
-def say(value: Any) -> str:
+def say(value: object) -> str:
     """A value as it stands in a study file, shortened if long."""
     if isinstance(value, bool):
         return str(value).lower()
@@ -218,7 +218,7 @@ def say(value: Any) -> str:
     return text if len(text) <= 80 else text[:76] + " ..."
 
 
-def not_among(key: str, value: Any, allowed: Iterable[str]) -> Problem:
+def not_among(key: str, value: object, allowed: Iterable[str]) -> Problem:
     """The mistake of a word that is none of those allowed.
 
     >>> not_among("limit", "rough", ("coarse", "fine"))

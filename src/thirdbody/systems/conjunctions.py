@@ -44,9 +44,9 @@ class Hertz(NamedTuple):
     (20.0, 1.5)
     """
 
-    area: Any
-    mean: Any
-    maximum: Any
+    area: Number
+    mean: Number
+    maximum: Number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +79,7 @@ class Point(Value):
         """R_x/R_y [1]."""
         return 1.0 if self.R_y is None else self.R / self.R_y
 
-    def hertz(self, load: Any, *, E: Any) -> Hertz:
+    def hertz(self, load: Number, *, E: Number) -> Hertz:
         """Area and pressures of the dry contact under a load [N], E = E' [Pa].
 
         Parameters
@@ -96,7 +96,7 @@ class Point(Value):
         area = math.pi * shape.R_A * R_g * self.approach(load, E=E)
         return Hertz(area, load / area, 1.5 * load / area)
 
-    def approach(self, load: Any, *, E: Any) -> Any:
+    def approach(self, load: Number, *, E: Number) -> Number:
         """How much nearer distant points of the bodies come under a load [m].
 
         Parameters
@@ -112,7 +112,7 @@ class Point(Value):
         R_g = self.R / math.sqrt(self.ratio)
         return (1.5 * load / (E * shape.root_R_F * math.sqrt(R_g))) ** (2 / 3)
 
-    def semi_axes(self, load: Any, *, E: Any) -> tuple[Any, Any]:
+    def semi_axes(self, load: Number, *, E: Number) -> tuple[Any, Any]:
         """Half the ellipse along the motion, and across it [m].
 
         Parameters
@@ -128,7 +128,7 @@ class Point(Value):
         larger = np.sqrt(self.hertz(load, E=E).area / (math.pi * k))
         return (k * larger, larger) if self.ratio <= 1 else (larger, k * larger)
 
-    def intensity(self, load: Any) -> Any:
+    def intensity(self, load: Number) -> Number:
         """The load that film formulas take [N].
 
         Parameters
@@ -167,7 +167,7 @@ class Line(Value):
         """R_x/R_y [1]."""
         return 0.0
 
-    def hertz(self, load: Any, *, E: Any) -> Hertz:
+    def hertz(self, load: Number, *, E: Number) -> Hertz:
         """Area and pressures of the dry contact under a load [N], E = E' [Pa].
 
         Parameters
@@ -181,7 +181,7 @@ class Line(Value):
         area = 2 * b * self.length
         return Hertz(area, load / area, 4 / math.pi * load / area)
 
-    def semi_axes(self, load: Any, *, E: Any) -> tuple[Any, Any]:
+    def semi_axes(self, load: Number, *, E: Number) -> tuple[Any, Any]:
         """Half the line along the motion, and across it [m].
 
         Parameters
@@ -194,7 +194,7 @@ class Line(Value):
         b = self.hertz(load, E=E).area / (2 * self.length)
         return b, np.full_like(b, 0.5 * self.length)
 
-    def intensity(self, load: Any) -> Any:
+    def intensity(self, load: Number) -> Number:
         """The load that film formulas take, per length [N/m].
 
         Parameters
@@ -253,7 +253,7 @@ class Oil(Value):
     limiting_stress: float | None = quantity("τ_L", "Pa", "limiting stress", default=None, gt=0)
     viscosity: str = choice("viscosity under pressure", "roelands", "barus", default="roelands")
 
-    def at(self, pressure: Any) -> Any:
+    def at(self, pressure: Number) -> Number:
         """Viscosity under a pressure [Pa s].
 
         Parameters
@@ -270,7 +270,7 @@ class Oil(Value):
             log_ratio = span * ((1 + p / 1.96e8) ** z - 1)
         return self.eta * np.exp(np.minimum(log_ratio, math.log(GLASS / self.eta)))
 
-    def shear_stress(self, rate: Any, *, pressure: Any) -> Any:
+    def shear_stress(self, rate: Number, *, pressure: Number) -> Number:
         """Shear stress of the film [Pa]; NaN without an Eyring stress.
 
         Parameters

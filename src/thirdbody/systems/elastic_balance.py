@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -52,7 +52,7 @@ class Skin:
     by its tangent, so that iterates may pass there; a solution may not.
     """
 
-    def __init__(self, source: Contact | Callable[..., Any], E_star: float | None):
+    def __init__(self, source: Contact | Callable[..., Array], E_star: float | None):
         self.bound = None
         self.floor = -math.inf
         self.origin, self.step = 0.0, None

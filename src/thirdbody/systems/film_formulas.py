@@ -15,7 +15,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -54,6 +54,18 @@ EP = REGIMES[3]
 """Elastic-piezoviscous: where bearings and gears of steel run."""
 
 
+class Operation(TypedDict):
+    """What a film formula asks for."""
+
+    load: Number
+    speed: Number
+    eta: float
+    alpha: float
+    R: float
+    E: Number
+    ratio: float
+
+
 class AbstractFilm(Law):
     r"""The film between smooth bodies, fully flooded, isothermal, Newtonian.
 
@@ -90,8 +102,16 @@ class AbstractFilm(Law):
 
     @abstractmethod
     def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         """Central film thickness [m].
 
         Parameters
@@ -128,13 +148,103 @@ class AbstractFilm(Law):
         return out
 
 
-def groups(load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, power: int) -> Any:
-    """U, G and W of the formulas [1]: W = load/(E'R^power), power 2 for points and 1 for lines."""
-    return eta * speed / (E * R), alpha * E, load / (E * R**power)
+class Groups(NamedTuple):
+    """U, G and W of the formulas [1], beside the radii."""
+
+    U: Number
+    G: Number
+    W: Number
+    R: float
+    ratio: float
+
+
+class _InGroups(AbstractFilm):
+    """A film whose formulas hold between U, G and W."""
+
+    __slots__ = ()
+
+    def _groups(
+        self,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float,
+    ) -> Groups:
+        """W = load/(E'R^power), power 2 for points and 1 for lines."""
+        W = load / (E * R ** (2 if self.shape == "point" else 1))
+        return Groups(eta * speed / (E * R), alpha * E, W, R, ratio)
+
+    def central(
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
+        return self._central(self._groups(load, speed, eta, alpha, R, E, ratio))
+
+    @abstractmethod
+    def _central(self, to: Groups) -> Number:
+        """Central film thickness [m]."""
+
+
+class _Fitted(_InGroups):
+    """A power law, and another of the smallest thickness."""
+
+    __slots__ = ()
+
+    def minimum(
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
+        """Smallest film thickness [m]; arguments as in `central`."""
+        return self._smallest(self._groups(load, speed, eta, alpha, R, E, ratio))
+
+    @abstractmethod
+    def _smallest(self, to: Groups) -> Number:
+        """Smallest film thickness [m]."""
+
+
+class _Joined(_InGroups):
+    """Four limits that are joined."""
+
+    __slots__ = ()
+
+    def asymptotes(
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Asymptotes:
+        """The four limits; arguments as in `central`."""
+        return self._limits(self._groups(load, speed, eta, alpha, R, E, ratio))
+
+    @abstractmethod
+    def _limits(self, to: Groups) -> Asymptotes:
+        """The four limits."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DowsonLine(AbstractFilm):
+class DowsonLine(_Fitted):
     r"""Line contact, elastic-piezoviscous.
 
     .. math:: h_{min} = 2.65\,R\,U^{0.7}G^{0.54}W'^{-0.13}, \qquad
@@ -157,22 +267,17 @@ class DowsonLine(AbstractFilm):
     shape = "line"
     regimes = (EP,)
 
-    def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
+    def _central(self, to: Groups) -> Number:
+        U, G, W, R, _ = to
         return 3.06 * R * U**0.69 * G**0.56 * W**-0.10
 
-    def minimum(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
-        """Smallest film thickness [m]; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
+    def _smallest(self, to: Groups) -> Number:
+        U, G, W, R, _ = to
         return 2.65 * R * U**0.7 * G**0.54 * W**-0.13
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HamrockDowson(AbstractFilm):
+class HamrockDowson(_Fitted):
     r"""Point contact, elastic-piezoviscous.
 
     .. math::
@@ -207,17 +312,12 @@ class HamrockDowson(AbstractFilm):
     regimes = (EP,)
     limits = {"ratio": (0.0, 1.0)}
 
-    def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
+    def _central(self, to: Groups) -> Number:
+        U, G, W, R, ratio = to
         return 2.69 * R * U**0.67 * G**0.53 * W**-0.067 * (1 - 0.61 * np.exp(-0.73 * kappa(ratio)))
 
-    def minimum(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
-        """Smallest film thickness [m]; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
+    def _smallest(self, to: Groups) -> Number:
+        U, G, W, R, ratio = to
         return 3.63 * R * U**0.68 * G**0.49 * W**-0.073 * (1 - np.exp(-0.68 * kappa(ratio)))
 
 
@@ -247,13 +347,13 @@ class Asymptotes(NamedTuple):
     'elastic-piezoviscous'
     """
 
-    RI: Any
-    EI: Any
-    RP: Any
-    EP: Any
+    RI: Number
+    EI: Number
+    RP: Number
+    EP: Number
 
     @property
-    def regime(self) -> Any:
+    def regime(self) -> Number:
         """Which limit the film is nearest to: max(max(RI, EI), min(RP, EP))."""
         iso = np.where(self.RI >= self.EI, 0, 1)
         piezo = np.where(self.RP <= self.EP, 2, 3)
@@ -262,7 +362,7 @@ class Asymptotes(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NijenbanningVennerMoes(AbstractFilm):
+class NijenbanningVennerMoes(_Joined):
     r"""Point contact, every regime, any ratio of radii.
 
     With :math:`M = W(2U)^{-3/4}`, :math:`L = G(2U)^{1/4}`, :math:`D = R_x/R_y`,
@@ -319,7 +419,7 @@ class NijenbanningVennerMoes(AbstractFilm):
     blend: str = choice("ratio in the exponent s", "EI/RI", "EI/EP", default="EI/RI")
 
     @staticmethod
-    def limits_of(*, M: Any, L: Any, D: float) -> Asymptotes:
+    def limits_of(*, M: Number, L: Number, D: float) -> Asymptotes:
         """The four limits for Moes' load M and lubricant number L [1]."""
         g = 1 + 0.006 * math.log(D) + 0.63 * D ** (4 / 7)
         return Asymptotes(
@@ -329,7 +429,7 @@ class NijenbanningVennerMoes(AbstractFilm):
             1.48 * g ** (-7 / 20) * D ** (-1 / 24) * M ** (-1 / 12) * L ** (3 / 4),
         )
 
-    def joined(self, at: Asymptotes, *, H_00: float) -> Any:
+    def joined(self, at: Asymptotes, *, H_00: float) -> Number:
         """H between the limits [1]."""
         ratio = at.EI / (at.RI if self.blend == "EI/RI" else at.EP)
         s = 1.5 * (1 + np.exp(-1.2 * ratio))
@@ -338,23 +438,16 @@ class NijenbanningVennerMoes(AbstractFilm):
             piezo = (at.RP**-8 + at.EP**-8) ** (-1 / 8)
         return (iso**s + piezo**s) ** (1 / s)
 
-    def asymptotes(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Asymptotes:
-        """The four limits; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
+    def _limits(self, to: Groups) -> Asymptotes:
+        U, G, W, _, ratio = to
         return self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
 
-    def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
-        at = self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
-        return self.joined(at, H_00=1.8 / ratio) * R * (2 * U) ** 0.5
+    def _central(self, to: Groups) -> Number:
+        return self.joined(self._limits(to), H_00=1.8 / to.ratio) * to.R * (2 * to.U) ** 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MoesLine(AbstractFilm):
+class MoesLine(_Joined):
     r"""Line contact, every regime.
 
     With :math:`M = W'(2U)^{-1/2}`, :math:`L = G(2U)^{1/4}`:
@@ -391,11 +484,11 @@ class MoesLine(AbstractFilm):
     shape = "line"
 
     @staticmethod
-    def limits_of(*, M: Any, L: Any) -> Asymptotes:
+    def limits_of(*, M: Number, L: Number) -> Asymptotes:
         """The four limits for Moes' load M and lubricant number L [1]."""
         return Asymptotes(3 / M, 2.621 * M**-0.2, 1.287 * L ** (2 / 3), 1.311 * M**-0.125 * L**0.75)
 
-    def joined(self, at: Asymptotes) -> Any:
+    def joined(self, at: Asymptotes) -> Number:
         """H between the limits [1]."""
         s = (7 + 8 * np.exp(-2 * at.EI / at.RI)) / 5
         iso = (at.RI ** (7 / 3) + at.EI ** (7 / 3)) ** (3 / 7)
@@ -403,19 +496,11 @@ class MoesLine(AbstractFilm):
             piezo = (at.RP**-3.5 + at.EP**-3.5) ** (-2 / 7)
         return (iso**s + piezo**s) ** (1 / s)
 
-    def asymptotes(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 0
-    ) -> Asymptotes:
-        """The four limits; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
-        return self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
+    def _limits(self, to: Groups) -> Asymptotes:
+        return self.limits_of(M=to.W * (2 * to.U) ** -0.5, L=to.G * (2 * to.U) ** 0.25)
 
-    def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
-        at = self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
-        return self.joined(at) * R * (2 * U) ** 0.5
+    def _central(self, to: Groups) -> Number:
+        return self.joined(self._limits(to)) * to.R * (2 * to.U) ** 0.5
 
 
 FORMULAS = AbstractFilm.registry

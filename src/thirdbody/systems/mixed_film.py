@@ -33,9 +33,11 @@ from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, tell_of_ra
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
 from ..quantities.record import StateRecord, column, declared_columns
-from .film_formulas import AbstractFilm, Line, Oil, Point, full_range
+from .film_formulas import AbstractFilm, Line, Oil, Operation, Point, full_range
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
@@ -218,7 +220,7 @@ COLUMNS = declared_columns(MixedFilm)
 """Symbol, unit and meaning of every column."""
 
 
-def _regimes(solids: Any, few: float, most: float) -> Any:
+def _regimes(solids: Number, few: float, most: float) -> Any:
     solids = np.asarray(solids)
     out = np.where(solids > most, BOUNDARY, np.where(solids < few, FULL, MIXED))
     return out if out.ndim else str(out)
@@ -376,9 +378,9 @@ class Lubricated:
     w: Array
     p: Array
 
-    def operation(self, u: Array, gamma: Any = 1.0) -> dict[str, Any]:
+    def operation(self, u: Array, gamma: float | Array = 1.0) -> Operation:
         """What a film formula asks for, as if load and modulus were γ times smaller."""
-        return dict(
+        return Operation(
             load=self.conjunction.intensity(self.w) / gamma,
             speed=u,
             eta=self.oil.eta,
@@ -427,7 +429,7 @@ def lubricated(
     film = film or full_range(getattr(conjunction, "shape", "point"))
     _check(contact, conjunction, oil, film, slide_roll, hertz, shares)
     dry = conjunction.hertz(w, E=2 * contact.E_ss)
-    p = dry.mean if hertz == "mean" else dry.maximum
+    p = np.asarray(dry.mean if hertz == "mean" else dry.maximum)
     return Lubricated(contact=contact, conjunction=conjunction, oil=oil, film=film, w=w, p=p)
 
 
@@ -469,11 +471,11 @@ def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, 
 
 
 def _check(
-    contact: Any,
-    conjunction: Any,
-    oil: Any,
-    film: Any,
-    slide_roll: Any,
+    contact: object,
+    conjunction: object,
+    oil: object,
+    film: object,
+    slide_roll: object,
     hertz: str,
     shares: tuple[float, float],
 ) -> None:
@@ -508,7 +510,7 @@ def _check(
         raise InvalidValue(*problems)
 
 
-def _root(excess: Any, count: int, speed: Array) -> Array:
+def _root(excess: Callable[[Array], Array], count: int, speed: Array) -> Array:
     """ln γ of every state, by halving a bracket whose upper end is doubled until it holds."""
     low, high = np.zeros(count), np.full(count, 12.0)
     while np.any(short := excess(high) >= 0):

@@ -23,7 +23,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -177,7 +177,7 @@ def _positive(name: str, value: float) -> float:
 
 @takes_units
 def rough_sphere(
-    contact: Contact | Callable[..., Any],
+    contact: Contact | Callable[..., Array],
     *,
     radius: float,
     d: float | None = None,
@@ -248,7 +248,7 @@ def rough_sphere(
 
 @takes_units
 def rough_cylinder(
-    contact: Contact | Callable[..., Any],
+    contact: Contact | Callable[..., Array],
     *,
     radius: float,
     d: float | None = None,
@@ -312,7 +312,7 @@ def rough_cylinder(
 
 @takes_units
 def curve(
-    contact: Contact | Callable[..., Any],
+    contact: Contact | Callable[..., Array],
     *,
     radius: float,
     loads: ArrayLike,

@@ -25,6 +25,8 @@ from .mixed_film import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray
     from numpy.typing import ArrayLike, NDArray
 
@@ -109,7 +111,7 @@ def stribeck_columns(
     load: float,
     speed: ArrayLike,
     **options: Any,
-) -> tuple[dict[str, Any], tuple[str, ...]]:
+) -> tuple[dict[str, NDArray[Any]], tuple[str, ...]]:
     """The columns of `stribeck`, speed and Hersey number first, and its warnings: no xarray."""
     speeds = np.atleast_1d(np.asarray(speed, dtype=float))
     with warnings.catch_warnings(record=True) as heard:
@@ -227,7 +229,7 @@ def regime_speeds(
     return RegimeSpeeds(*(float(u) if yes else None for u, yes in zip(speeds, known, strict=True)))
 
 
-def _falling(excess: Any, low: Array, high: Array) -> Array:
+def _falling(excess: Callable[[Array], Array], low: Array, high: Array) -> Array:
     """Zeros of falling functions by halving brackets."""
     for _ in range(STEPS):
         middle = 0.5 * (low + high)

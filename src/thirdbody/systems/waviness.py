@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -221,7 +221,7 @@ def _load(skin: Skin, pressure: float | None, F_star: float | None) -> float | N
 
 @takes_units
 def rigid_wave(
-    contact: Contact | Callable[..., Any],
+    contact: Contact | Callable[..., Array],
     *,
     amplitude: float,
     d: float | None = None,
@@ -283,7 +283,7 @@ def rigid_wave(
 
 @takes_units
 def elastic_wave(
-    contact: Contact | Callable[..., Any],
+    contact: Contact | Callable[..., Array],
     *,
     amplitude: float,
     wavelength: float,
@@ -332,7 +332,7 @@ def elastic_wave(
 
 @takes_units
 def measured_wave(
-    contact: Contact | Callable[..., Any],
+    contact: Contact | Callable[..., Array],
     *,
     heights: ArrayLike,
     counts: ArrayLike | None = None,

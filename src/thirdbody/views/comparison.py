@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -92,16 +92,16 @@ def figure(table: xarray.Dataset, *, at: int | None = None) -> Figure:
     return fig
 
 
-def _styles(table: xarray.Dataset) -> dict[str, dict[str, Any]]:
+def _styles(table: xarray.Dataset) -> dict[str, dict[str, object]]:
     """Look of every law's curve: the own one black, the others told apart by dashes too."""
     from .plot.style import OKABE_ITO
 
     colours = [
         OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")
     ]
-    dashes: list[Any] = ["--", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (9, 2)), (0, (2, 1)), ":"]
+    dashes: list[object] = ["--", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (9, 2)), (0, (2, 1)), ":"]
     marker = "o" if table.sizes[table.A_t.dims[1]] == 1 else None
-    out: dict[str, dict[str, Any]] = {}
+    out: dict[str, dict[str, object]] = {}
     for i, law in enumerate(table.law.values):
         if i == 0:
             out[law] = dict(color="black", linewidth=2.0, zorder=2.5, marker=marker)

@@ -24,8 +24,8 @@ from ..study.vocabulary import LOADS
 from ..version import __version__
 from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
 from .film_words import point
-from .report.figures import Figures
-from .report.found import some_of
+from .report.figures import first_figure
+from .report.found import Found, some_of
 from .report.make import USUAL, curve_over
 from .report.sources import Row, alike, laws_of, rows_of, sources_of, value_rows
 from .workbook import Grid, Sheet, cell_of, cell_of_words, sheet_of_table
@@ -151,7 +151,7 @@ def _figure_of_states(result: StudyResult) -> Figure:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)  # the answer has told of them
         curve = curve_over(contact, result.transitions, loaded)
-    figures = Figures(
+    found = Found(
         study=result.study,
         result=result,
         curve=curve,
@@ -159,7 +159,7 @@ def _figure_of_states(result: StudyResult) -> Figure:
         slopes=None,
         at=result.solved_states[0],
     )
-    axes, _ = figures.first_figure()
+    axes, _ = first_figure(found)
     return axes.figure  # type: ignore[return-value]
 
 

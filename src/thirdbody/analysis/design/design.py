@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...contact.contact import Contact
 from ...equilibrium.columns import PLASTIC_SHARE, about, columns_of
+from ...equilibrium.load import as_load
 from ...errors import ThirdBodyError
 from ...numerics.sampling import Span
 from ...populations.materials import Material
@@ -453,7 +454,7 @@ def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float
         labels.append(DENSITY)
     if not (wanted and labels):
         return {}
-    middle: dict[str, Any] = {task.load: float(np.sort(task.loads)[len(task.loads) // 2])}
+    middle = as_load(task.load, float(np.sort(task.loads)[len(task.loads) // 2]))
     try:
         found = sensitivity(made, of=wanted, to=labels, **middle)
     except ThirdBodyError:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...contact.pressed import buried, most_buried
+from ...equilibrium.load import as_load
 from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
@@ -151,7 +152,7 @@ class Task:
     # ------------------------------------------------------------------ contacts
     def contact_at(self, numbers: Numbers, materials: Materials) -> Contact:
         """The contact of a point."""
-        changes: dict[str, Any] = {}
+        changes: dict[str, object] = {}
         for name, value in numbers.items():
             changes |= self.variables[name].changes(value)
         return self._filled(self.contact.replace(**materials), changes)
@@ -242,8 +243,7 @@ class Task:
 
         def solve(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
             some = {name: values[which] for name, values in vary.items()}
-            given: dict[str, Any] = {self.load: loads[which]}
-            return state_columns(contact, vary=some or None, **given)
+            return state_columns(contact, vary=some or None, **as_load(self.load, loads[which]))
 
         try:
             return columns_tried(solve, count)

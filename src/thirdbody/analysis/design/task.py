@@ -47,13 +47,13 @@ def _load_cases(
 def design_task(
     contact: Contact,
     *,
-    vary: Mapping[str, Any],
+    vary: Mapping[str, object],
     objectives: list[Objective],
     limits: list[Limit],
-    F_star: Any,
-    pressure: Any,
+    F_star: object,
+    pressure: object,
     weights: ArrayLike | None,
-    scatter: Mapping[str, Any] | None,
+    scatter: Mapping[str, object] | None,
     samples: int,
     seed: int,
     suspension: Suspension | None,
@@ -174,7 +174,7 @@ def _suspension_problems(
     return out
 
 
-def _is_materials(allowed: Any) -> bool:
+def _is_materials(allowed: object) -> bool:
     return isinstance(allowed, (list, tuple)) and any(isinstance(v, Material) for v in allowed)
 
 

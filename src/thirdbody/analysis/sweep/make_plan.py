@@ -30,20 +30,20 @@ ABSENT = ("particles.diameter.mean", "particles.areal_density")
 def make_plan(
     contact: Contact,
     *,
-    pressure: Any = None,
-    F_star: Any = None,
-    d: Any = None,
-    vary: Mapping[str, Any] | None = None,
+    pressure: object = None,
+    F_star: object = None,
+    d: object = None,
+    vary: Mapping[str, object] | None = None,
     design: str = "grid",
     samples: int | None = None,
     seed: int = 0,
     columns: Sequence[str] | None = None,
-    reduce: Mapping[str, Any] | None = None,
+    reduce: Mapping[str, object] | None = None,
     chunk: int = CHUNK,
 ) -> Plan:
     """The plan that these arguments describe; see `sweep`."""
     load, loads = only_one(pressure=pressure, F_star=F_star, d=d)
-    entries: dict[str, Any] = dict(vary or {})
+    entries: dict[str, object] = dict(vary or {})
     problems = _not_known("design", design, ("grid", "zip", *DESIGNS))
     if load in entries:
         raise InvalidValue(Problem(f"vary[{load!r}]", "is the load, which is given already"))
@@ -86,7 +86,7 @@ def make_plan(
 
 
 def _inputs(
-    contact: Contact, load: str, entries: Mapping[str, Any], design: str
+    contact: Contact, load: str, entries: Mapping[str, object], design: str
 ) -> tuple[Arrays, dict[str, Span], list[str]]:
     """Lists of values and ranges to be sampled, the load among them, and what is wrong."""
     listed: Arrays = {}
@@ -178,7 +178,7 @@ def _span(label: str, entry: Any) -> tuple[Span | None, list[str]]:
     return Span(float(low), float(high), scale), []
 
 
-def _sampling_problems(design: str, samples: Any, seed: Any) -> list[str]:
+def _sampling_problems(design: str, samples: object, seed: object) -> list[str]:
     out: list[str] = []
     if design in DESIGNS:
         if isinstance(samples, bool) or not isinstance(samples, int) or samples < 1:
@@ -192,13 +192,13 @@ def _sampling_problems(design: str, samples: Any, seed: Any) -> list[str]:
     return out
 
 
-def _not_known(what: str, word: Any, options: Sequence[str]) -> list[str]:
+def _not_known(what: str, word: object, options: Sequence[str]) -> list[str]:
     if word in options:
         return []
     return [Problem(what, f"must be one of {', '.join(map(repr, options))}", repr(word))]
 
 
-def _as_array(entry: Any) -> NDArray[Any]:
+def _as_array(entry: object) -> NDArray[Any]:
     """Numbers as they are; anything else as objects."""
     if isinstance(entry, (str, Value)) or not np.iterable(entry):
         entry = [entry]
@@ -224,7 +224,7 @@ def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> l
     return [Problem(label, f": {value:g} {problem_with(about, value)}") for value in bad[:1]]
 
 
-def _refused_loads(contact: Contact, load: str, entry: Any, values: NDArray[Any]) -> list[str]:
+def _refused_loads(contact: Contact, load: str, entry: object, values: NDArray[Any]) -> list[str]:
     """Why these cannot be loads; none is told of elsewhere."""
     if not len(values):
         return []

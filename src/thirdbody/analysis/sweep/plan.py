@@ -21,6 +21,7 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import about, labels_of
 from ...equilibrium.crowding import AREA, about_area, chi_of
 from ...equilibrium.doubts import SHADOW, about_particles
+from ...equilibrium.load import as_load
 from ...equilibrium.modes import MODES
 from ...equilibrium.solve import solve
 from ...equilibrium.states import state_columns, varied
@@ -75,7 +76,7 @@ class Listed:
     def inputs(self) -> Arrays:
         return self.values
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         return {name: _axis_values(values) for name, values in self.values.items()}
 
 
@@ -109,7 +110,7 @@ class Sampled:
         u = draw(self.count, len(self.spans), self.seed, self.start, self.stop)
         return {name: span.at(u[:, j]) for j, (name, span) in enumerate(self.spans.items())}
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         own = {"design": self.design, "samples": self.count, "seed": self.seed}
         return own | {name: dataclasses.asdict(span) for name, span in self.spans.items()}
 
@@ -145,7 +146,7 @@ class Block:
         out: Arrays = {}
         for changes, which in _alike(words, len(loads)):
             contact = varied(self.contact, changes) if changes else self.contact
-            given: dict[str, Any] = {self.load: loads[which]}
+            given = as_load(self.load, loads[which])
             vary = {name: values[which] for name, values in numbers.items()}
             for name, column in state_columns(contact, **given, vary=vary or None).items():
                 if name not in out:
@@ -175,7 +176,7 @@ class Task:
     coded: bool
     version: str
 
-    def __call__(self) -> tuple[Arrays, dict[str, Any]]:
+    def __call__(self) -> tuple[Arrays, dict[str, object]]:
         """The arrays to store, and a summary: states, unsolved states, largest area, shadow."""
         need_version(self.version, "sweep")
         needed = dict.fromkeys((*self.columns, "status", "status_code", "engine", "A_t", "shadow"))
@@ -186,7 +187,7 @@ class Task:
                 if name not in solved:
                     solved[name] = np.empty(self.block.sizes, dtype=columns[name].dtype)
                 solved[name][part] = columns[name]
-        summary: dict[str, Any] = {
+        summary: dict[str, object] = {
             "states": math.prod(self.block.sizes),
             "unsolved": int(np.sum(solved["status_code"] != Status.OK)),
             "A_t": _largest(solved["A_t"]),
@@ -215,13 +216,13 @@ class Layout:
 
     sizes: dict[str, int]
     chunks: dict[str, int]
-    variables: dict[str, tuple[tuple[str, ...], str, dict[str, Any]]]
+    variables: dict[str, tuple[tuple[str, ...], str, dict[str, object]]]
     """Dimensions, type and attributes of every variable that blocks write."""
-    coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]]
+    coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, object]]]
     """Dimensions, values and attributes of every coordinate known beforehand."""
     inputs: tuple[str, ...]
     """Those of the variables that are coordinates: sampled inputs."""
-    attrs: dict[str, Any]
+    attrs: dict[str, object]
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,7 +281,7 @@ class Plan:
         block = self.whole.cut(self.region(number))
         return Task(block, self.columns, self.reduction, self.outer, coded, __version__)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Everything that decides the numbers, ready for JSON."""
         from ...version import __version__
 
@@ -302,8 +303,8 @@ class Plan:
         kept = self.dims[: self.outer]
         names = tuple(dim.name for dim in kept)
         sizes = {dim.name: dim.size for dim in kept}
-        variables: dict[str, tuple[tuple[str, ...], str, dict[str, Any]]] = {}
-        coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]] = {}
+        variables: dict[str, tuple[tuple[str, ...], str, dict[str, object]]] = {}
+        coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, object]]] = {}
         for dim in kept:
             for name in dim.names:
                 about = labels_of(self.contact, name)
@@ -348,10 +349,9 @@ class Plan:
                 found.setdefault(code_of(sentence), sentence)
         if hardest is not None:
             _, load, contact = hardest
-            given: dict[str, Any] = {self.load: np.array([load])}
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RangeWarning)
-                state = solve(contact, **given)
+                state = solve(contact, **as_load(self.load, np.array([load])))
             for sentence in state.warnings:
                 found.setdefault(code_of(sentence), sentence)
         return list(found.values())
@@ -407,7 +407,7 @@ def _boxes(sizes: Sequence[int], box: Sequence[int]) -> Iterator[Box]:
     return itertools.product(*cuts)
 
 
-def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, Any], Any]]:
+def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, object], Any]]:
     """States with equal words: those words, and which states."""
     if not words:
         yield {}, slice(None)
@@ -446,8 +446,8 @@ def _axis_text(values: NDArray[Any]) -> NDArray[Any]:
     return values.astype(str) if values.dtype == object else values
 
 
-def _attributes(name: str) -> dict[str, Any]:
-    out: dict[str, Any] = dict(about(name).labels)
+def _attributes(name: str) -> dict[str, object]:
+    out: dict[str, object] = dict(about(name).labels)
     if name in CODES:
         words = CODES[name]
         out |= {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}

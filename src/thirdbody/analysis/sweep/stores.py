@@ -80,7 +80,7 @@ class _Zarr:
         place = (str(s.start // step) for s, step in zip(region, steps, strict=True))
         return self.path.joinpath(name, "c", *place)
 
-    def label(self, attrs: Mapping[str, Any]) -> None:
+    def label(self, attrs: Mapping[str, object]) -> None:
         import zarr
 
         self.group.attrs.update(dict(attrs))
@@ -135,14 +135,14 @@ class _NetCDF:
             region = tuple(where.get(dim, slice(None)) for dim in dims)
             self.file[name][region or ...] = values
 
-    def label(self, attrs: Mapping[str, Any]) -> None:
+    def label(self, attrs: Mapping[str, object]) -> None:
         self.file.attrs.update(_plain(attrs))
 
     def close(self) -> None:
         self.file.close()
 
 
-def _labels(layout: Layout) -> dict[str, Any]:
+def _labels(layout: Layout) -> dict[str, object]:
     """Attributes of the whole, with the names of the inputs as CF has them."""
     return layout.attrs | {"coordinates": " ".join([*layout.coords, *layout.inputs])}
 
@@ -152,7 +152,7 @@ def _number(values: NDArray[Any]) -> NDArray[Any]:
     return values.astype("i1") if values.dtype.kind == "b" else values
 
 
-def _plain(attrs: Mapping[str, Any]) -> dict[str, Any]:
+def _plain(attrs: Mapping[str, object]) -> dict[str, object]:
     """Lists of codes as the bytes that CF asks for."""
     return {
         key: np.array(value, "i1") if isinstance(value, list) else value

@@ -322,7 +322,7 @@ def _save_part(path: Path, arrays: Arrays) -> None:
         np.savez(file, **arrays)  # type: ignore[arg-type]
 
 
-def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, Any]) -> None:
+def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, object]) -> None:
     """The parts put together, whole or not at all."""
     draft = folder.path / f".states.part{folder.data.suffix}"
     kind = _Zarr if folder.format == "zarr" else _NetCDF

@@ -7,7 +7,7 @@ to be solved anywhere, any number of times, with the same result.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from numpy.typing import ArrayLike
 
@@ -32,15 +32,15 @@ __all__ = ["sweep"]
 def sweep(
     contact: Contact,
     *,
-    pressure: ArrayLike | Mapping[str, Any] | None = None,
-    F_star: ArrayLike | Mapping[str, Any] | None = None,
-    d: ArrayLike | Mapping[str, Any] | None = None,
-    vary: Mapping[str, Any] | None = None,
+    pressure: ArrayLike | Mapping[str, object] | None = None,
+    F_star: ArrayLike | Mapping[str, object] | None = None,
+    d: ArrayLike | Mapping[str, object] | None = None,
+    vary: Mapping[str, object] | None = None,
     design: Literal["grid", "zip", "latin", "sobol"] = "grid",
     samples: int | None = None,
     seed: int = 0,
     columns: Sequence[str] | None = None,
-    reduce: Mapping[str, Any] | None = None,
+    reduce: Mapping[str, object] | None = None,
     out: str | os.PathLike[str] | None = None,
     format: Literal["zarr", "netcdf"] = "zarr",
     chunk: int = CHUNK,

@@ -102,7 +102,7 @@ def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
 
 
 def check_counts(
-    probabilities: Sequence[float], samples: Any, critical_samples: Any, seed: Any
+    probabilities: Sequence[float], samples: object, critical_samples: object, seed: object
 ) -> None:
     problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
     for name, value, least in (

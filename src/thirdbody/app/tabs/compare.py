@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 from nicegui import ui
 
 from ...equilibrium.words import load_of
 from ...quantities.say import number, percent, signed, value_of
-from ..figures import AXES, SCALES, empty, figure, line
+from ..figures import AXES, SCALES, Figure, figure, line
 from ..state import Answer, State, loads_as
-from ..widgets import put
+from ..widgets import plot_place, put
 from ..widgets import table as shown_table
-from ..work import Work
-from ..worker import compared
+from ..work import Asked, Work
+from ..worker import Laws, compared
 
 __all__ = ["TITLE", "build", "law_figure"]
 
@@ -34,15 +33,15 @@ SHOWN = {
 }
 
 
-def law_figure(found: dict[str, Any], of: str) -> dict[str, Any]:
+def law_figure(found: Laws, of: str) -> Figure:
     """One curve a law; the study's own is the thickest."""
     label, ylog, scale = SHOWN[of]
-    traces = []
     loads = np.array(found["loads"]) * SCALES.get(found["load"], 1.0)
-    for row, law in enumerate(found["laws"]):
-        y = np.array([np.nan if v is None else scale * v for v in found["columns"][of][row]])
-        own = law == found["own"]
-        traces.append(line(loads, y, law, row, line={"width": 4 if own else 1.8}))
+    rows = scale * np.array(found["columns"][of], float)
+    traces = [
+        line(loads, y, law, row, line={"width": 4 if law == found["own"] else 1.8})
+        for row, (law, y) in enumerate(zip(found["laws"], rows, strict=True))
+    ]
     return figure(
         traces, x=AXES[found["load"]], y=label, title="Asperity laws", ylog=ylog, height=460
     )
@@ -50,9 +49,9 @@ def law_figure(found: dict[str, Any], of: str) -> dict[str, Any]:
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """One figure, and a table at the load nearest to the operating load."""
-    found: dict[str, Any] = {}
+    shown: Laws | None = None
 
-    async def ask() -> dict[str, Any] | None:
+    async def ask() -> Asked | None:
         await state.settle()
         answer = state.answer
         if answer is None:
@@ -65,7 +64,6 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if not len(values):
             work.fail("no load of the study is positive")
             return None
-        found["load"] = load
         return {
             "study": state.study,
             "folder": str(state.folder),
@@ -73,29 +71,30 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             "loads": np.geomspace(values[0], values[-1], LOADS).tolist(),
         }
 
-    async def show(result: dict[str, Any]) -> None:
-        found["result"] = result
+    async def show(result: Laws) -> None:
+        nonlocal shown
+        shown = result
         await draw()
 
-    def little(asked: dict[str, Any]) -> dict[str, Any]:
-        return asked | {"loads": [*asked["loads"][::LITTLE], asked["loads"][-1]]}
+    def little(asked: Asked) -> Asked:
+        loads = asked["loads"]
+        assert isinstance(loads, list)
+        return asked | {"loads": [*loads[::LITTLE], loads[-1]]}
 
     work = Work("compare", "Compare all laws", ask, show, key=lambda: state.answer, little=little)
     what = ui.select(
         {name: _plain(text[0]) for name, text in SHOWN.items()}, value="A_t_difference"
     )
     what.props('dense options-dense aria-label="what is compared"')
-    plot = ui.plotly(empty(460)).classes("w-full")
-    plot.props('data-figure="compare"')
+    plot = plot_place("compare", 460)
     table = ui.column().classes("w-full scroll-x")
     plot.set_visibility(False)
 
     async def draw() -> None:
-        if "result" not in found:
+        if shown is None:
             return
         plot.set_visibility(True)
-        result = found["result"]
-        plot.update_figure(law_figure(result, str(what.value)))
+        plot.update_figure(law_figure(shown, str(what.value)))
         _table(await state.ask(_here, state.at), table)
 
     async def tell() -> None:
@@ -106,7 +105,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     return tell
 
 
-def _here(answer: Answer, at: float) -> dict[str, Any]:
+def _here(answer: Answer, at: float) -> Laws:
     """Every law under the operating load."""
     return compared(answer.contact, "F_star", [float(answer.solve(at).F_star)])
 
@@ -115,25 +114,21 @@ def _plain(label: str) -> str:
     return label.replace("<sub>", "_").replace("</sub>", "")
 
 
-def _table(found: dict[str, Any], place: Any) -> None:
-    columns = found["columns"]
+def _table(found: Laws, place: ui.element) -> None:
+    columns, conditions = found["columns"], found["conditions"]
     rows = []
     for row, law in enumerate(found["laws"]):
-
-        def cell(name: str, row: int = row) -> float | None:
-            return columns[name][row][0] if name in columns else None
-
-        difference = cell("A_t_difference")
-        pressure = cell("mean_pressure")
+        one = {name: values[row][0] for name, values in columns.items()}
+        difference = one.get("A_t_difference")
         rows.append(
             {
                 "law": law,
-                "A_t": number(cell("A_t")),
-                "difference": "" if not difference else signed(difference, 1, "%"),
-                "pressure": value_of(pressure, "Pa"),
-                "d": number(cell("d_star")),
-                "plastic": percent(cell("plastic_share")),
-                "note": columns.get("note", [""] * len(found["laws"]))[row] or "",
+                "A_t": number(one.get("A_t")),
+                "difference": signed(difference, 1, "%") if difference else "",
+                "pressure": value_of(one.get("mean_pressure"), "Pa"),
+                "d": number(one.get("d_star")),
+                "plastic": percent(one.get("plastic_share")),
+                "note": found["notes"][row] or "",
             }
         )
     heads = {
@@ -147,7 +142,7 @@ def _table(found: dict[str, Any], place: Any) -> None:
     }
     place.clear()
     with place:
-        said = load_of(columns["pressure"][0], columns["F_star"][0])
+        said = load_of(conditions["pressure"][0], conditions["F_star"][0])
         put(
             ui.label(f"At the operating load, {said}").classes("subhead"),
             {"data-fact": "compared at"},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from typing import Any
+from functools import partial
 
 import numpy as np
 from nicegui import ui
@@ -17,6 +17,8 @@ from ..figures import (
     MODE_FILLS,
     REGIME_FILLS,
     SCALES,
+    Figure,
+    Part,
     figure,
     fix,
     line,
@@ -38,6 +40,7 @@ TAB = "curves"
 LOOKS = 0.05
 """Seconds after which it is looked whether the tab is still in sight."""
 FIGURES = ("area", "shares", "regimes", "separation")
+Draw = Callable[..., Figure]
 CRITICAL = {
     "F_cr1": "F<sub>cr1</sub>",
     "F_cr2": "F<sub>cr2</sub>",
@@ -60,29 +63,25 @@ def critical_loads(answer: Answer) -> dict[str, float]:
     return {name: value for name, value in every.items() if value}
 
 
-def figures(answer: Answer, against: str, *, critical: bool = True) -> dict[str, dict[str, Any]]:
+def figures(answer: Answer, against: str, *, critical: bool = True) -> dict[str, Figure]:
     """The four figures as plain data."""
     state = answer.curves
     x = np.asarray(getattr(state, against)) * SCALES.get(against, 1.0)
     lines, notes = _critical_lines(answer, against, x) if critical else ([], [])
     bands = [] if answer.contact.two_body else mode_bands(x, state.mode)
-    more: dict[str, Any] = {
-        "x": AXES[against],
-        "xlog": against != "d",
-        "shapes": bands + lines,
-        "annotations": notes,
-    }
-    out = {"area": _area(answer, x, more)}
+    draw = partial(figure, x=AXES[against], xlog=against != "d", annotations=notes)
+    over_bands = partial(draw, shapes=bands + lines)
+    out = {"area": _area(answer, x, over_bands)}
     if not answer.contact.two_body:
-        out["shares"] = _shares(answer, x, more)
-    out["regimes"] = _regimes(answer, x, more | {"shapes": lines})
-    out["separation"] = _separation(answer, x, more)
+        out["shares"] = _shares(answer, x, over_bands)
+    out["regimes"] = _regimes(answer, x, partial(draw, shapes=lines))
+    out["separation"] = _separation(answer, x, over_bands)
     for made in out.values():
         fix(made, "xaxis", span(x, log=against != "d", padded=False))
     return out
 
 
-def _critical_lines(answer: Answer, against: str, x: Any) -> tuple[list[Any], list[Any]]:
+def _critical_lines(answer: Answer, against: str, x: np.ndarray) -> tuple[list[Part], list[Part]]:
     """Critical loads in sight, as shapes and annotations."""
     scale = {"F_star": 1.0, "pressure": answer.contact.E_ss * SCALES["pressure"]}.get(against)
     if scale is None:
@@ -94,7 +93,7 @@ def _critical_lines(answer: Answer, against: str, x: Any) -> tuple[list[Any], li
     return [shape for shape, _ in made], [log_title(note) for _, note in made]
 
 
-def _area(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+def _area(answer: Answer, x: np.ndarray, draw: Draw) -> Figure:
     state = answer.curves
     lines = [line(x, state.A_t, "all A<sub>t</sub>", 0)]
     if not answer.contact.two_body:
@@ -102,12 +101,10 @@ def _area(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
             line(x, state.A_ss, "asperities A<sub>ss</sub>", 1),
             line(x, state.A_sa, "particles A<sub>sa</sub>", 2),
         ]
-    return figure(
-        lines, y="real area over A<sub>n</sub>", title="Real contact area", ylog=True, **more
-    )
+    return draw(lines, y="real area over A<sub>n</sub>", title="Real contact area", ylog=True)
 
 
-def _shares(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+def _shares(answer: Answer, x: np.ndarray, draw: Draw) -> Figure:
     state = answer.curves
     lines = [
         line(x, 100 * np.asarray(state.particle_load_share), "of the load", 0),
@@ -116,14 +113,12 @@ def _shares(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
     for number, part in enumerate(state.populations):
         share = 100 * np.asarray(part.load_share)
         lines.append(line(x, share, f"{plain(part.name)}: load", number + 2))
-    made = figure(
-        lines, y="share of particles [%]", title="What particles carry; mode as bands", **more
-    )
+    made = draw(lines, y="share of particles [%]", title="What particles carry; mode as bands")
     fix(made, "yaxis", [-2, 102])
     return made
 
 
-def _regimes(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+def _regimes(answer: Answer, x: np.ndarray, draw: Draw) -> Figure:
     state = answer.curves
     total = np.asarray(state.A_t)
     stacked = []
@@ -138,19 +133,19 @@ def _regimes(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
                 "fillpattern": {"shape": HATCHES[name], "size": 7},
             }
         )
-    made = figure(stacked, y="part of the real area [%]", title="Deformation regimes", **more)
+    made = draw(stacked, y="part of the real area [%]", title="Deformation regimes")
     fix(made, "yaxis", [0, 100])
     return made
 
 
-def _separation(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+def _separation(answer: Answer, x: np.ndarray, draw: Draw) -> Figure:
     state, nm = answer.curves, 1e9
     lines = [
         line(x, nm * np.asarray(state.h), "h, mean surface", 0),
         line(x, nm * np.asarray(state.d), "d, mean asperity", 1),
     ]
-    made = figure(lines, y="separation [nm]", title="Separation", **more)
-    fix(made, "yaxis", span([each["y"] for each in lines]))
+    made = draw(lines, y="separation [nm]", title="Separation")
+    fix(made, "yaxis", span([nm * np.asarray(state.h), nm * np.asarray(state.d)]))
     return made
 
 
@@ -176,9 +171,9 @@ class Curves:
         with self.grid:
             self.plots = {name: Plot(name) for name in FIGURES}
         self.table = ui.column().classes("w-full scroll-x")
-        self.later: Any = None
+        self.later: ui.timer | None = None
         """The timer after which critical loads follow."""
-        self.shown: tuple[Any, ...] | None = None
+        self.shown: tuple[Answer, str, bool] | None = None
         """What the figures show."""
         self.told: Answer | None = None
         """Whose critical loads the table holds."""
@@ -209,7 +204,7 @@ class Curves:
         asked = (answer, str(self.against.value), critical)
         if asked == self.shown:
             return
-        found = await self.state.ask(_figures, *asked[1:])
+        found = await self.state.ask(_figures, asked[1], critical)
         if answer is not self.state.answer:
             return  # it moved on meanwhile
         self.shown = asked
@@ -253,7 +248,7 @@ class Curves:
             _table(answer, self.table)
 
 
-def _figures(answer: Answer, against: str, critical: bool) -> dict[str, dict[str, Any]]:
+def _figures(answer: Answer, against: str, critical: bool) -> dict[str, Figure]:
     if critical:
         _ = answer.critical  # which the table shows as well
     return figures(answer, against, critical=critical)
@@ -263,7 +258,7 @@ def _solved(answer: Answer, d: float) -> float:
     return float(answer.solve(d).F_star)
 
 
-def _table(answer: Answer, place: Any) -> None:
+def _table(answer: Answer, place: ui.element) -> None:
     """Critical loads, as the command line prints them."""
     place.clear()
     found = answer.__dict__.get("critical")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 from nicegui import ui
@@ -14,10 +13,12 @@ from ...quantities.plain_data import plain_data
 from ...quantities.say import number, prefixed
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, text_of, value_from
-from ..figures import GREY, empty, figure, line, plain, symbol
+from ..figures import GREY, Figure, Part, band, figure, line, plain, symbol
 from ..state import State, loads_as
 from ..text import with_micro
-from ..work import Work
+from ..widgets import plot_place
+from ..work import Asked, Work
+from ..worker import Designed
 
 __all__ = ["TITLE", "build", "design_figure"]
 
@@ -57,18 +58,20 @@ def variables_of(state: State) -> dict[str, str]:
 
 
 def design_figure(
-    found: dict[str, Any], variable: str, objective: str, unit: str, words_of: dict[str, str]
-) -> dict[str, Any]:
+    found: Designed, variable: str, objective: str, unit: str, words_of: dict[str, str]
+) -> Figure:
     """Every point tried, the best marked, the tolerance as a band."""
     every = found["points"][variable]
     words = any(isinstance(item, str) for item in every)
-    size, name = (1.0, "") if words else prefixed(float(np.max(np.abs(every))), unit)
-    x = np.array([plain(item) for item in every]) if words else np.array(every, float) / size
-    y = np.array([np.nan if v is None else v for v in found["points"][objective]], dtype=float)
-    good = np.array(found["points"]["feasible"], dtype=bool)
+    x = np.array([plain(str(item)) for item in every]) if words else np.array(every, float)
+    size, name = (1.0, "") if words else prefixed(float(np.max(np.abs(x))), unit)
+    x = x if words else x / size
+    y = np.array(found["points"][objective], float)
+    good = np.array(found["points"]["feasible"], np.bool_)
     order = np.argsort(x)
     best = found["values"][variable]
-    traces = [
+    best = plain(best) if isinstance(best, str) else best / size
+    traces: list[Part] = [
         line([], y[order], "all points", 0, line={"width": 1.5}) | {"x": x[order].tolist()},
         {
             "type": "scatter",
@@ -81,7 +84,7 @@ def design_figure(
         {
             "type": "scatter",
             "mode": "markers",
-            "x": [plain(str(best)) if words else best / size],
+            "x": [best],
             "y": [found["objectives"][objective]],
             "name": "best",
             "marker": {"symbol": "star", "size": 16, "color": "#D55E00"},
@@ -95,21 +98,8 @@ def design_figure(
         xlog=not words and bool(x.min() > 0),
         height=420,
     )
-    if band := found["tolerance"].get(variable):
-        made["layout"]["shapes"] = [
-            {
-                "type": "rect",
-                "xref": "x",
-                "yref": "paper",
-                "x0": band[0] / size,
-                "x1": band[1] / size,
-                "y0": 0,
-                "y1": 1,
-                "fillcolor": "#009E73",
-                "opacity": 0.18,
-                "line": {"width": 0},
-            }
-        ]
+    if ends := found["tolerance"].get(variable):
+        made["layout"]["shapes"] = [band(ends[0] / size, ends[1] / size, "#009E73", 0.18)]
     return made
 
 
@@ -139,7 +129,7 @@ class Search:
         self.which.on_value_change(self._ranged)
         self.work = Work("design", "Search", self._ask, self._show, key=lambda: state.answer)
         self.said = ui.label().props('data-fact="design"').classes("break-any")
-        self.plot = ui.plotly(empty(420)).classes("w-full").props('data-figure="design"')
+        self.plot = plot_place("design", 420)
         self.plot.set_visibility(False)
 
     def _aim(self) -> None:
@@ -175,11 +165,11 @@ class Search:
         self.low.set_value(text_of(engineering(now / 5, unit)))
         self.high.set_value(text_of(engineering(now * 3, unit)))
 
-    async def _table(self) -> dict[str, Any]:
+    async def _table(self) -> dict[str, object]:
         """What the form asks, as the table [design] of a study."""
         ends = {"low": _value(self.low), "high": _value(self.high)}
         wanted = {"of": self.of.value, "aim": self.aim.value, "over_loads": self.over.value}
-        asked: dict[str, Any] = {"objective": wanted, "vary": {str(self.which.value): ends}}
+        asked: dict[str, object] = {"objective": wanted, "vary": {str(self.which.value): ends}}
         if self.limit.value:
             ends = {"most": _value(self.most), "least": _value(self.least)}
             known = {key: value for key, value in ends.items() if value is not None}
@@ -192,12 +182,12 @@ class Search:
             asked[name] = {"from": first, "to": last, "points": LOADS}
         return asked
 
-    async def _ask(self) -> dict[str, Any]:
+    async def _ask(self) -> Asked:
         await self.state.settle()
         own = {} if self.which.value == WRITTEN else {"design": await self._table()}
         return {"study": self.state.study | own, "folder": str(self.state.folder)}
 
-    def _show(self, result: dict[str, Any]) -> None:
+    def _show(self, result: Designed) -> None:
         objective, variable = next(iter(result["objectives"])), next(iter(result["values"]))
         units = {e.field: e.quantity["unit"] for e in inputs_of(self.state.study) if e.quantity}
         unit = units.get(variable.split("+")[0], "1")
@@ -217,7 +207,7 @@ class Search:
                 menu.set_options(options, value=menu.value if menu.value in options else None)
 
 
-def in_words(study: dict[str, Any], fields: list[str]) -> dict[str, str]:
+def in_words(study: dict[str, object], fields: list[str]) -> dict[str, str]:
     """Inputs by meaning and symbol; with their names where two have the same.
 
     >>> from ..examples import example
@@ -243,12 +233,10 @@ def meaning(column: str) -> str:
     return str(about(column).meaning) if column in COLUMNS else column
 
 
-def design_sentences(
-    result: dict[str, Any], units: dict[str, str], names: dict[str, str]
-) -> list[str]:
+def design_sentences(result: Designed, units: dict[str, str], names: dict[str, str]) -> list[str]:
     """The design that was found, in sentences."""
 
-    def one(name: str, value: Any) -> str:
+    def one(name: str, value: str | float) -> str:
         unit = units.get(name.split("+")[0], "1")
         return str(value) if isinstance(value, str) else str(engineering(value, unit))
 
@@ -261,8 +249,8 @@ def design_sentences(
     words = [f"Best: {', '.join(best)}."]
     if not result["feasible"]:
         words = [f"Nothing that was tried obeys the limits: {result['reason']}."]
-    for name, band in result["tolerance"].items():
-        low, high = (one(name, end) for end in band)
+    for name, ends in result["tolerance"].items():
+        low, high = (one(name, end) for end in ends)
         which = f" for {names.get(name, name)}" if len(result["tolerance"]) > 1 else ""
         words.append(f"Less than 5 % is lost{which} between {low} and {high}.")
     if result["at_bound"]:
@@ -272,7 +260,7 @@ def design_sentences(
     return words
 
 
-def _value(entry: Any) -> Any:
+def _value(entry: ui.input) -> object:
     return value_from(str(entry.value or ""))
 
 

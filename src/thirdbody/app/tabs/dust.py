@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 from nicegui import events, ui
@@ -16,13 +15,13 @@ from ...quantities.say import percent, value_of
 from ..bounds import LARGEST_TABLE, MOST_NUMBERS
 from ..entries import about_of
 from ..fields import text_of
-from ..figures import empty, figure, line, plain
+from ..figures import Figure, figure, line, plain
 from ..inputs import Inputs
 from ..solver import apart
 from ..state import Answer, State
 from ..text import with_micro, without_paths
 from ..uploads import take
-from ..widgets import facts, upload
+from ..widgets import facts, plot_place, upload
 from ..worker import counted
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
@@ -48,7 +47,7 @@ def dust_facts(dust: tb.Particles) -> list[tuple[str, str]]:
     ]
 
 
-def size_figure(contact: tb.Contact) -> dict[str, Any]:
+def size_figure(contact: tb.Contact) -> Figure:
     """Sizes of every population, by number and by volume."""
     traces = []
     for number, dust in enumerate(contact.populations):
@@ -73,7 +72,7 @@ STARTS = {
 KEPT = ("material", "name", "law")
 
 
-def begun(table: dict[str, Any], key: str, value: str) -> dict[str, Any]:
+def begun(table: dict[str, object], key: str, value: str) -> dict[str, object]:
     """A population given by another code or test dust; what goes with it is kept.
 
     >>> begun({"material": "SiO2", "mean": "1 um", "areal_density": 1e9}, "iso4406", "16/14/11")
@@ -100,7 +99,7 @@ class Dust:
             with ui.column().classes("w-full narrow"):
                 self._form()
             with ui.column().classes("w-full"):
-                self.plot = ui.plotly(empty(360)).classes("w-full").props('data-figure="sizes"')
+                self.plot = plot_place("sizes")
                 self.table = ui.column().classes("w-full")
 
     def _form(self) -> None:
@@ -117,19 +116,14 @@ class Dust:
         self.test.on_value_change(lambda e: self._use("test_dust", str(e.value or "")))
         self.wrong = ui.label().classes("problem").props('role=alert data-said="dust"')
         self.chooser = upload(
-            "sizes",
-            "Sizes from a particle counter",
-            max_file_size=LARGEST_TABLE,
-            max_files=1,
-            on_upload=self._uploaded,
-            on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
+            "sizes", "Sizes from a particle counter", LARGEST_TABLE, self._uploaded
         )
 
-    def _particles(self) -> dict[str, Any]:
+    def _particles(self) -> dict[str, object]:
         given = self.state.get(*Inputs.first_population(self.state))
         return given if isinstance(given, dict) else {"material": "SiO2"}
 
-    def _set_particles(self, table: dict[str, Any]) -> None:
+    def _set_particles(self, table: dict[str, object]) -> None:
         self.state.set(*Inputs.first_population(self.state), table, whole=True)
         self.again()
 
@@ -176,7 +170,7 @@ class Dust:
 
 def _figure_and_rows(
     answer: Answer,
-) -> tuple[dict[str, Any], list[tuple[str, list[tuple[str, str]]]]]:
+) -> tuple[Figure, list[tuple[str, list[tuple[str, str]]]]]:
     """The figure, and the numbers of each population."""
     contact = answer.contact
     told = [(dust.name or dust.material.name, dust_facts(dust)) for dust in contact.populations]

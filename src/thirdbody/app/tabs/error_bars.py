@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 from nicegui import ui
@@ -13,13 +12,27 @@ from ...analysis.inputs import words_of
 from ...analysis.uncertainty.inputs import KINDS, stated_ranges
 from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.critical_loads import CRITICAL
+from ...quantities.plain_data import plain_data
 from ...quantities.say import percent, value_of
 from ...views.plot.style import OKABE_ITO
-from ..figures import AXES, GREY, INKS, SCALES, empty, figure, json_numbers, line, mark, wrapped
+from ..figures import (
+    AXES,
+    GREY,
+    INKS,
+    SCALES,
+    Figure,
+    Part,
+    figure,
+    json_numbers,
+    line,
+    mark,
+    wrapped,
+)
 from ..inputs import Inputs
 from ..state import State
-from ..widgets import put
-from ..work import Work
+from ..widgets import plot_place, put
+from ..work import Asked, Work
+from ..worker import Bands
 from .outputs import bounded
 
 __all__ = ["TITLE", "band_figure", "build", "critical_figure", "results_of", "tornado_figure"]
@@ -48,18 +61,23 @@ def results_of(state: State) -> dict[str, str]:
     }
 
 
-def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
+def band_figure(found: Bands, load: str) -> Figure:
     """Bands between outer and inner quantiles, the median, and the study's own numbers."""
-    band = np.array([[np.nan if v is None else v for v in row] for row in found["bands"]])
+    band = np.array(found["bands"], float)
     scale = SCALES.get(load, 1.0)
     x = np.array(found["loads"]) * scale
     q = found["probabilities"]
     order = np.argsort(q)
-    traces: list[dict[str, Any]] = []
+    traces: list[Part] = []
     pairs = len(order) // 2
     for k in range(pairs):
         low, high = order[k], order[-1 - k]
-        plain = {"mode": "lines", "line": {"width": 0}, "type": "scatter", "x": json_numbers(x)}
+        plain: Part = {
+            "mode": "lines",
+            "line": {"width": 0},
+            "type": "scatter",
+            "x": json_numbers(x),
+        }
         traces.append(
             plain | {"y": json_numbers(band[:, low]), "showlegend": False, "hoverinfo": "skip"}
         )
@@ -74,7 +92,7 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
         )
     if len(order) % 2:
         traces.append(line(x, band[:, order[pairs]], "median", 0))
-    nominal = [np.nan if v is None else v for v in found["nominal"]]
+    nominal = np.array(found["nominal"], float)
     own = {"color": GREY, "dash": "dash"}
     traces.append(line(x, nominal, "this study", 1, line=own))
     positive = bool(np.nanmin(band) > 0) and not bounded([found["of"]])
@@ -87,26 +105,25 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
         ylog=positive,
         height=420,
     )
-    shape, _ = mark(found["at"] * scale, "", dash="solid")
-    made["layout"]["shapes"] = [shape]
+    made["layout"]["shapes"] = [mark(found["at"] * scale, "", dash="solid")[0]]
     return made
 
 
-def critical_figure(found: dict[str, Any]) -> dict[str, Any]:
+def critical_figure(found: Bands) -> Figure:
     """Each critical load as an interval, its median and the study's own; the load as a line."""
     names = [n if row[-1] else f"{n} (none)" for n, row in found["critical"].items()]
     rows = list(found["critical"].values())
     q = found["probabilities"]
-    traces: list[dict[str, Any]] = []
+    traces: list[Part] = []
     for k in range(len(q) // 2):
-        ends = [(row[k], row[len(q) - 1 - k]) for row in rows]
+        low, high = (np.array([row[i] for row in rows], float) for i in (k, len(q) - 1 - k))
         traces.append(
             {
                 "type": "bar",
                 "orientation": "h",
                 "y": names,
-                "base": [low for low, _ in ends],
-                "x": [None if None in pair else pair[1] - pair[0] for pair in ends],
+                "base": plain_data(low),
+                "x": plain_data(high - low),
                 "width": 0.3 + 0.3 * k,
                 "marker": {"color": f"rgba(0,114,178,{0.3 + 0.3 * k})"},
                 "name": f"{percent(q[-1 - k] - q[k])} of cases",
@@ -140,11 +157,11 @@ def critical_figure(found: dict[str, Any]) -> dict[str, Any]:
     return made
 
 
-def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
+def tornado_figure(found: Bands) -> Figure:
     """One bar an input, from its 5th to its 95th percentile; the strongest on top."""
     middle = found["nominal_at"]
     labels = list(found["tornado"])
-    traces = []
+    traces: list[Part] = []
     for side, (name, colour, pattern) in enumerate(
         (
             ("low end of the input", OKABE_ITO["blue"], ""),
@@ -211,11 +228,10 @@ class ErrorBars:
         self.of.on_value_change(lambda: self.work.tell(state))
         self.said = ui.label().props('data-fact="error bars"')
         self.box = ui.element("div").classes("figures w-full")
-        self.plots: dict[str, Any] = {}
+        self.plots: dict[str, ui.plotly] = {}
         with self.box:
             for name in ("bands", "tornado"):
-                self.plots[name] = ui.plotly(empty(380)).classes("w-full")
-                put(self.plots[name], {"data-figure": name})
+                self.plots[name] = plot_place(name, 380)
         self.box.set_visibility(False)
 
     def _renewed(self) -> None:
@@ -231,14 +247,14 @@ class ErrorBars:
             inputs.rest = ui.column().classes("w-full")
             inputs.tell()
 
-    def _inputs_and_ranges(self) -> Any:
+    def _inputs_and_ranges(self) -> object:
         return self.state.get("uncertainty", "inputs"), _ranges(self.state)
 
-    def _key(self) -> Any:
+    def _key(self) -> object:
         state = self.state
         return state.answer, state.get("uncertainty"), str(self.of.value), state.at
 
-    async def _ask(self) -> dict[str, Any] | None:
+    async def _ask(self) -> Asked | None:
         await self.state.settle()
         answer = self.state.answer
         if answer is None:
@@ -257,7 +273,7 @@ class ErrorBars:
             "samples": int(self.samples.value or 1024),
         }
 
-    def _show(self, result: dict[str, Any]) -> None:
+    def _show(self, result: Bands) -> None:
         critical = result["critical"]
         bands = critical_figure(result) if critical else band_figure(result, self.load)
         self.plots["bands"].update_figure(bands)
@@ -285,11 +301,11 @@ class ErrorBars:
         await self.work.tell(self.state)
 
 
-def _little(asked: dict[str, Any]) -> dict[str, Any]:
-    return asked | {"loads": asked["loads"][::4], "samples": 128}
+def _little(asked: Asked) -> Asked:
+    return asked | {"loads": np.array(asked["loads"])[::4].tolist(), "samples": 128}
 
 
-def _ranges(state: State) -> dict[str, dict[str, Any]]:
+def _ranges(state: State) -> dict[str, dict[str, float]]:
     """Ranges of the materials library, as a study file writes them."""
     if state.answer is None:
         return {}

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 from nicegui import ui
+from numpy.typing import ArrayLike
 
 from ...quantities.say import percent, prefixed, value_of
-from ..figures import INKS, empty, figure, fix, line
+from ..figures import INKS, Figure, Part, figure, line
 from ..state import Answer, State
 from ..text import with_micro
-from ..widgets import facts, put
-from ..work import Work
+from ..widgets import facts, plot_place, put
+from ..work import Asked, Work
+from ..worker import Pressing
 
 __all__ = ["TITLE", "build", "force_figure", "pressure_figure", "section_figure"]
 
@@ -26,7 +27,7 @@ CORNERS = 24
 NAMES = ("pressure", "section", "forces")
 
 
-def _circles(x: Any, y: Any, size: Any) -> tuple[np.ndarray, np.ndarray]:
+def _circles(x: ArrayLike, y: ArrayLike, size: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Circles of these diameters as one line with breaks."""
     turn = np.append(np.linspace(0, 2 * np.pi, CORNERS + 1), np.nan)
     radius = 0.5 * np.asarray(size, float)[:, None]
@@ -35,7 +36,7 @@ def _circles(x: Any, y: Any, size: Any) -> tuple[np.ndarray, np.ndarray]:
     return across.ravel(), along.ravel()
 
 
-def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
+def pressure_figure(found: Pressing) -> Figure:
     """Pressure on the surface, and the particles that carry in true size."""
     pressed = np.array(found["pressure"], float)
     top = max(float(pressed.max()), 1.0)
@@ -43,7 +44,7 @@ def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
     pressed *= shown / top
     step = 1e6 * found["spacing"]
     rows = [[round(v, 4) if v > 0 else None for v in row] for row in pressed.tolist()]
-    traces: list[dict[str, Any]] = [
+    traces: list[Part] = [
         {
             "type": "heatmap",
             "z": rows,
@@ -68,18 +69,19 @@ def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
     made = figure(
         traces, x="x [µm]", y="y [µm]", title=title, xlog=False, height=460, hovermode="closest"
     )
-    for axis, count in (("xaxis", pressed.shape[1]), ("yaxis", pressed.shape[0])):
-        fix(made, axis, [-0.5 * step, (count - 0.5) * step])
-        made["layout"][axis]["constrain"] = "domain"
-    made["layout"]["yaxis"]["scaleanchor"] = "x"
+    layout = made["layout"]
+    for axis, count in zip((layout["xaxis"], layout["yaxis"]), pressed.shape[::-1], strict=True):
+        axis |= {"range": [-0.5 * step, (count - 0.5) * step], "constrain": "domain"}
+    layout["yaxis"]["scaleanchor"] = "x"
     return made
 
 
-def section_figure(found: dict[str, Any]) -> dict[str, Any]:
+def section_figure(found: Pressing) -> Figure:
     """Through the particle that carries most: the deformed ground, and the flat above."""
     section = found["section"]
     along, before, deformed = (
-        1e9 * np.array(section[name], float) for name in ("along", "height", "deformed")
+        1e9 * np.array(each, float)
+        for each in (section["along"], section["height"], section["deformed"])
     )
     flat = np.full(len(along), 1e9 * found["h"])
     traces = [
@@ -90,9 +92,8 @@ def section_figure(found: dict[str, Any]) -> dict[str, Any]:
     if section["size"]:
         size = 1e9 * section["size"]
         x, y = _circles([0.0], [1e9 * section["seat"] + size / 2], [size])
-        style = {"fill": "toself", "line": {"dash": "solid"}}
         name = f"x = {value_of(section['size'], 'm', 3)}, {percent(section['share'])} of their load"
-        traces.append(line(x, y, name, 1, **style))
+        traces.append(line(x, y, name, 1, fill="toself", line={"dash": "solid"}))
         title = "The particle that carries most"
     else:
         title = "The highest pressure"
@@ -103,9 +104,9 @@ def section_figure(found: dict[str, Any]) -> dict[str, Any]:
     return made
 
 
-def force_figure(found: dict[str, Any]) -> dict[str, Any]:
+def force_figure(found: Pressing) -> Figure:
     """How many particles carry how much of the load."""
-    trace = {
+    trace: Part = {
         "type": "histogram",
         "x": [100 * share for share in found["carrying"]["share"]],
         "nbinsx": 30,
@@ -143,18 +144,17 @@ class Explicit:
             self.words = put(ui.label().classes("w-full"), {"data-fact": "explicit headline"})
             self.table = ui.row().classes("facts w-full")
             self.notes = ui.column().classes("w-full gap-1")
-            self.plots: dict[str, Any] = {}
+            self.plots: dict[str, ui.plotly] = {}
             with ui.element("div").classes("figures w-full"):
                 for name in NAMES:
-                    self.plots[name] = ui.plotly(empty(360)).classes("w-full")
-                    put(self.plots[name], {"data-figure": f"explicit {name}"})
+                    self.plots[name] = plot_place(f"explicit {name}")
         self.box.set_visibility(False)
 
-    def _key(self) -> Any:
+    def _key(self) -> object:
         answer = self.state.answer
         return None if answer is None else (answer.contact, answer.study.explicit, self.state.at)
 
-    async def _ask(self) -> dict[str, Any] | None:
+    async def _ask(self) -> Asked | None:
         await self.state.settle()
         if self.state.answer is None:
             self.work.fail("the study has a mistake; see its entries")
@@ -162,7 +162,7 @@ class Explicit:
         load = await self.state.ask(_load, self.state.at)
         return {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}
 
-    def _show(self, found: dict[str, Any]) -> None:
+    def _show(self, found: Pressing) -> None:
         self.box.set_visibility(True)
         self.words.set_text(found["headline"].replace("`", ""))
         self.table.clear()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 from nicegui import ui
@@ -17,18 +16,18 @@ from ...systems.film_formulas import Oil
 from ...views.film_words import point, summary
 from ...views.plot.film import OF_PARTICLES, bands_of
 from ..fields import Field, engineering, fields_of, number_field
-from ..figures import GREY, empty, figure, line, log_title, mark
+from ..figures import GREY, Figure, band, figure, line, log_title, mark
 from ..inputs import Inputs
 from ..sliders import Slider
 from ..state import Answer, State
 from ..text import with_micro
 from ..widgets import facts as named_values
-from ..widgets import put
+from ..widgets import plot_place, put
 
 __all__ = ["START", "TITLE", "build", "film_figures", "solved"]
 
 TITLE = "Film"
-START: dict[str, Any] = {
+START: dict[str, object] = {
     "load": "20 N",
     "speed": {"from": "5 mm/s", "to": "20 m/s", "points": 60, "spacing": "log"},
     "conjunction": {"shape": "point", "R": "9.5 mm"},
@@ -88,27 +87,13 @@ def _solved(answer: Answer) -> tuple[FilmResult, int]:
     return solved(answer.study)
 
 
-def film_figures(found: FilmResult, i: int) -> dict[str, dict[str, Any]]:
+def film_figures(found: FilmResult, i: int) -> dict[str, Figure]:
     """Three figures over speed, with the regimes behind the curves and the speed i marked."""
     states = found.states
     u = np.asarray(states["speed"], float)
     shapes, notes = [], []
     for low, high, word in bands_of(u, found.regime_speeds):
-        shapes.append(
-            {
-                "type": "rect",
-                "xref": "x",
-                "yref": "paper",
-                "x0": low,
-                "x1": high,
-                "y0": 0,
-                "y1": 1,
-                "fillcolor": GREY,
-                "opacity": SHADE[word],
-                "line": {"width": 0},
-                "layer": "below",
-            }
-        )
+        shapes.append(band(low, high, GREY, SHADE[word]) | {"layer": "below"})
         notes.append(log_title(mark(float(np.sqrt(low * high)), word)[1]))
     shapes.append(mark(float(u[i]), "", dash="solid")[0])
     out = {}
@@ -157,9 +142,9 @@ class Film:
         """What was found for the answer."""
         self.i = 0
         """The speed that is shown."""
-        self.there: Any = None
+        self.there: object = None
         """Which entries there are."""
-        self.plots: dict[str, Any] = {}
+        self.plots: dict[str, ui.plotly] = {}
         with ui.element("div").classes("figures w-full"):
             with ui.column().classes("w-full"):
                 self._form()
@@ -185,8 +170,7 @@ class Film:
         self.facts = ui.row().classes("facts w-full")
         self.words = ui.column().classes("w-full gap-0")
         for name in CURVES:
-            self.plots[name] = ui.plotly(empty(360)).classes("w-full")
-            put(self.plots[name], {"data-figure": name})
+            self.plots[name] = plot_place(name)
 
     def _show(self, found: FilmResult) -> None:
         """Facts and figures at the speed of the slider."""
@@ -276,7 +260,7 @@ def _entries(inputs: Inputs, state: State) -> None:
     )
 
 
-def _speed(inputs: Inputs, now: Any) -> None:
+def _speed(inputs: Inputs, now: object) -> None:
     """One speed, or a range."""
     if not isinstance(now, dict):
         said = "one value with its unit, or several with commas between"
@@ -300,7 +284,7 @@ def _removed(inputs: Inputs, state: State) -> None:
     inputs.change("film", None)
 
 
-def _shape(table: Any) -> Any:
+def _shape(table: object) -> object:
     """Which entries there are: the keys, without the numbers."""
     if not isinstance(table, dict):
         return table is None

@@ -138,7 +138,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
                 ui.label(name)
             with ui.element("dd"):
                 ui.label(meaning)
-    shown: dict[str, Any] = {"names": None}
+    shown: dict[str, object] = {"names": None}
 
     async def draw() -> None:
         assert state.answer is not None

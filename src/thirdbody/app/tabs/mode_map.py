@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 from nicegui import ui
+from nicegui.events import GenericEventArguments
 
+from ...contact.contact import Contact
 from ...equilibrium.words import MODES, mode_of
-from ..figures import MODE_FILLS, empty, figure
+from ..figures import MODE_FILLS, Figure, Part, figure
 from ..sizing import size_of, with_size
 from ..state import Answer, State
-from ..work import Work
+from ..widgets import plot_place
+from ..work import Asked, Work
+from ..worker import ModeMap
 
 __all__ = ["TITLE", "build", "map_figure"]
 
@@ -29,7 +32,7 @@ LITTLE = 3
 OUTSIDE = "The study lies outside this map: draw it again."
 
 
-def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[str, Any]:
+def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
     """The map as plain data, and where the study is."""
     colours = [MODE_FILLS[name] for name in MODES]
     scale = []
@@ -38,7 +41,7 @@ def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[
     index = [[None if v < 0 else v for v in row] for row in found["mode"]]
     names = [[None if v < 0 else MODES[v] for v in row] for row in found["mode"]]
     flipped = [list(column) for column in zip(*index, strict=True)]
-    traces: list[dict[str, Any]] = [
+    traces: list[Part] = [
         {
             "type": "heatmap",
             "x": found["sizes"],
@@ -82,7 +85,7 @@ def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[
     )
 
 
-def _here(size: float, load: float) -> dict[str, Any]:
+def _here(size: float, load: float) -> Part:
     """The study as a point of the map."""
     return {
         "type": "scatter",
@@ -114,7 +117,7 @@ def reach(here: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     return made[0], made[1]
 
 
-def inside(found: dict[str, Any], here: tuple[float, float] | None) -> bool:
+def inside(found: ModeMap, here: tuple[float, float] | None) -> bool:
     """Whether the study lies on the map."""
     if here is None:
         return True
@@ -122,13 +125,13 @@ def inside(found: dict[str, Any], here: tuple[float, float] | None) -> bool:
     return all(axis[0] <= value <= axis[-1] for axis, value in axes)
 
 
-def about_map(found: dict[str, Any]) -> str:
+def about_map(modes: list[list[int]]) -> str:
     """What is said of a map of one colour, and of one with empty places.
 
-    >>> about_map({"mode": [[2, 2], [2, -1]]})[:60]
+    >>> about_map([[2, 2], [2, -1]])[:60]
     'Everywhere on this map nearly all real contact is on asperit'
     """
-    every = [index for row in found["mode"] for index in row]
+    every = [index for row in modes for index in row]
     met, said = set(every) - {-1}, []
     if len(met) == 1:
         said.append(f"Everywhere on this map {mode_of(MODES[met.pop()])}.")
@@ -142,9 +145,9 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     ui.label(
         "Sizes are scaled as a whole, everything else stays. Every point is a solved state."
     ).classes("hint")
-    found: dict[str, Any] = {}
+    shown: ModeMap | None = None
 
-    async def ask() -> dict[str, Any] | None:
+    async def ask() -> Asked | None:
         await state.settle()  # what is shown belongs to the study as it is asked for
         answer = state.answer
         if answer is None or len(answer.contact.populations) != 1:
@@ -170,21 +173,16 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             return None
         return size_of(contact) / contact.roughness.sigma, await state.ask(_load, state.at)
 
-    async def show(result: dict[str, Any]) -> None:
-        found["map"] = result
+    async def show(result: ModeMap) -> None:
+        nonlocal shown
+        shown = result
         await draw()
 
-    def contact() -> Any:
+    def contact() -> Contact | None:
         return None if state.answer is None else state.answer.contact
 
-    def little(asked: dict[str, Any]) -> dict[str, Any]:
-        return asked | {
-            name: np.geomspace(asked[name][0], asked[name][-1], POINTS // LITTLE).tolist()
-            for name in ("sizes", "loads")
-        }
-
-    work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=little)
-    plot = ui.plotly(empty(520)).classes("w-full").props('data-figure="map"')
+    work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=_little)
+    plot = plot_place("map", 520)
     plot.set_visibility(False)
     only = ui.label().classes("hint").props('data-fact="map"')
 
@@ -193,20 +191,20 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         await draw()
 
     async def draw() -> None:
-        if "map" not in found or state.answer is None:
+        if shown is None or state.answer is None:
             return
         plot.set_visibility(True)
         place = await here()
-        if not inside(found["map"], place):
+        if not inside(shown, place):
             if work.preview:  # which is soon done again, for where the study is now
                 await work.again(state)
             else:
                 work.fail(OUTSIDE)
             place = None
-        only.set_text(about_map(found["map"]))
-        plot.update_figure(map_figure(found["map"], place))
+        only.set_text(about_map(shown["mode"]))
+        plot.update_figure(map_figure(shown, place))
 
-    def clicked(event: Any) -> None:
+    def clicked(event: GenericEventArguments) -> None:
         points = (event.args or {}).get("points") or []
         if not points or state.answer is None:
             return
@@ -220,15 +218,25 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     return tell
 
 
+def _little(asked: Asked) -> Asked:
+    few = {}
+    for name in ("sizes", "loads"):
+        every = np.array(asked[name], float)
+        few[name] = np.geomspace(every[0], every[-1], POINTS // LITTLE).tolist()
+    return asked | few
+
+
 def _load(answer: Answer, at: float) -> float:
     return float(answer.solve(at).F_star)
 
 
-def _same_map(one: Any, other: Any) -> bool:
+def _same_map(one: object, other: object) -> bool:
     """Whether two contacts have one map: sizes are scaled in it."""
     if one == other:
         return True
-    if one is None or other is None or {len(c.populations) for c in (one, other)} != {1}:
+    if not (isinstance(one, Contact) and isinstance(other, Contact)):
+        return False
+    if {len(c.populations) for c in (one, other)} != {1}:
         return False
     (a,), (b,) = one.populations, other.populations
     scaled = b.diameter.scaled(a.diameter.mean_diameter / b.diameter.mean_diameter)

@@ -6,7 +6,6 @@ import re
 import textwrap
 from collections.abc import Awaitable, Callable
 from itertools import takewhile
-from typing import Any
 
 import numpy as np
 from nicegui import ui
@@ -14,7 +13,7 @@ from nicegui import ui
 from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.columns import about
 from ...quantities.say import prefixed, value_of
-from ..figures import AXES, SCALES, clipped, figure, line, mark, plain, symbol, wrapped
+from ..figures import AXES, SCALES, Figure, clipped, figure, line, mark, plain, symbol, wrapped
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..widgets import Plot, show_figures
@@ -42,11 +41,9 @@ HEIGHT, LINE = 330, 19
 """Pixels of a figure, and more for each line of its legend."""
 
 
-def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
+def output_figures(answer: Answer, at: float) -> dict[str, Figure]:
     """A figure for each output and unit of its columns."""
-    out: dict[str, dict[str, Any]] = {}
-    load = answer.load
-    scale = SCALES.get(load, 1.0)
+    out: dict[str, Figure] = {}
     for output in answer.contact.outputs:
         units: dict[str, list[str]] = {}
         for column, told in output.columns.items():
@@ -54,17 +51,16 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
         for unit, columns in units.items():
             what = quantity_of(columns, unit)
             title = str(output.title) if len(units) == 1 else f"{output.title}: {what}"
-            made = _figure(answer, columns, unit, what, AXES[load], scale)
-            made["layout"]["title"]["text"] = wrapped(title, WIDE)
+            made = _figure(answer, columns, unit, what, wrapped(title, WIDE))
+            scale = SCALES.get(answer.load, 1.0)
             made["layout"]["shapes"] = [mark(at * scale, "", dash="solid")[0]]
             out[f"{output.name} [{unit}]"] = made
     return out
 
 
-def _figure(
-    answer: Answer, columns: list[str], unit: str, what: str, x: str, scale: float
-) -> dict[str, Any]:
+def _figure(answer: Answer, columns: list[str], unit: str, what: str, title: str) -> Figure:
     """Columns of one unit over the load, in the prefix of their largest value."""
+    scale = SCALES.get(answer.load, 1.0)
     values = [np.asarray(answer.curves.outputs[column], dtype=float) for column in columns]
     every = np.concatenate(values)
     every = every[np.isfinite(every) & (every != 0)]
@@ -78,7 +74,8 @@ def _figure(
             line(answer.loads * scale, y / size, each, i)
             for i, (y, each) in enumerate(zip(values, names, strict=True))
         ],
-        x=x,
+        x=AXES[answer.load],
+        title=title,
         y=wrapped(what + (f" [{name}]" if name else ""), WIDE),
         xlog=answer.load != "d",
         ylog=bool(wide) and not bounded(columns),
@@ -164,9 +161,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     return draw
 
 
-def _figures_and_rows(
-    answer: Answer, at: float
-) -> tuple[dict[str, dict[str, Any]], list[dict[str, Any]]]:
+def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], list[dict[str, str]]]:
     """The figures, and the rows of the table."""
     rows = [
         {
@@ -180,7 +175,7 @@ def _figures_and_rows(
     return output_figures(answer, at), rows
 
 
-def _table(rows: list[dict[str, Any]], place: Any) -> None:
+def _table(rows: list[dict[str, str]], place: ui.element) -> None:
     place.clear()
     with place:
         if not rows:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import cast
 
 import numpy as np
 from nicegui import background_tasks, events, ui
@@ -13,13 +13,15 @@ from ...errors import InvalidValue
 from ...quantities.say import number, value_of
 from ...quantities.units import to_si
 from ..fields import value_from
-from ..figures import empty, figure, line, mark
+from ..figures import Figure, Part, figure, line, mark
 from ..guard import LARGEST_UPLOAD
 from ..state import State, missing
 from ..text import with_micro
 from ..uploads import take
-from ..widgets import facts, put, upload
-from ..work import Work
+from ..widgets import facts, plot_place, put, upload
+from ..work import Asked, Work
+from ..worker import Reading
+from ..worker import Surface as Found
 
 __all__ = ["TITLE", "build", "options_from"]
 
@@ -28,7 +30,7 @@ SECONDS = 60.0
 """A file that takes longer to read is refused."""
 
 
-def options_from(texts: dict[str, str]) -> dict[str, Any]:
+def options_from(texts: dict[str, str]) -> Reading:
     """What `from_topography` is told, from what was written.
 
     Raises
@@ -36,7 +38,7 @@ def options_from(texts: dict[str, str]) -> dict[str, Any]:
     InvalidValue
         A length that cannot be read.
     """
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     problems: list[str] = []
     for name in ("cutoff", "resolution"):
         if texts.get(name):
@@ -54,7 +56,7 @@ def options_from(texts: dict[str, str]) -> dict[str, Any]:
             out[name] = texts[name]
     if problems:
         raise InvalidValue(*problems)
-    return out
+    return cast(Reading, out)
 
 
 ENTRIES = (
@@ -81,7 +83,7 @@ class Surface:
         self.file = "example"
         self.asked: dict[str, str] = {}
         """How the file was read that is shown."""
-        self.result: dict[str, Any] = {}
+        self.result: Found | None = None
         self.followed: dict[str, str] = {}
         """What the address told last, or was told."""
         ui.label(
@@ -90,7 +92,7 @@ class Surface:
             f"process of its own, which is stopped after {value_of(SECONDS, 's')}."
         ).classes("hint")
         self._chooser()
-        self.texts: dict[str, Any] = {}
+        self.texts: dict[str, ui.input | ui.select] = {}
         with ui.row().classes("w-full gap-3"):
             self._options()
         self.work = Work(
@@ -109,10 +111,9 @@ class Surface:
             self.chooser = upload(
                 "surface",
                 "Drop a file",
-                max_file_size=LARGEST_UPLOAD,
-                max_files=1,
-                on_upload=self._uploaded,
-                on_rejected=lambda: self.work.said.set_text(
+                LARGEST_UPLOAD,
+                self._uploaded,
+                refused=lambda: self.work.said.set_text(
                     f"the file is larger than {LARGEST_UPLOAD // 2**20} MB, or not one file"
                 ),
             )
@@ -132,17 +133,16 @@ class Surface:
             for label, name in TAKEN:
                 button = ui.button(label, icon="input", on_click=lambda _, n=name: self._take(n))
                 put(button.props("no-caps"), {"data-take": name})
-        self.plots: dict[str, Any] = {}
+        self.plots: dict[str, ui.plotly] = {}
         with ui.element("div").classes("figures w-full"):
             for name in ("heights", "rms_gradient", "R", "eta"):
-                self.plots[name] = ui.plotly(empty(360)).classes("w-full")
-                put(self.plots[name], {"data-figure": f"surface-{name}"})
+                self.plots[name] = plot_place(f"surface-{name}")
 
     # ------------------------------------------------------------------ what happens
     def _written(self) -> dict[str, str]:
         return {name: str(w.value or "") for name, w in self.texts.items()}
 
-    def _key(self) -> Any:
+    def _key(self) -> object:
         return self.file, self._written()
 
     def _reading(self) -> dict[str, str]:
@@ -191,7 +191,7 @@ class Surface:
         self.chooser.reset()
         await self.work.run()
 
-    def _ask(self) -> dict[str, Any] | None:
+    def _ask(self) -> Asked | None:
         try:
             options = options_from(self._written())
         except InvalidValue as error:
@@ -203,7 +203,7 @@ class Surface:
         self.state.tell()
         return {"file": self.file, "options": options}
 
-    def _show(self, result: dict[str, Any]) -> None:
+    def _show(self, result: Found) -> None:
         self.result = result
         self.plots["heights"].update_figure(height_figure(result))
         for name in ("R", "eta", "rms_gradient"):
@@ -218,20 +218,21 @@ class Surface:
         self.box.set_visibility(True)
 
     def _take(self, what: str) -> None:
+        assert self.result is not None
         used = self.result["used"]
         if what == "file":
             # as it was read, not as it may be written by now
             asked = {name: value_from(text) for name, text in self.asked.items()}
-            asked.pop("resolution")
-            rough = {"topography": Path(self.file).name} | {k: v for k, v in asked.items() if v}
+            kept = {k: v for k, v in asked.items() if v and k != "resolution"}
+            rough: dict[str, object] = {"topography": Path(self.file).name} | kept
         else:
-            rough = {key: used[key] for key in ("sigma", "R", "alpha", "eta")}
+            rough = {k: v for k, v in used.items() if k in ("sigma", "R", "alpha", "eta")}
         self.state.set("roughness", rough)
         self.again()
         ui.notify("The roughness of the study is that of this surface now.")
 
 
-def surface_numbers(result: dict[str, Any]) -> dict[str, str]:
+def surface_numbers(result: Found) -> dict[str, str]:
     """A measured surface in numbers."""
     used = result["used"]
     return {
@@ -246,7 +247,7 @@ def surface_numbers(result: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def height_figure(found: dict[str, Any]) -> dict[str, Any]:
+def height_figure(found: Found) -> Figure:
     """Heights as a map or a line."""
     picture = found["picture"]
     heights = np.array(picture["heights"], dtype=float) * 1e9
@@ -257,7 +258,7 @@ def height_figure(found: dict[str, Any]) -> dict[str, Any]:
             [line(x, heights, "height")], x="x [µm]", y="height [nm]", title="Heights", xlog=False
         )
     rows = [[None if not np.isfinite(v) else round(v, 2) for v in row] for row in heights.T]
-    trace = {
+    trace: Part = {
         "type": "heatmap",
         "z": rows,
         "x0": 0,
@@ -281,21 +282,20 @@ LABELS = {
 }
 
 
-def cutoff_figure(found: dict[str, Any], name: str) -> dict[str, Any]:
+def cutoff_figure(found: Found, name: str) -> Figure:
     """One quantity against the cut-off, the cut-off used marked."""
     label, columns, size = LABELS[name]
     curve = found["curve"]
-    x = np.array([np.nan if v is None else v for v in curve["cutoff"]], dtype=float)
+    x = np.array(curve["cutoff"], float)
     known = x > 0
     traces = []
     for i, column in enumerate(columns):
-        y = np.array([np.nan if v is None else v for v in curve[column]], dtype=float) / size
+        y = np.array(curve[column], float) / size
         words = "counted" if column.endswith("_counted") else "from moments"
         traces.append(
             line(x[known] * 1e6, y[known], words, i, mode="lines+markers", marker={"size": 7})
         )
     made = figure(traces, x="cut-off [µm]", y=label, title=label.split(" [")[0], ylog=True)
-    if found["used"]["cutoff"]:
-        shape, _ = mark(1e6 * found["used"]["cutoff"], "")
-        made["layout"]["shapes"] = [shape]
+    if cutoff := found["used"]["cutoff"]:
+        made["layout"]["shapes"] = [mark(1e6 * cutoff, "")[0]]
     return made

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from nicegui import events, ui
 
@@ -96,15 +95,14 @@ class TakeAway:
             self.chooser = upload(
                 "study",
                 "Open a study file",
-                max_file_size=LONGEST_STUDY,
-                max_files=1,
-                on_upload=self._uploaded,
-                on_rejected=lambda: self.said.set_text("the file is too large for a study"),
+                LONGEST_STUDY,
+                self._uploaded,
+                refused=lambda: self.said.set_text("the file is too large for a study"),
             ).props('accept=".toml,text/plain"')
         self.problems = ui.column().classes("w-full")
 
     # ------------------------------------------------------------------ what happens
-    def _use(self, study: dict[str, Any]) -> None:
+    def _use(self, study: dict[str, object]) -> None:
         self.state.replace(study)
         self.again()
 

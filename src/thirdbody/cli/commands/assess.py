@@ -2,47 +2,43 @@
 
 from __future__ import annotations
 
-import json
-import sys
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from ..options import AsJson, Force, Settings, read_study
+from ..options import AsJson, Force, Settings, argument, option, read_study
 from ..show import terminal
+from ..streams import print_json, tell_written
 
 __all__ = ["command"]
 
 
-def command(
-    study: Annotated[
-        Path,
-        typer.Argument(
-            metavar="STUDY.toml", help="A study file; its table [uncertainty] says what scatters."
-        ),
-    ],
-    as_json: AsJson = False,
-    html_file: Annotated[
-        Path | None,
-        typer.Option("--html", metavar="FILE", help="Write the page with figures, one file."),
-    ] = None,
-    force: Force = False,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path = argument(
+        "A study file; its table [uncertainty] says what scatters.", "STUDY.toml"
+    )
+    as_json: AsJson = False
+    html: Path | None = option("--html", "Write the page with figures, one file.", "FILE")
+    force: Force = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """One page: the mode at each operating load, how sure it is, and what would change it."""
     from ...quantities.files import write_text
     from ...study.analyses import assess_study
     from ...views.assess_page import page
     from ..own_files import need_places
 
-    asked = read_study(study, settings, writes=[html_file])
-    need_places([(html_file, "page")], force=force)
+    asked = read_study(options.study, options.settings, writes=[options.html])
+    need_places([(options.html, "page")], force=options.force)
     answer = assess_study(asked, progress=True)
-    if html_file is not None:
-        write_text(html_file, page(answer))
-        print(f"written: {html_file}", file=sys.stderr)
-    if as_json:
-        print(json.dumps(answer.to_dict(), indent=1, allow_nan=False))
+    if options.html is not None:
+        write_text(options.html, page(answer))
+        tell_written(options.html)
+    if options.as_json:
+        print_json(answer.to_dict())
     else:
         terminal().print(answer.page("--json or --html FILE tells all"))

@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
-import sys
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ...equilibrium.words import load_of
 from ...errors import InvalidValue, NoEquilibrium
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
-from ..options import Force, ParquetFile, Settings, StudyFile, XlsxFile, not_a_folder, read_study
+from ..options import (
+    Force,
+    ParquetFile,
+    Settings,
+    StudyFile,
+    XlsxFile,
+    not_a_folder,
+    option,
+    read_study,
+)
 from ..show import terminal
-from ..streams import TableFiles, warn, warn_of
+from ..streams import TableFiles, tell_written, warn, warn_of
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ...analysis.compare import Comparison
+    from ...equilibrium.load import ForceLoad
+    from ...study import Study
 
 __all__ = ["command"]
 
@@ -37,67 +49,60 @@ DROP = ("elastic", "el.-plastic", "diff. of d/sigma", "F/A_t", "particles' load"
 PLACES = ("start", "middle", "end")
 
 
-def command(
-    study: StudyFile,
-    names: Annotated[
-        str | None,
-        typer.Option(
-            "--laws",
-            metavar="NAMES",
-            help='Asperity laws, e.g. ke,jg, or "all"; without it all but adhesive and elliptic.',
-        ),
-    ] = None,
-    at: Annotated[
-        str, typer.Option("--at", help=f"Which load the table shows: {', '.join(PLACES)}.")
-    ] = "middle",
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", help="Folder for compare.csv, .png and .svg."),
-    ] = None,
-    csv_file: Annotated[
-        Path | None,
-        typer.Option("--csv", metavar="FILE", help="Write a row for each law and load."),
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: StudyFile
+    names: str | None = option(
+        "--laws",
+        'Asperity laws, e.g. ke,jg, or "all"; without it all but adhesive and elliptic.',
+        "NAMES",
+    )
+    at: str = option("--at", f"Which load the table shows: {', '.join(PLACES)}.", default="middle")
+    out: Path | None = option("--out", "Folder for compare.csv, .png and .svg.", "DIR")
+    csv: Path | None = option("--csv", "Write a row for each law and load.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """The interface of a study under every asperity law, against the law the study names."""
     from ...analysis.compare import Persson, compared
     from ..own_files import refuse_strangers
 
     problems = []
-    if at not in PLACES:
-        problems.append(f"--at {at} must be one of {', '.join(PLACES)}")
-    problems += not_a_folder(out)
+    if options.at not in PLACES:
+        problems.append(f"--at {options.at} must be one of {', '.join(PLACES)}")
+    problems += not_a_folder(options.out)
     if problems:
         raise InvalidValue(*problems)
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    asked = read_study(study, settings, writes=[*files, *_of_folder(out)])
-    files.need(force=force)
-    if not force:
-        refuse_strangers(out, "compare.csv", "compare.png", "compare.svg")
+    files = TableFiles(options.csv, options.xlsx, options.parquet)
+    asked = read_study(options.study, options.settings, writes=[*files, *_of_folder(options.out)])
+    files.need(force=options.force)
+    if not options.force:
+        refuse_strangers(options.out, "compare.csv", "compare.png", "compare.svg")
     with heartbeat("compare"):
-        found = compared(asked.contact, **_equal_loads(asked), laws=_words(names))
+        found = compared(asked.contact, **_equal_loads(asked), laws=_words(options.names))
     warn_of(filter(None, found.attrs["warnings"].splitlines()))
     reasons = found.columns["status"]
     of_laws = [law != Persson.name for law in found.laws]
     if not (reasons[of_laws] == "ok").any():
         raise NoEquilibrium(f"{reasons[0, 0]} (and so under every law)")
     order = found.loads["F_star"].argsort()
-    index = int(order[{"start": 0, "middle": len(order) // 2, "end": -1}[at]])
+    index = int(order[{"start": 0, "middle": len(order) // 2, "end": -1}[options.at]])
     # the files first: a table on the screen says that all is done
     written: list[Path] = []
-    if out is not None:
+    if options.out is not None:
         from ...views.comparison import save
 
-        written = save(found.dataset(), out, at=index, force=force)
+        written = save(found.dataset(), options.out, at=index, force=options.force)
     files.write(*found.flat())
     written += files.paths
     _show_comparison(asked.title, found, index)
-    for path in written:
-        print(f"written: {path}", file=sys.stderr)
+    tell_written(*written)
 
 
 def _of_folder(out: Path | None) -> list[Path]:
@@ -115,12 +120,14 @@ def _words(names: str | None) -> list[str] | None:
     return list(asperity.REGISTRY) if words == ["all"] else words
 
 
-def _equal_loads(asked: Any) -> dict[str, Any]:
+def _equal_loads(asked: Study) -> ForceLoad[NDArray[np.float64]]:
     """The loads of a study; F* under its own law where it gives separations."""
     import numpy as np
 
+    from ...equilibrium.load import as_force_load
+
     if asked.load != "separation":
-        return {asked.load: asked.values}
+        return as_force_load(asked.load, asked.values)
     loads = np.asarray(asked.solve().F_star)
     loads = loads[np.isfinite(loads) & (loads > 0)]
     if not len(loads):

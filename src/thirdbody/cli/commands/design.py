@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import sys
 from contextlib import nullcontext
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, number, percent, value_of
 from ...quantities.tables import Table
-from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, read_study
+from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, argument, option, read_study
 from ..show import MOST_ROWS, some, terminal
-from ..streams import STDOUT, TableFiles, figure_format, warn_of, write_figure
+from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...analysis.design.design import Best
@@ -23,30 +22,29 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 
-def command(
-    study: Annotated[
-        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [design].")
-    ],
-    json_file: JsonFile = None,
-    csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write every point tried.")
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", metavar="FILE", help="Draw the points tried.")
-    ] = None,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path = argument("A study file with a table [design].", "STUDY.toml")
+    json: JsonFile = None
+    csv: Path | None = option("--csv", "Write every point tried.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    figure: Path | None = option("--figure", "Draw the points tried.", "FILE")
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
     from ...study.analyses import design_study
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    asked = read_study(study, settings, writes=[*files.paths, figure])
-    files.need(figure, force=force)
-    if figure is not None:
-        figure_format(figure)  # refused before long work
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
+    files.need(options.figure, force=options.force)
+    if options.figure is not None:
+        figure_format(options.figure)  # refused before long work
     bar = sys.stderr.isatty()
     with nullcontext() if bar else heartbeat("design"):
         best = design_study(asked, progress=bar)
@@ -54,13 +52,12 @@ def command(
     columns = {name: each.values.tolist() for name, each in best.of_points.items()}
     units = {name: each.about.get("units", "") for name, each in best.of_points.items()}
     files.write(columns, units, data=lambda: {"title": asked.title, **best.to_dict()})
-    for path in files.paths:
-        print(f"written: {path}", file=sys.stderr)
-    if figure is not None:
+    tell_written(*files.paths)
+    if options.figure is not None:
         from ...views.plot.design import plot_trials
 
-        write_figure(figure, plot_trials(best))
-    if json_file != STDOUT:
+        write_figure(options.figure, plot_trials(best))
+    if options.json != STDOUT:
         _page(asked, best)
 
 

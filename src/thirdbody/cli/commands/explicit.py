@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import sys
 from contextlib import nullcontext
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
@@ -15,79 +16,76 @@ from ...quantities.plain_data import plain_data
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, Settings, StudyFile, not_a_folder, read_study
+from ..options import AsJson, Settings, StudyFile, not_a_folder, option, read_study
 from ..show import terminal
-from ..streams import NO_ANSWER, TableFiles, warn, warn_of, write_figure
+from ..streams import NO_ANSWER, TableFiles, print_json, tell_written, warn, warn_of, write_figure
 
 __all__ = ["command"]
 
 MAPS = ("last", "all")
 
 
-def command(
-    study: StudyFile,
-    surfaces: Annotated[
-        int | None, typer.Option("--surfaces", help="How many synthetic surfaces.")
-    ] = None,
-    size: Annotated[
-        int | None, typer.Option("--size", help="Points along each side of a surface.")
-    ] = None,
-    spacing: Annotated[
-        str | None, typer.Option("--spacing", metavar="LENGTH", help='Of the points: "100 nm".')
-    ] = None,
-    seats: Annotated[
-        str | None,
-        typer.Option("--seats", help="Where particles lie, e.g. random, settled, valleys."),
-    ] = None,
-    maps: Annotated[str, typer.Option("--maps", metavar="last|all", help="Maps to keep.")] = "last",
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out", metavar="DIR", help="Folder for states.csv, maps.nc, explicit.png and .json."
-        ),
-    ] = None,
-    workers: Annotated[
-        int, typer.Option("--workers", metavar="N", help="Threads that press a surface each.")
-    ] = 1,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            "--scheduler", metavar="ADDRESS", help="A Dask cluster that presses them instead."
-        ),
-    ] = None,
-    as_json: AsJson = False,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: StudyFile
+    surfaces: int | None = option("--surfaces", "How many synthetic surfaces.")
+    size: int | None = option("--size", "Points along each side of a surface.")
+    spacing: str | None = option("--spacing", 'Of the points: "100 nm".', "LENGTH")
+    seats: str | None = option("--seats", "Where particles lie, e.g. random, settled, valleys.")
+    maps: str = option("--maps", "Maps to keep.", "last|all", default="last")
+    out: Path | None = option(
+        "--out", "Folder for states.csv, maps.nc, explicit.png and .json.", "DIR"
+    )
+    workers: int = option("--workers", "Threads that press a surface each.", "N", default=1)
+    scheduler: str | None = option(
+        "--scheduler", "A Dask cluster that presses them instead.", "ADDRESS"
+    )
+    as_json: AsJson = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """The loads of a study on maps of heights, with every particle at its place."""
     from ...quantities.run_files import release_folder
     from ...study.run_explicit import claim_results, run_explicit
 
-    _check(maps, workers, out)
-    short = {"surfaces": surfaces, "size": size, "spacing": spacing, "seats": seats}
+    _check(options.maps, options.workers, options.out)
+    short = {
+        "surfaces": options.surfaces,
+        "size": options.size,
+        "spacing": options.spacing,
+        "seats": options.seats,
+    }
     own = [
         f"explicit.{name}={json.dumps(value)}" for name, value in short.items() if value is not None
     ]
-    asked = read_study(study, [*(settings or ()), *own])
-    if out is not None:
-        claim_results(out, asked, maps=maps)
-    kept = None if out is None else out / "surfaces"
+    asked = read_study(options.study, [*(options.settings or ()), *own])
+    if options.out is not None:
+        claim_results(options.out, asked, maps=options.maps)
+    kept = None if options.out is None else options.out / "surfaces"
     # a measured surface is one: nothing counts it
     bar = sys.stderr.isatty() and len(asked.faces) != 1
     try:
         with nullcontext() if bar else heartbeat("explicit"):
             result = run_explicit(
-                asked, folder=kept, workers=workers, scheduler=scheduler, progress=bar,
-                maps=maps,  # type: ignore[arg-type]
-            )  # fmt: skip
+                asked,
+                folder=kept,
+                workers=options.workers,
+                scheduler=options.scheduler,
+                progress=bar,
+                maps=options.maps,  # type: ignore[arg-type]
+            )
     except BaseException:
-        if out is not None:
-            release_folder(out)
+        if options.out is not None:
+            release_folder(options.out)
         raise
     warn_of(result.data["warnings"][len(asked.notes) :])
-    if out is not None:
-        _write(out, result)
-    if as_json:
-        print(json.dumps(plain_data(result.data), indent=1, allow_nan=False))
+    if options.out is not None:
+        _write(options.out, result)
+    if options.as_json:
+        print_json(plain_data(result.data))
     else:
         _show(result.data)
     if not result.converged:
@@ -115,7 +113,7 @@ def _write(out: Path, result: Any) -> None:
         out / "explicit.json", json.dumps(plain_data(result.data), indent=1, allow_nan=False) + "\n"
     )
     for name in ("states.csv", "maps.nc", "explicit.json"):
-        print(f"written: {out / name}", file=sys.stderr)
+        tell_written(out / name)
     write_figure(out / "explicit.png", explicit(result.state))
 
 

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-import sys
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import FilterText, Force, JsonFile, ParquetFile, Settings, XlsxFile, read_study
+from ..options import (
+    FilterText,
+    Force,
+    JsonFile,
+    ParquetFile,
+    Settings,
+    XlsxFile,
+    argument,
+    option,
+    read_study,
+)
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import STDOUT, TableFiles, figure_format, warn_of, write_figure
+from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...study import FilmResult
@@ -36,42 +44,41 @@ DROP = ("lambda", "on film")
 """Columns in the order in which they go where the width is small."""
 
 
-def command(
-    study: Annotated[
-        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [film].")
-    ],
-    json_file: JsonFile = None,
-    csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per speed.")
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", metavar="FILE", help="Draw the curve over speed.")
-    ] = None,
-    filter_text: FilterText = None,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path = argument("A study file with a table [film].", "STUDY.toml")
+    json: JsonFile = None
+    csv: Path | None = option("--csv", "Write one row per speed.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    figure: Path | None = option("--figure", "Draw the curve over speed.", "FILE")
+    filter_text: FilterText = None
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
     from ...study.dirty_oil import dirty_oil, need_particles, read_filter
 
-    fine = None if filter_text is None else read_filter(filter_text)
-    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    asked = read_study(study, settings, writes=[*files.paths, figure])
+    fine = None if options.filter_text is None else read_filter(options.filter_text)
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
     if fine is not None:
         need_particles(asked)
-    files.need(figure, force=force)
-    if figure is not None:
-        figure_format(figure)  # refused before long work
+    files.need(options.figure, force=options.force)
+    if options.figure is not None:
+        figure_format(options.figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(asked)
         oil = dirty_oil(asked)
         filtered = None if fine is None else dirty_oil(asked, filter=fine)
     warn_of(result.run_warnings)
     drawn = None
-    if figure is not None:
+    if options.figure is not None:
         from ...views.plot.film import stribeck
 
         drawn = stribeck(result.states, result.regime_speeds)
@@ -80,11 +87,10 @@ def command(
         sheets=partial(_sheets, result, oil, filtered),
         data=partial(_data, result, oil, filtered),
     )
-    for path in files.paths:
-        print(f"written: {path}", file=sys.stderr)
-    if figure is not None:
-        write_figure(figure, drawn)
-    if json_file != STDOUT:
+    tell_written(*files.paths)
+    if options.figure is not None and drawn is not None:
+        write_figure(options.figure, drawn)
+    if options.json != STDOUT:
         _show(result, oil, filtered)
 
 

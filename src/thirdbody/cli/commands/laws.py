@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -13,6 +12,8 @@ from ..show import terminal, usual
 
 if TYPE_CHECKING:
     from ...study.fields import Declaration
+
+from ..streams import print_json
 
 __all__ = ["command"]
 
@@ -41,7 +42,7 @@ def command(
         kind: [_about_law(law) for law in registry.values()] for kind, registry in kinds.items()
     }
     if as_json:
-        print(json.dumps(found, indent=1, allow_nan=False))
+        print_json(found)
         return
     console = terminal()
     for kind, entries in found.items():

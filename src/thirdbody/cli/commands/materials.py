@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,6 +12,7 @@ from ...quantities.say import number
 from ...quantities.tables import Table
 from ..options import AsJson
 from ..show import terminal
+from ..streams import print_json
 
 __all__ = ["command"]
 
@@ -41,7 +41,7 @@ def command(
     every = library.entries()
     entries = {name: every[name] for name in library.search(asked)}
     if as_json:
-        print(json.dumps(entries, indent=1, allow_nan=False))
+        print_json(entries)
         return
     if not entries:
         kinds = dict.fromkeys(entry.get("kind", "") for entry in every.values())

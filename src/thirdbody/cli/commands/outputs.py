@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Annotated
 
 import typer
@@ -11,6 +10,7 @@ from ...quantities.say import unit_of
 from ...quantities.tables import Table
 from ..options import AsJson
 from ..show import terminal, usual
+from ..streams import print_json
 
 __all__ = ["command"]
 
@@ -32,7 +32,7 @@ def command(
         print(outputs_page(), end="")
         return
     if as_json:
-        print(json.dumps(entries(), indent=1, allow_nan=False))
+        print_json(entries())
         return
     console = terminal()
     for entry in entries():

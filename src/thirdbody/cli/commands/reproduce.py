@@ -4,45 +4,47 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING
 
 from ...errors import InvalidValue
 from ...papers import PAPERS
-from ..options import not_a_folder
+from ..options import argument, not_a_folder, option
+
+if TYPE_CHECKING:
+    from rich.progress import TaskID
 
 __all__ = ["command"]
 
 
-def command(
-    paper: Annotated[str, typer.Argument(help=f"One of: {', '.join(PAPERS)}.")],
-    out: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Folder for figures and ledger.")
-    ] = None,
-    preset: Annotated[
-        str | None,
-        typer.Option(
-            "--preset",
-            metavar="NAME",
-            help="Reading that draws the figures of horng2022; quick: a minute of explicit.",
-        ),
-    ] = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    paper: str = argument(f"One of: {', '.join(PAPERS)}.")
+    out: Path | None = option("--out", "Folder for figures and ledger.", "DIR")
+    preset: str | None = option(
+        "--preset",
+        "Reading that draws the figures of horng2022; quick: a minute of explicit.",
+        "NAME",
+    )
+
+
+def command(options: Options) -> None:
     """Every figure and the ledger of claims of a paper."""
     from importlib import import_module
 
     problems = []
-    if paper not in PAPERS:
-        problems.append(f"paper = {paper!r} must be one of {', '.join(PAPERS)}")
-    folder = out or Path(paper)
+    if options.paper not in PAPERS:
+        problems.append(f"paper = {options.paper!r} must be one of {', '.join(PAPERS)}")
+    folder = options.out or Path(options.paper)
     problems += not_a_folder(folder)
     if problems:
         raise InvalidValue(*problems)
-    study = import_module(f"thirdbody.papers.{paper}")
+    study = import_module(f"thirdbody.papers.{options.paper}")
     with _Progress() as progress:
-        chosen = {} if preset is None else {"preset": preset}
+        chosen = {} if options.preset is None else {"preset": options.preset}
         done = study.reproduce(folder, progress=progress, **chosen)
     for line in done.lines():
         print(line)
@@ -53,7 +55,7 @@ class _Progress:
 
     def __enter__(self) -> Callable[[str, int, int], None]:
         self.bar = None
-        self.tasks: dict[str, Any] = {}
+        self.tasks: dict[str, TaskID | None] = {}
         if sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import Progress
@@ -66,11 +68,13 @@ class _Progress:
         if self.bar is not None:
             if stage not in self.tasks:
                 self.tasks[stage] = self.bar.add_task(stage, total=total)
-            self.bar.update(self.tasks[stage], completed=done, total=total)
+            task = self.tasks[stage]
+            assert task is not None
+            self.bar.update(task, completed=done, total=total)
         elif stage not in self.tasks:
             self.tasks[stage] = None
             print(f"{stage} ...", file=sys.stderr, flush=True)
 
-    def __exit__(self, *_: Any) -> None:
+    def __exit__(self, *_: object) -> None:
         if self.bar is not None:
             self.bar.stop()

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ...equilibrium.words import (
     MOST_MEET_NONE,
@@ -29,7 +28,16 @@ from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import Force, JsonFile, ParquetFile, Settings, StudyFile, XlsxFile, read_study
+from ..options import (
+    Force,
+    JsonFile,
+    ParquetFile,
+    Settings,
+    StudyFile,
+    XlsxFile,
+    option,
+    read_study,
+)
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import STDOUT, TableFiles, warn_of
 
@@ -63,28 +71,31 @@ Columns = dict[str, Callable[[int], str]]
 """Heads of columns, and the cell of a state."""
 
 
-def command(
-    study: StudyFile,
-    json_file: JsonFile = None,
-    csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per state.")
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: StudyFile
+    json: JsonFile = None
+    csv: Path | None = option("--csv", "Write one row per state.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """Separation, real contact area, load shares and contact mode under the loads of a study."""
     from ...study import run_study
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    asked = read_study(study, settings, writes=files.paths)
-    files.need(force=force)
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    asked = read_study(options.study, options.settings, writes=files.paths)
+    files.need(force=options.force)
     with heartbeat("solve"):
         result = run_study(asked)
     warn_of(result.run_warnings)
     if not result.solved_states:  # no file without a number
-        files = TableFiles(json=STDOUT if json_file == STDOUT else None)
+        files = TableFiles(json=STDOUT if options.json == STDOUT else None)
     files.write(
         *result.table(),
         sheets=partial(_sheets, result),

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import json
-import sys
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
-
-import typer
+from typing import Any
 
 from ...errors import InvalidValue
 from ...quantities.plain_data import plain_data
 from ...quantities.say import number, signed, value_of
 from ...quantities.tables import Table
-from ..options import Force, JsonFile, ParquetFile, XlsxFile, metres, not_a_folder
+from ..options import Force, JsonFile, ParquetFile, XlsxFile, argument, metres, not_a_folder, option
 from ..show import ALL, terminal
-from ..streams import STDOUT, TableFiles, warn_of
+from ..streams import STDOUT, TableFiles, tell_written, warn_of
 
 __all__ = ["command"]
 
@@ -31,70 +29,57 @@ MEANS = {
 """Results of a cut-off, and what they mean."""
 
 
-def command(
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", help='A measured surface or profile, or "example".')
-    ],
-    cutoff: Annotated[
-        str | None,
-        typer.Option("--cutoff", metavar="LENGTH", help='E.g. "2 um"; 0 as sampled.'),
-    ] = None,
-    detrend: Annotated[
-        str | None,
-        typer.Option("--detrend", help="Form to remove: none, tilt (default) or curvature."),
-    ] = None,
-    unit: Annotated[
-        str | None, typer.Option("--unit", help="Of a file that tells none, e.g. um.")
-    ] = None,
-    spacing: Annotated[
-        str | None,
-        typer.Option("--spacing", metavar="LENGTH[,LENGTH]", help="Of a file that tells none."),
-    ] = None,
-    channel: Annotated[
-        str | None, typer.Option("--channel", help="Number or name of a channel of the file.")
-    ] = None,
-    resolution: Annotated[
-        str | None,
-        typer.Option(
-            "--resolution", metavar="LENGTH", help="Shortest wave the instrument tells apart."
-        ),
-    ] = None,
-    json_file: JsonFile = None,
-    csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per cut-off.")
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", help="Folder for surface.png, .svg and .json."),
-    ] = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    file: Path = argument('A measured surface or profile, or "example".', "FILE")
+    cutoff: str | None = option("--cutoff", 'E.g. "2 um"; 0 as sampled.', "LENGTH")
+    detrend: str | None = option("--detrend", "Form to remove: none, tilt (default) or curvature.")
+    unit: str | None = option("--unit", "Of a file that tells none, e.g. um.")
+    spacing: str | None = option("--spacing", "Of a file that tells none.", "LENGTH[,LENGTH]")
+    channel: str | None = option("--channel", "Number or name of a channel of the file.")
+    resolution: str | None = option(
+        "--resolution", "Shortest wave the instrument tells apart.", "LENGTH"
+    )
+    json: JsonFile = None
+    csv: Path | None = option("--csv", "Write one row per cut-off.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    out: Path | None = option("--out", "Folder for surface.png, .svg and .json.", "DIR")
+
+
+def command(options: Options) -> None:
     """Moments and asperities of a measured surface, and what they owe to the cut-off."""
     from ...populations.measured.topography import from_topography
     from ...quantities.files import refuse_clashes
     from ..own_files import refuse_strangers
 
     problems: list[str] = []
-    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    lengths = _lengths(cutoff, resolution, spacing, problems)
-    problems += not_a_folder(out)
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    lengths = _lengths(options.cutoff, options.resolution, options.spacing, problems)
+    problems += not_a_folder(options.out)
     if problems:
         raise InvalidValue(*problems)
-    refuse_clashes([*files.paths, *(_of_folder(out) if out else ())], [file])
-    files.need(force=force)
-    if not force:
-        refuse_strangers(out, "surface.json", "surface.png", "surface.svg")
-    found = from_topography(file, detrend=detrend, unit=unit, channel=channel, **lengths)
+    refuse_clashes(
+        [*files.paths, *(_of_folder(options.out) if options.out else ())], [options.file]
+    )
+    files.need(force=options.force)
+    if not options.force:
+        refuse_strangers(options.out, "surface.json", "surface.png", "surface.svg")
+    found = from_topography(
+        options.file, detrend=options.detrend, unit=options.unit, channel=options.channel, **lengths
+    )
     result = found.to_dict()
     warn_of(found.warnings)
     files.write(plain_data(result["curve"]), result["units"], data=lambda: plain_data(result))
-    written = files.paths + ([] if out is None else _write_surface(out, found, result, force))
-    if json_file != STDOUT:
+    written = files.paths + (
+        [] if options.out is None else _write_surface(options.out, found, result, options.force)
+    )
+    if options.json != STDOUT:
         _show_surface(found, result)
-    for path in written:
-        print(f"written: {path}", file=sys.stderr)
+    tell_written(*written)
 
 
 def _of_folder(folder: Path) -> list[Path]:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 import sys
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue, NoEquilibrium
 from ..interrupt import Interrupted
-from ..options import Force, ParquetFile, Settings, XlsxFile, tell_notes
-from ..streams import TableFiles, warn_of
+from ..options import Force, ParquetFile, Settings, XlsxFile, argument, option, tell_notes
+from ..streams import TableFiles, tell_written, warn_of
 
 if TYPE_CHECKING:
     import xarray
@@ -28,68 +27,65 @@ MOST_IN_A_TABLE = 100_000
 """Rows of a table beside the folder."""
 
 
-def command(
-    study: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="STUDY.toml", help="A study file with a table [sweep].", show_default=False
-        ),
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out", metavar="DIR", help="Folder for the states; the same command resumes."
-        ),
-    ] = None,
-    format: Annotated[
-        str, typer.Option("--format", metavar="zarr|netcdf", help="Of the data in DIR.")
-    ] = "zarr",
-    workers: Annotated[
-        int, typer.Option("--workers", metavar="N", help="Threads that solve blocks of states.")
-    ] = 1,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            "--scheduler", metavar="ADDRESS", help="A Dask cluster that solves them instead."
-        ),
-    ] = None,
-    check: Annotated[
-        Path | None,
-        typer.Option(
-            "--check", metavar="DIR", help="Say instead whether a folder is as it was written."
-        ),
-    ] = None,
-    csv_file: Annotated[
-        Path | None,
-        typer.Option("--csv", metavar="FILE", help="Write one row per state of DIR, too."),
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path | None = argument(
+        "A study file with a table [sweep].", "STUDY.toml", show_default=False, default=None
+    )
+    out: Path | None = option("--out", "Folder for the states; the same command resumes.", "DIR")
+    format: str = option("--format", "Of the data in DIR.", "zarr|netcdf", default="zarr")
+    workers: int = option("--workers", "Threads that solve blocks of states.", "N", default=1)
+    scheduler: str | None = option(
+        "--scheduler", "A Dask cluster that solves them instead.", "ADDRESS"
+    )
+    check: Path | None = option(
+        "--check", "Say instead whether a folder is as it was written.", "DIR"
+    )
+    csv: Path | None = option("--csv", "Write one row per state of DIR, too.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
     from ...analysis.sweep.streaming import run
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    if check is not None:
-        _check(check, alone=study is None and out is None and not files.paths)
+    files = TableFiles(options.csv, options.xlsx, options.parquet)
+    if options.check is not None:
+        _check(
+            options.check, alone=options.study is None and options.out is None and not files.paths
+        )
         return
-    if study is None or out is None:
-        problems = [] if study is not None else ["STUDY.toml is missing: the study to sweep"]
-        problems += [] if out is not None else ["--out DIR is missing: the folder for the states"]
+    if options.study is None or options.out is None:
+        problems = (
+            [] if options.study is not None else ["STUDY.toml is missing: the study to sweep"]
+        )
+        problems += (
+            [] if options.out is not None else ["--out DIR is missing: the folder for the states"]
+        )
         raise InvalidValue(*problems)
-    plan = _read_plan(study, settings, format, workers)
-    _need_files(files, plan, study, settings, force)
+    plan = _read_plan(options.study, options.settings, options.format, options.workers)
+    _need_files(files, plan, options.study, options.settings, options.force)
     client = None
-    if scheduler is not None:
+    if options.scheduler is not None:
         from ...quantities.sharing import connected
 
-        client = connected(scheduler)
+        client = connected(options.scheduler)
     try:
-        folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
+        folder = run(
+            plan,
+            options.out,
+            format=options.format,
+            workers=options.workers,
+            client=client,
+            progress=True,
+        )
     except KeyboardInterrupt:
-        done = len(list((out / "done").glob("[0-9]*.json")))
+        done = len(list((options.out / "done").glob("[0-9]*.json")))
         raise Interrupted(
             f"interrupted after {done} of {plan.count} blocks; the same command goes on"
         ) from None
@@ -99,8 +95,7 @@ def command(
     if files.paths:
         with folder.open() as data:
             files.write(*_table(data), sheets=partial(_sheets, data))
-        for path in files.paths:
-            print(f"written: {path}", file=sys.stderr)
+        tell_written(*files.paths)
     _tell(folder)
 
 

@@ -3,78 +3,68 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import MISSING, dataclass
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from ...errors import InvalidValue
 from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
-from ..options import Force, Settings, StudyFile, metres, read_study
+from ..options import Force, Settings, StudyFile, metres, option, read_study
 
 __all__ = ["command"]
 
 
-def command(
-    study: StudyFile,
-    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The file to write.")],
-    form: Annotated[
-        str | None,
-        typer.Option(
-            "--format",
-            metavar="NAME",
-            help="csv, abaqus, comsol, avl, python or c; without it by the suffix of FILE: "
-            ".csv, .inp, .txt (COMSOL), .avl, .py, .c.",
-        ),
-    ] = None,
-    tolerance: Annotated[
-        float, typer.Option("--tolerance", help="Relative error of pressure and area.")
-    ] = 1e-6,
-    low: Annotated[
-        str | None, typer.Option("--from", metavar="LENGTH", help='Lower end, e.g. "50 nm".')
-    ] = None,
-    high: Annotated[
-        str | None, typer.Option("--to", metavar="LENGTH", help='Upper end, e.g. "0.4 um".')
-    ] = None,
-    coordinate: Annotated[
-        str,
-        typer.Option("--coordinate", help="h, from the mean surface plane, or d as in solve."),
-    ] = "h",
-    units: Annotated[
-        str | None,
-        typer.Option("--units", help="SI or mm (mm, MPa), for abaqus and avl."),
-    ] = None,
-    force: Force = False,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: StudyFile
+    out: Path = option("--out", "The file to write.", "FILE", default=MISSING)
+    form: str | None = option(
+        "--format",
+        "csv, abaqus, comsol, avl, python or c; without it by the suffix of FILE: "
+        ".csv, .inp, .txt (COMSOL), .avl, .py, .c.",
+        "NAME",
+    )
+    tolerance: float = option("--tolerance", "Relative error of pressure and area.", default=1e-06)
+    low: str | None = option("--from", 'Lower end, e.g. "50 nm".', "LENGTH")
+    high: str | None = option("--to", 'Upper end, e.g. "0.4 um".', "LENGTH")
+    coordinate: str = option(
+        "--coordinate", "h, from the mean surface plane, or d as in solve.", default="h"
+    )
+    units: str | None = option("--units", "SI or mm (mm, MPa), for abaqus and avl.")
+    force: Force = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """Pressure and real area of a study's contact against separation, for other solvers."""
     from ...equilibrium.table.make import table
     from ...equilibrium.table.writers import FORMATS, rounded_up
     from ..own_files import need_places
 
-    name, problems = _format(form, out, units)
+    name, problems = _format(options.form, options.out, options.units)
     ends = [
         None if text is None else metres(option, text, problems)
-        for option, text in (("--from", low), ("--to", high))
+        for option, text in (("--from", options.low), ("--to", options.high))
     ]
     if problems:
         raise InvalidValue(*problems)
-    contact = read_study(study, settings, writes=[out]).contact
-    need_places([(out, "export")], force=force)
+    contact = read_study(options.study, options.settings, writes=[options.out]).contact
+    need_places([(options.out, "export")], force=options.force)
     with heartbeat("table"):
         made = table(  # which judges the word as well
-            contact, low=ends[0], high=ends[1], tolerance=tolerance,
-            coordinate=coordinate,  # type: ignore[arg-type]
+            contact, low=ends[0], high=ends[1], tolerance=options.tolerance,
+            coordinate=options.coordinate,  # type: ignore[arg-type]
         )  # fmt: skip
     write, _ = FORMATS[name]
-    write(made, out, **({} if units is None else {"units": units}))
+    write(made, options.out, **({} if options.units is None else {"units": options.units}))
     first, last = (value_of(float(made.p(end)), "Pa") for end in made.h[[0, -1]])
     print(
-        f"written: {out} ({name}): {coordinate} from {value_of(made.h[0], 'm')} to "
+        f"written: {options.out} ({name}): {options.coordinate} from {value_of(made.h[0], 'm')} to "
         f"{value_of(made.h[-1], 'm')}, p from {first} to {last}; relative errors at most "
         f"{rounded_up(made.error.p)} of p, {rounded_up(made.error.A)} of A_t, "
-        f"{rounded_up(made.error.dp_dh)} of dp/d{coordinate}",
+        f"{rounded_up(made.error.dp_dh)} of dp/d{options.coordinate}",
         file=sys.stderr,
     )
 

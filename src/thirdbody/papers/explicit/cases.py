@@ -113,7 +113,9 @@ def _name_of(over_sigma: float) -> str:
 def _cases() -> tuple[Case, ...]:
     out = []
 
-    def add(name: str, group: str, words: str, contact: tb.Contact, seats: Any = "random") -> None:
+    def add(
+        name: str, group: str, words: str, contact: tb.Contact, seats: object = "random"
+    ) -> None:
         out.append(Case(name=name, group=group, words=words, contact=contact, seats=seats))
 
     sizes = {"2": 2.0, "1": 1.0, "067": 2 / 3}
@@ -140,7 +142,7 @@ def _cases() -> tuple[Case, ...]:
         dense = _contact(2.0, density=10.0**power)
         add(f"density{power}", "densities", f"{words}, {_name_of(2)}", dense)
     add("density12_x1", "densities", f"10¹² m⁻², {_name_of(1)}", _contact(1.0, density=1e12))
-    seats: tuple[tuple[str, str, Any], ...] = (
+    seats: tuple[tuple[str, str, object], ...] = (
         ("settled", "lowest of 5 spots in 0.5 µm", SettledSeats()),
         ("settled_wide", "lowest of 5 spots in 1.5 µm", SettledSeats(within=1.5e-6)),
         ("downhill", "1 µm downhill", DownhillSeats()),

@@ -204,14 +204,14 @@ def _key_of_sizes(panel: Panel, styles: Styles) -> list[Artist]:
         if value == 0:
             keys.append(_key("no particles", color=colour, linewidth=4.5))
         else:
-            style: dict[str, Any] = dict(marker=marker, markersize=5, linewidth=1.4)
+            style: dict[str, object] = dict(marker=marker, markersize=5, linewidth=1.4)
             keys.append(_key(f"{value:g}", color=colour, **style))
     return keys
 
 
 def _key_of_materials(panel: Panel) -> list[Artist]:
     drawn = {line.material for line in panel.lines}
-    style: dict[str, Any] = dict(color="black", linewidth=1.4, marker="o", markersize=4.5)
+    style: dict[str, object] = dict(color="black", linewidth=1.4, marker="o", markersize=4.5)
     keys = {
         SILICA: _key("SiO$_2$ (dust)", linestyle="-", markerfacecolor="black", **style),
         STEEL: _key("S45C (wear debris)", linestyle=(0, (4, 2)), markerfacecolor="white", **style),
@@ -234,7 +234,7 @@ def _key_of_quotes(panel: Panel, styles: Styles) -> list[Artist]:
         if isinstance(mark.x, tuple):
             keys.append(Patch(facecolor=colour, alpha=0.2, label=label))
         elif mark.y is not None:
-            cross: dict[str, Any] = dict(linestyle="none", marker="x", markersize=7, mew=1.6)
+            cross: dict[str, object] = dict(linestyle="none", marker="x", markersize=7, mew=1.6)
             keys.append(_key(label, color=colour, **cross))
         else:
             dash = "--" if mark.dashed else ":"

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 from ..ledger import Measurement, Verdict
 from . import areas, loads, separations  # noqa: F401  (their measures enter MEASURES)
@@ -57,7 +56,7 @@ def all_of(
     verdicts: dict[str, Verdict],
     claims: list[str],
     measure: str | None = None,
-    inputs: dict[str, Any] | None = None,
+    inputs: dict[str, object] | None = None,
     limit: float = math.inf,
 ) -> Measurement:
     """How many of several claims hold, and of one more measurement at or below a limit."""

@@ -108,7 +108,7 @@ class Reading:
             particle_law=self.law(sigma, x_a),
         )
 
-    def parameters(self) -> dict[str, Any]:
+    def parameters(self) -> dict[str, object]:
         """What the tables show."""
         return {
             "particle law": self.law_words,
@@ -294,7 +294,7 @@ class Curves:
 
     def __init__(self, reading: Reading):
         self.reading = reading
-        self._known: dict[tuple[Any, ...], Curve] = {}
+        self._known: dict[tuple[object, ...], Curve] = {}
 
     def __call__(self, material: str, sigma: float, x_a: float) -> Curve:
         """The curve for a particle material, σ and x_a in nm, at `LOADS`."""

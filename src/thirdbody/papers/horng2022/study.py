@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from ...errors import InvalidValue
 from ...version import __version__
@@ -77,7 +76,7 @@ class Summary(engine.Summary):
         """The whole page."""
         return page(self.ledger, READINGS[self.preset], figures)
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """The content of claims.json."""
         data = data_of(PAPER)
         verdicts, booked = self.ledger.verdicts, self.ledger.paper_booking

@@ -71,7 +71,7 @@ class Summary(engine.Summary):
         """The panels of every row, in the order of the page."""
         return [partial(_picture, panel) for row in self.rows for panel in row.panels]
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """The content of measurements.json."""
         return _as_json(self)
 
@@ -125,8 +125,8 @@ def _picture(panel_of: Callable[[], Panel]) -> Picture:
         return picture_of("fig_", panel_of)
 
 
-def _as_json(summary: Summary) -> dict[str, Any]:
-    def verdict_entries(verdict: Verdict) -> dict[str, Any]:
+def _as_json(summary: Summary) -> dict[str, object]:
+    def verdict_entries(verdict: Verdict) -> dict[str, object]:
         band = verdict.band
         return {
             "verdict": verdict.word,

@@ -37,7 +37,7 @@ class Raw(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def is_number(value: Any) -> bool:
+def is_number(value: object) -> bool:
     return (
         isinstance(value, (int, float, np.number))
         and not isinstance(value, bool)
@@ -46,7 +46,7 @@ def is_number(value: Any) -> bool:
 
 
 def read(
-    source: Any, scale: float | None, steps: tuple[float, ...] | None, channel: int | str | None
+    source: object, scale: float | None, steps: tuple[float, ...] | None, channel: int | str | None
 ) -> Raw:
     if isinstance(source, (str, os.PathLike)):
         path = Path(source)
@@ -196,9 +196,9 @@ def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
 
 def _lacking(
     channel: Any, scale: float | None, steps: tuple[float, ...] | None, path: Path
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """What has to be told to the reader because the file does not hold it."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     sizes, unit = channel.physical_sizes, channel.unit
     points = channel.nb_grid_pts
     _told_already(str(path), unit, scale, None if sizes is None else steps)
@@ -287,7 +287,7 @@ def _limit(made: Any, factor: float) -> tuple[float | None, str]:
         return None, "not known: what the file states of the instrument cannot be used"
 
 
-def _stated_radius(metadata: Any) -> float | None:
+def _stated_radius(metadata: object) -> float | None:
     """The radius of a stylus in the words of an instrument, e.g. "Radius: 2 µm"."""
     if not isinstance(metadata, dict):
         return None

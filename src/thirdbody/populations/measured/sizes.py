@@ -460,7 +460,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
     return out
 
 
-def _unit(path: Any, line: int, names: list[str]) -> str:
+def _unit(path: object, line: int, names: list[str]) -> str:
     """The unit of the sizes, from the first line."""
     units = []
     for name in names[:-1]:
@@ -496,7 +496,7 @@ def _number(path: Any, line: int, cell: str) -> float:
     return value
 
 
-def _bins(path: Any, lines: list[int], rows: Array, names: list[str]) -> tuple[Array, Array]:
+def _bins(path: object, lines: list[int], rows: Array, names: list[str]) -> tuple[Array, Array]:
     """Adjoining bins."""
     for i, (low, high, _) in enumerate(rows.tolist()):
         if high <= low:
@@ -511,7 +511,7 @@ def _bins(path: Any, lines: list[int], rows: Array, names: list[str]) -> tuple[A
     return np.append(rows[:, 0], rows[-1, 1]), rows[:, 2]
 
 
-def _below(path: Any, lines: list[int], rows: Array, names: list[str]) -> tuple[Array, Array]:
+def _below(path: object, lines: list[int], rows: Array, names: list[str]) -> tuple[Array, Array]:
     """Amounts between sizes, from the amounts below them."""
     sizes, below = rows.T
     for i in range(1, len(rows)):

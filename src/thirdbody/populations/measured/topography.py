@@ -21,6 +21,8 @@ from .spectra import (
 from .surface import Topography
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
@@ -40,7 +42,7 @@ def from_topography(
     cutoff: float | None = None,
     detrend: str | None = None,
     unit: str | None = None,
-    spacing: float | tuple[float, float] | None = None,
+    spacing: float | Sequence[float] | None = None,
     periodic: bool | None = None,
     channel: int | str | None = None,
     resolution: float | None = None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -92,12 +92,12 @@ def _heights_panel(topography: Topography, ax: Axes) -> None:
     ax.set_ylabel(f"$y$ [{unit}]")
 
 
-def _mark_cutoff(topography: Topography, ax: Axes, scale: float) -> list[Any]:
+def _mark_cutoff(topography: Topography, ax: Axes, scale: float) -> list[object]:
     """Grey where data do not stand for the surface; lines at the cut-off used and the limit."""
     left, right = ax.get_xlim()
     grey = ax.axvspan(left, topography.recommended[0] / scale, color="0.92", zorder=0)
     grey.set_label("not recommended")
-    marks: list[Any] = [grey]
+    marks: list[object] = [grey]
     if topography.limit is not None:
         colour = _tint(OKABE_ITO["purple"], 0.6)
         line = ax.axvline(topography.limit / scale, color=colour, linewidth=3.0)

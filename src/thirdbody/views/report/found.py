@@ -38,12 +38,14 @@ class Found:
         """The interface."""
         return self.study.contact
 
-    def _load(self, i: int) -> str:
+    def load(self, i: int) -> str:
+        """The load of a state, in words."""
         states = self.result.states
         return load_of(states.pressure[i], states.F_star[i])
 
-    def _at_load(self, i: int) -> str:
-        return f"{'At' if self.film is None else 'Without the oil, at'} {self._load(i)}"
+    def at_load(self, i: int) -> str:
+        """Under which load, at the start of a sentence."""
+        return f"{'At' if self.film is None else 'Without the oil, at'} {self.load(i)}"
 
     @property
     def mode_changes(self) -> dict[str, Critical]:
@@ -51,11 +53,12 @@ class Found:
         found = self.result.transitions
         return {"F_cr1": found.F_cr1, "F_cr2": found.F_cr2}
 
-    def _existing_loads(self) -> dict[str, float]:
+    def existing_loads(self) -> dict[str, float]:
         """Critical loads F* that exist."""
         return {name: entry.value for name, entry in self.mode_changes.items() if entry.value}
 
-    def _bodies(self) -> dict[str, Material]:
+    def bodies(self) -> dict[str, Material]:
+        """Surfaces and particles, by what they are called."""
         return bodies_of(self.contact)
 
 

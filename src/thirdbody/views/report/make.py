@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import enough
 from ...contact.contact import Contact
 from ...equilibrium.columns import Equilibrium
+from ...equilibrium.load import ForceLoad, as_force_load
 from ...equilibrium.modes import FAINT
 from ...equilibrium.solve import solve
 from ...equilibrium.transitions import Transitions
@@ -107,7 +107,7 @@ def report(
     known = sorted(result.solved_states, key=lambda i: F_star[i])
     loaded = [i for i in known if F_star[i] >= FAINT]
     at = (loaded or known)[len(loaded or known) // 2]
-    given = {study.load: float(study.values[at])}
+    given = as_force_load(study.load, float(study.values[at]))
     if study.load == "separation":
         given = {"F_star": float(F_star[at])}
     bare = study.contact.replace(outputs=())
@@ -154,7 +154,7 @@ def curve_over(contact: Contact, critical: Transitions, loads: list[float]) -> E
 
 
 def _assess(
-    study: Study, contact: Contact, given: dict[str, Any], progress: Callable[[str], None]
+    study: Study, contact: Contact, given: ForceLoad[float], progress: Callable[[str], None]
 ) -> Assessment | None:
     inner = nested(progress, len(ASSESSED))
     asked = study.uncertainty
@@ -170,12 +170,11 @@ def _assess(
     if not vary:
         return None
     samples = min(enough(contact, asked.samples, vary), most_samples(contact, vary))
-    more: dict[str, Any] = {"samples": samples, "seed": asked.seed, "progress": inner}
-    return assess(contact, vary=vary, **given, **more)
+    return assess(contact, vary=vary, **given, samples=samples, seed=asked.seed, progress=inner)
 
 
 def _slopes(
-    contact: Contact, given: dict[str, Any], progress: Callable[[str], None]
+    contact: Contact, given: ForceLoad[float], progress: Callable[[str], None]
 ) -> Sensitivity | None:
     """Of the load share, the area and the separation, to every input."""
     names = ["A_t", "h"]

@@ -19,10 +19,18 @@ from ...version import __version__
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
 from ..oil_words import answer, filter_answer
-from .figures import Figures
-from .sentences import Sentences
-from .sources import Sources, alike
-from .tables import Tables
+from .figures import figures_of
+from .found import Found
+from .sentences import answer_sentences, ranked_inputs, strongest_inputs
+from .sources import alike, inputs_and_sources, laws_and_reasons, works_cited
+from .tables import (
+    critical_section,
+    explicit_section,
+    film_section,
+    oil_section,
+    outputs_section,
+    states_table,
+)
 
 MOST_SAMPLES = 256
 """Samples of the error bars; `assess` takes what the study asks for."""
@@ -51,7 +59,7 @@ def running(title: str) -> str:
     return f"@media print{{@page{{{box}}}}}\n"
 
 
-class Report(Sentences, Figures, Tables, Sources):
+class Report(Found):
     """What a study found, ready to be written down.
 
     Attributes
@@ -78,28 +86,32 @@ class Report(Sentences, Figures, Tables, Sources):
         What the particles of the oil do, before and after a filter.
     """
 
+    def sentences(self) -> tuple[str, ...]:
+        """The answer; where the study has a film, first what it says with the oil."""
+        return answer_sentences(self)
+
     def html(self) -> str:
         """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
         title = self.study.title or "Contact of rough surfaces"
         parts = [
             f"<header><h1>{escape(title)}</h1>",
             f"<p class=soft>Report of thirdbody {escape(__version__)}.</p></header>",
-            section("The answer", self._answer(), name="answer").replace(
+            section("The answer", _answer(self), name="answer").replace(
                 "<section", "<section class=lead", 1
             ),
-            *self._warnings(),
-            *self._oil(),
-            *self._film(),
-            section("Figures", self._figures(), name="figures"),
-            section("States", self._states(), name="states"),
-            *self._explicit(),
-            *self._critical(),
-            *self._outputs(),
-            section("Error bars", self._error_bars(), name="errors"),
-            section("Which inputs matter", self._slopes(), name="inputs-that-matter"),
-            section("Inputs and their sources", self._inputs(), name="inputs"),
-            section("Which laws, and why", self._laws(), name="laws"),
-            section("To be cited", self._citations(), name="citations"),
+            *_warnings(self),
+            *oil_section(self),
+            *film_section(self),
+            section("Figures", figures_of(self), name="figures"),
+            section("States", states_table(self), name="states"),
+            *explicit_section(self),
+            *critical_section(self),
+            *outputs_section(self),
+            section("Error bars", _error_bars(self), name="errors"),
+            section("Which inputs matter", _slopes(self), name="inputs-that-matter"),
+            section("Inputs and their sources", inputs_and_sources(self), name="inputs"),
+            section("Which laws, and why", laws_and_reasons(self), name="laws"),
+            section("To be cited", works_cited(self), name="citations"),
         ]
         if self.file:
             use = "<p class=lead-in>With thirdbody, this file gives the same report again.</p>"
@@ -107,82 +119,86 @@ class Report(Sentences, Figures, Tables, Sources):
             parts.append(section("The study file", [use, text], name="study"))
         return document(title, parts, style=STYLE + running(title))
 
-    def _answer(self) -> list[str]:
-        first: list[str] = []
-        if self.oil is not None:
-            if self.oil_filtered is not None:
-                first.append(filter_answer(self.oil, self.oil_filtered))
-            first += answer(self.oil)
-        told = (*first, *self.result.force_sentences, *self.sentences())
-        return [f"<p>{words(sentence)}</p>" for sentence in told]
 
-    def _warnings(self) -> list[str]:
-        texts = [*self.result.warnings, *(() if self.film is None else self.film.run_warnings)]
-        texts = [*dict.fromkeys(texts), *unsolved(self.result.states.status)]
-        if not texts:
-            return []
-        items = "".join(f"<li>{words(text)}</li>" for text in texts)
-        return [f"<div class=warning><p><b>Warnings</b></p><ul>{items}</ul></div>"]
+def _answer(report: Found) -> list[str]:
+    first: list[str] = []
+    if report.oil is not None:
+        if report.oil_filtered is not None:
+            first.append(filter_answer(report.oil, report.oil_filtered))
+        first += answer(report.oil)
+    told = (*first, *report.result.force_sentences, *answer_sentences(report))
+    return [f"<p>{words(sentence)}</p>" for sentence in told]
 
-    def _error_bars(self) -> list[str]:
-        found = self.assessment
-        if found is None:
-            if not self.result.states.F_star[self.at] >= FAINT:
-                return ["<p>There are none: nothing presses the surfaces together.</p>"]
-            if self.study.uncertainty is None and stated_ranges(self.contact):
-                return [
-                    "<p>There are none: with particles that break every sample takes a second, so "
-                    "that bands are drawn only where a table [uncertainty] asks for them.</p>"
-                ]
-            names = [body.name or label for label, body in alike(self._bodies())]
+
+def _warnings(report: Found) -> list[str]:
+    texts = [*report.result.warnings, *(() if report.film is None else report.film.run_warnings)]
+    texts = [*dict.fromkeys(texts), *unsolved(report.result.states.status)]
+    if not texts:
+        return []
+    items = "".join(f"<li>{words(text)}</li>" for text in texts)
+    return [f"<div class=warning><p><b>Warnings</b></p><ul>{items}</ul></div>"]
+
+
+def _error_bars(report: Found) -> list[str]:
+    found = report.assessment
+    if found is None:
+        if not report.result.states.F_star[report.at] >= FAINT:
+            return ["<p>There are none: nothing presses the surfaces together.</p>"]
+        if report.study.uncertainty is None and stated_ranges(report.contact):
             return [
-                "<p>There are none: the study has no table [uncertainty] that says something of "
-                "this contact, and the materials library states no ranges for "
-                f"{escape(join_words(list(dict.fromkeys(names))))}. Every input counts as exactly "
-                "known.</p>"
+                "<p>There are none: with particles that break every sample takes a second, so "
+                "that bands are drawn only where a table [uncertainty] asks for them.</p>"
             ]
-        asked = self.study.uncertainty
-        whence = (
-            "The ranges are those of the table [uncertainty]."
-            if asked is not None
-            else "The study has no table [uncertainty]: the ranges are those that the materials "
-            "library states, and nothing else counts as uncertain."
-        )
-        most = most_samples(self.study.contact, asked.inputs) if asked else MOST_SAMPLES
-        if asked and enough(self.study.contact, asked.samples, asked.inputs) > most:
-            whence += f" {most} samples stand here; `thirdbody assess` takes "
-            whence += "all." if most == MOST_SAMPLES else "more: each takes tables of its own."
-        out = [f"<p>{words(found.headline())} {words(whence)}</p>"]
-        for part in found.sections()[1:]:
-            out.append(f"<h3>{escape(part.title)}</h3>")
-            if part.rows:
-                out.append(text_table(part.head, part.rows, ASSESSMENT_WORDS))
-            out += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
-        pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(found))
-        return [*out, f"<div class=figures>{pictures}</div>"]
+        names = [body.name or label for label, body in alike(report.bodies())]
+        return [
+            "<p>There are none: the study has no table [uncertainty] that says something of "
+            "this contact, and the materials library states no ranges for "
+            f"{escape(join_words(list(dict.fromkeys(names))))}. Every input counts as exactly "
+            "known.</p>"
+        ]
+    asked = report.study.uncertainty
+    whence = (
+        "The ranges are those of the table [uncertainty]."
+        if asked is not None
+        else "The study has no table [uncertainty]: the ranges are those that the materials "
+        "library states, and nothing else counts as uncertain."
+    )
+    most = most_samples(report.study.contact, asked.inputs) if asked else MOST_SAMPLES
+    if asked and enough(report.study.contact, asked.samples, asked.inputs) > most:
+        whence += f" {most} samples stand here; `thirdbody assess` takes "
+        whence += "all." if most == MOST_SAMPLES else "more: each takes tables of its own."
+    out = [f"<p>{words(found.headline())} {words(whence)}</p>"]
+    for part in found.sections()[1:]:
+        out.append(f"<h3>{escape(part.title)}</h3>")
+        if part.rows:
+            out.append(text_table(part.head, part.rows, ASSESSMENT_WORDS))
+        out += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
+    pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(found))
+    return [*out, f"<div class=figures>{pictures}</div>"]
 
-    def _slopes(self) -> list[str]:
-        of, order = self.ranked()
-        if self.slopes is None or not order:
-            reason = "Derivatives could not be formed for this contact."
-            if not self.result.states.A_t[self.at]:
-                reason = "There is no contact, so that nothing answers to the inputs."
-            return [f"<p>{reason}</p>"]
-        others = [name for name in self.slopes.elasticity if name != of]
-        rows = []
-        for label in order[:10]:
-            value = self.slopes.inputs[label]
-            unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
-            unit = unit or declared(self.contact, label.split("+")[0])["unit"]
-            each = (float(self.slopes.elasticity[name][label]) for name in (of, *others))
-            slopes = (signed(slope, 3) for slope in each)
-            rows.append([words_of(self.contact, label), value_of(float(value), unit), *slopes])
-        sentence = (
-            f"At {self._load(self.at)}, {self._strongest(of, order)}. The numbers tell by how many "
-            "per cent a result changes when an input grows by one per cent, all others held, "
-            "however well the input is known."
-        )
-        more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
-        head = ["input", "value", *(about(name).meaning for name in (of, *others))]
-        found = text_table(head, rows, ASSESSMENT_WORDS)
-        return [f"<p class=lead-in>{words(sentence)}</p>", found, more]
+
+def _slopes(report: Found) -> list[str]:
+    of, order = ranked_inputs(report)
+    if report.slopes is None or not order:
+        reason = "Derivatives could not be formed for this contact."
+        if not report.result.states.A_t[report.at]:
+            reason = "There is no contact, so that nothing answers to the inputs."
+        return [f"<p>{reason}</p>"]
+    others = [name for name in report.slopes.elasticity if name != of]
+    rows = []
+    for label in order[:10]:
+        value = report.slopes.inputs[label]
+        unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
+        unit = unit or declared(report.contact, label.split("+")[0])["unit"]
+        each = (float(report.slopes.elasticity[name][label]) for name in (of, *others))
+        slopes = (signed(slope, 3) for slope in each)
+        rows.append([words_of(report.contact, label), value_of(float(value), unit), *slopes])
+    sentence = (
+        f"At {report.load(report.at)}, {strongest_inputs(report, of, order)}. The numbers tell by "
+        "how many per cent a result changes when an input grows by one per cent, all others held, "
+        "however well the input is known."
+    )
+    more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
+    head = ["input", "value", *(about(name).meaning for name in (of, *others))]
+    found = text_table(head, rows, ASSESSMENT_WORDS)
+    return [f"<p class=lead-in>{words(sentence)}</p>", found, more]

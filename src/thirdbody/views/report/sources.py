@@ -41,92 +41,91 @@ class Row(NamedTuple):
     """The number itself in SI, where it is one."""
 
 
-class Sources(Found):
-    """Inputs, laws and what is to be cited."""
+def inputs_and_sources(report: Found) -> list[str]:
+    bodies = []
+    for label, body in alike(report.bodies()):
+        source, standing = source_of(body)
+        values = [
+            f"{about['symbol']} = {value_of(getattr(body, key), about['unit'])}"
+            for key, about in NUMBERS.items()
+            if getattr(body, key) is not None
+        ]
+        bodies.append(
+            [escape(label), escape(body.name), words(", ".join(values)), source, standing]
+        )
+    head = ["body", "material", "numbers", "source", "standing of the source"]
+    rows = [
+        [
+            symbols(row.meaning),
+            symbols(row.symbol),
+            f"<td class=n>{words(row.value)}</td>",
+            "<span class=default>default</span>" if row.default else "study",
+            breaking(escape(row.name)),
+        ]
+        for row in rows_of(report.contact)
+    ]
+    told = (
+        "<p>“default” marks what the library takes where a study says nothing; everything "
+        "else is what this study says.</p>"
+    )
+    columns = ["input", "symbol", "<th class=n>value</th>", "from", "name"]
+    return [table(head, bodies), told, table(columns, rows)]
 
-    def _inputs(self) -> list[str]:
-        bodies = []
-        for label, body in alike(self._bodies()):
-            source, standing = source_of(body)
-            values = [
-                f"{about['symbol']} = {value_of(getattr(body, key), about['unit'])}"
-                for key, about in NUMBERS.items()
-                if getattr(body, key) is not None
-            ]
-            bodies.append(
-                [escape(label), escape(body.name), words(", ".join(values)), source, standing]
-            )
-        head = ["body", "material", "numbers", "source", "standing of the source"]
-        rows = [
+
+def laws_and_reasons(report: Found) -> list[str]:
+    rows = []
+    for what, law, asked in laws_of(report.contact):
+        doi = f", doi:{law.doi}" if law.doi else ""
+        rows.append(
             [
-                symbols(row.meaning),
-                symbols(row.symbol),
-                f"<td class=n>{words(row.value)}</td>",
-                "<span class=default>default</span>" if row.default else "study",
-                breaking(escape(row.name)),
+                escape(what),
+                f"<b>{escape(law.name)}</b>: {escape(law.title)}",
+                "study" if asked else "<span class=default>default</span>",
+                words(law.valid_range),
+                escape(law.provenance),
+                escape(law.citation + doi),
             ]
-            for row in rows_of(self.contact)
-        ]
-        told = (
-            "<p>“default” marks what the library takes where a study says nothing; everything "
-            "else is what this study says.</p>"
         )
-        columns = ["input", "symbol", "<th class=n>value</th>", "from", "name"]
-        return [table(head, bodies), told, table(columns, rows)]
+    psi = (
+        report.contact.surfaces.E_star
+        / report.contact.surfaces.H
+        * math.sqrt(report.contact.roughness.sigma_s / report.contact.roughness.R)
+    )
+    verdict = (
+        "above 1, asperities yield under nearly any load, and an elastic law would be wrong"
+        if psi > 1
+        else "below 0.6, asperities stay elastic, and laws with and without yield agree"
+        if psi < 0.6
+        else "between 0.6 and 1, the load decides whether asperities yield"
+    )
+    why = (
+        "The plasticity index of Greenwood and Williamson, ψ = (E*/H)√(σ_s/R), is "
+        f"{number(psi, 3)}: {verdict}. How laws differ, and which suits which surface, tell "
+        "the pages “Choose a law” and “Choose a seat” of the documentation; the command "
+        "compare puts other laws beside this one."
+    )
+    head = ["for", "law", "chosen by", "valid", "provenance", "source"]
+    return [
+        f"<p class=lead-in>{words(why)}</p>",
+        table(head, rows),
+        "<p class=soft>Provenance: seen means that the formulas were read in the source, "
+        "derived that they follow from what is said here, recalled that they were known "
+        "without the source at hand, reconstructed that the source left something open.</p>",
+    ]
 
-    def _laws(self) -> list[str]:
-        rows = []
-        for what, law, asked in laws_of(self.contact):
-            doi = f", doi:{law.doi}" if law.doi else ""
-            rows.append(
-                [
-                    escape(what),
-                    f"<b>{escape(law.name)}</b>: {escape(law.title)}",
-                    "study" if asked else "<span class=default>default</span>",
-                    words(law.valid_range),
-                    escape(law.provenance),
-                    escape(law.citation + doi),
-                ]
-            )
-        psi = (
-            self.contact.surfaces.E_star
-            / self.contact.surfaces.H
-            * math.sqrt(self.contact.roughness.sigma_s / self.contact.roughness.R)
-        )
-        verdict = (
-            "above 1, asperities yield under nearly any load, and an elastic law would be wrong"
-            if psi > 1
-            else "below 0.6, asperities stay elastic, and laws with and without yield agree"
-            if psi < 0.6
-            else "between 0.6 and 1, the load decides whether asperities yield"
-        )
-        why = (
-            "The plasticity index of Greenwood and Williamson, ψ = (E*/H)√(σ_s/R), is "
-            f"{number(psi, 3)}: {verdict}. How laws differ, and which suits which surface, tell "
-            "the pages “Choose a law” and “Choose a seat” of the documentation; the command "
-            "compare puts other laws beside this one."
-        )
-        head = ["for", "law", "chosen by", "valid", "provenance", "source"]
-        return [
-            f"<p class=lead-in>{words(why)}</p>",
-            table(head, rows),
-            "<p class=soft>Provenance: seen means that the formulas were read in the source, "
-            "derived that they follow from what is said here, recalled that they were known "
-            "without the source at hand, reconstructed that the source left something open.</p>",
-        ]
 
-    def _citations(self) -> list[str]:
-        lines = [
-            *self.result.citations,
-            *(() if self.film is None else self.film.citations),
-            *(
-                output.citation + (f", doi:{output.doi}" if output.doi else "")
-                for output in self.contact.outputs
-            ),
-            f"thirdbody {__version__}",
-        ]
-        items = "".join(f"<li>{escape(line)}</li>" for line in dict.fromkeys(lines))
-        return [f"<ul>{items}</ul>"]
+def works_cited(report: Found) -> list[str]:
+    lines = [
+        *report.result.citations,
+        *(() if report.film is None else report.film.citations),
+        *(
+            output.citation + (f", doi:{output.doi}" if output.doi else "")
+            for output in report.contact.outputs
+        ),
+        f"thirdbody {__version__}",
+    ]
+    items = "".join(f"<li>{escape(line)}</li>" for line in dict.fromkeys(lines))
+    return [f"<ul>{items}</ul>"]
 
 
 def source_of(body: Material) -> tuple[str, str]:

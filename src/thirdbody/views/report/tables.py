@@ -39,143 +39,147 @@ def _with_legend(
     return [text_table(heads, rows), f"<p class=soft>{words(told)}.</p>"]
 
 
-class Tables(Found):
-    """Tables of what was found."""
+def states_table(report: Found) -> list[str]:
+    names = list(STATES if report.contact.two_body else (*STATES, *SHARED))
+    total = len(report.result.states.status)
+    rows = [[_cell(report, name, i) for name in names] for i in some_of(total, MOST_ROWS)]
+    head = [f"<th class=n>{symbols(about(name).symbol)}</th>" for name in names]
+    cells = [[f"<td class=n>{words(cell)}</td>" for cell in row] for row in rows]
+    meanings = "; ".join(f"{about(name).symbol}: {about(name).meaning}" for name in names)
+    out = [table(head, cells), f"<p class=soft>{symbols(meanings)}.</p>"]
+    if any(RARE in row for row in rows):
+        out.append(f"<p class=soft>{RARE}: {MOST_MEET_NONE}.</p>")
+    if total > MOST_ROWS:
+        out.append(f"<p>{MOST_ROWS} of {plural(total, 'state')}, evenly spread.</p>")
+    if report.result.states.populations:
+        out += ["<h3>What each population carries</h3>", _populations(report, total)]
+    return out
 
-    def _states(self) -> list[str]:
-        names = list(STATES if self.contact.two_body else (*STATES, *SHARED))
-        total = len(self.result.states.status)
-        rows = [[self._cell(name, i) for name in names] for i in some_of(total, MOST_ROWS)]
-        head = [f"<th class=n>{symbols(about(name).symbol)}</th>" for name in names]
-        cells = [[f"<td class=n>{words(cell)}</td>" for cell in row] for row in rows]
-        meanings = "; ".join(f"{about(name).symbol}: {about(name).meaning}" for name in names)
-        out = [table(head, cells), f"<p class=soft>{symbols(meanings)}.</p>"]
-        if any(RARE in row for row in rows):
-            out.append(f"<p class=soft>{RARE}: {MOST_MEET_NONE}.</p>")
-        if total > MOST_ROWS:
-            out.append(f"<p>{MOST_ROWS} of {plural(total, 'state')}, evenly spread.</p>")
-        if self.result.states.populations:
-            out += ["<h3>What each population carries</h3>", self._populations(total)]
-        return out
 
-    def _cell(self, name: str, i: int) -> str:
-        """A number of a state; a mode as far as the contact itself has one."""
-        value = getattr(self.result.states, name)[i]
-        if name == "mode" and is_rare(value, self.result.particles_in(i)):
-            return RARE
-        return column_value(name, value)
+def _cell(report: Found, name: str, i: int) -> str:
+    """A number of a state; a mode as far as the contact itself has one."""
+    value = getattr(report.result.states, name)[i]
+    if name == "mode" and is_rare(value, report.result.particles_in(i)):
+        return RARE
+    return column_value(name, value)
 
-    def _populations(self, total: int) -> str:
-        states = self.result.states
-        parts = states.populations
-        head = ["pressure", *(f"{part.name}: {of}" for part in parts for of in ("load", "area"))]
-        rows = [
-            [
-                value_of(states.pressure[i], "Pa"),
-                *(percent(x[i]) for part in parts for x in (part.load_share, part.area_share)),
-            ]
-            for i in some_of(total, MOST_ROWS)
+
+def _populations(report: Found, total: int) -> str:
+    states = report.result.states
+    parts = states.populations
+    head = ["pressure", *(f"{part.name}: {of}" for part in parts for of in ("load", "area"))]
+    rows = [
+        [
+            value_of(states.pressure[i], "Pa"),
+            *(percent(x[i]) for part in parts for x in (part.load_share, part.area_share)),
         ]
-        return text_table(head, rows)
+        for i in some_of(total, MOST_ROWS)
+    ]
+    return text_table(head, rows)
 
-    def _critical(self) -> list[str]:
-        if self.contact.two_body:
-            return []
+
+def critical_section(report: Found) -> list[str]:
+    if report.contact.two_body:
+        return []
+    rows = []
+    for name, entry in report.result.transitions.entries().items():
+        Es = (None, report.contact.E_ss)
+        loads = (critical_load(entry.value, entry.status, E_ss) for E_ss in Es)
+        rows.append([critical_name(name), *loads, entry.status, happens(name)])
+    text = text_table(CRITICAL_HEADS, rows, CRITICAL_HEADS[3:])
+    return [section("Critical loads", [text], name="critical")]
+
+
+def outputs_section(report: Found) -> list[str]:
+    outputs = report.contact.outputs
+    if not outputs:
+        return []
+    states = report.result.states
+    which = some_of(len(states.status), MOST_COLUMNS)
+    loads = [value_of(states.pressure[i], "Pa") for i in which]
+    head = ["", "symbol", "unit", *(f"<th class=n>{words(load)}</th>" for load in loads)]
+    out = []
+    for output in outputs:
         rows = []
-        for name, entry in self.result.transitions.entries().items():
-            Es = (None, self.contact.E_ss)
-            loads = (critical_load(entry.value, entry.status, E_ss) for E_ss in Es)
-            rows.append([critical_name(name), *loads, entry.status, happens(name)])
-        text = text_table(CRITICAL_HEADS, rows, CRITICAL_HEADS[3:])
-        return [section("Critical loads", [text], name="critical")]
+        for name, (symbol, unit, meaning) in output.columns.items():
+            prefixed = unit in ("m", "Pa")
+            shown, column = unit if prefixed else "1", states.outputs[name]
+            values = (value_of(column[i], shown) for i in which)
+            rows.append(
+                [
+                    f"<td class=words>{words(meaning)}</td>",
+                    symbols(symbol),
+                    "" if prefixed else unit_of(unit),
+                    *(f"<td class=n>{words(value)}</td>" for value in values),
+                ]
+            )
+        out += [f"<h3>{escape(output.title)}</h3>", table(head, rows)]
+    return [section("What else the contact does", out, name="outputs")]
 
-    def _outputs(self) -> list[str]:
-        outputs = self.contact.outputs
-        if not outputs:
-            return []
-        states = self.result.states
-        which = some_of(len(states.status), MOST_COLUMNS)
-        loads = [value_of(states.pressure[i], "Pa") for i in which]
-        head = ["", "symbol", "unit", *(f"<th class=n>{words(load)}</th>" for load in loads)]
-        out = []
-        for output in outputs:
-            rows = []
-            for name, (symbol, unit, meaning) in output.columns.items():
-                prefixed = unit in ("m", "Pa")
-                shown, column = unit if prefixed else "1", states.outputs[name]
-                values = (value_of(column[i], shown) for i in which)
-                rows.append(
-                    [
-                        f"<td class=words>{words(meaning)}</td>",
-                        symbols(symbol),
-                        "" if prefixed else unit_of(unit),
-                        *(f"<td class=n>{words(value)}</td>" for value in values),
-                    ]
-                )
-            out += [f"<h3>{escape(output.title)}</h3>", table(head, rows)]
-        return [section("What else the contact does", out, name="outputs")]
 
-    def _oil(self) -> list[str]:
-        """What each population does in the oil, before and after a filter, and who shares."""
-        from .. import bearing_words, oil_words
+def oil_section(report: Found) -> list[str]:
+    """What each population does in the oil, before and after a filter, and who shares."""
+    from .. import bearing_words, oil_words
 
-        out = []
-        if self.oil is not None and self.oil_filtered is not None:
-            rows = oil_words.filter_rows(self.oil, self.oil_filtered)
-            out.append(text_table(("", "before", "after the filter"), rows))
-        elif self.oil is not None:
-            out += _with_legend(oil_words.HEADS, oil_words.rows(self.oil), oil_words.MEANS)
-        if bearing_words.shares_load(self.study):
-            out.append(f"<p>{words(bearing_words.sharing(self.study))}</p>")
-            rows = bearing_words.rows(self.study)
-            out += _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
-        return [section("What the oil carries", out, name="oil")] if out else []
+    out = []
+    if report.oil is not None and report.oil_filtered is not None:
+        rows = oil_words.filter_rows(report.oil, report.oil_filtered)
+        out.append(text_table(("", "before", "after the filter"), rows))
+    elif report.oil is not None:
+        out += _with_legend(oil_words.HEADS, oil_words.rows(report.oil), oil_words.MEANS)
+    if bearing_words.shares_load(report.study):
+        out.append(f"<p>{words(bearing_words.sharing(report.study))}</p>")
+        rows = bearing_words.rows(report.study)
+        out += _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
+    return [section("What the oil carries", out, name="oil")] if out else []
 
-    def _film(self) -> list[str]:
-        """The lubricated contact: in words, over speed, and at a few speeds."""
-        if self.film is None:
-            return []
-        from ..film_words import bodies, point, summary
-        from ..plot.film import stribeck
 
-        states, oil = self.film.states, self.film.conditions.oil
-        total = len(states["speed"])
-        lead = f"A {bodies(self.film)}, in oil of {value_of(oil.eta, 'Pa s')}. "
-        pressed = "the load of the study" if self.study.own_load else "this Hertz pressure"
-        lead += f"What follows after this section leaves the oil out, under {pressed}."
-        out = [f"<p>{words(text)}</p>" for text in (lead, *summary(self.film))]
-        if total > 1:
-            drawn = svg_of(stribeck(states, self.film.regime_speeds))
-            caption = "Friction, load shares and film thickness over speed; grey: the regimes."
-            out.append(f'<div class="figures tall">{figure(drawn, caption)}</div>')
-        which = some_of(total, MOST_COLUMNS)
-        columns = [point(self.film, i) for i in which]
-        head = ["at a speed of", *(value_of(states["speed"][i], "m/s") for i in which)]
-        rows = [[name, *(column[name] for column in columns)] for name in columns[0]]
-        return [section("The oil film", [*out, text_table(head, rows)], name="film")]
+def film_section(report: Found) -> list[str]:
+    """The lubricated contact: in words, over speed, and at a few speeds."""
+    if report.film is None:
+        return []
+    from ..film_words import bodies, point, summary
+    from ..plot.film import stribeck
 
-    def _explicit(self) -> list[str]:
-        """One small surface, every particle at its place, beside the states of the study."""
-        found = self.pressed
-        if found is None:
-            return []
-        if isinstance(found, str):
-            text = f"<p>{words(f'The surface of the study could not be pressed: {found}.')}</p>"
-            return [section("Point by point", [text], name="explicit")]
-        from ..plot.explicit import explicit
+    states, oil = report.film.states, report.film.conditions.oil
+    total = len(states["speed"])
+    lead = f"A {bodies(report.film)}, in oil of {value_of(oil.eta, 'Pa s')}. "
+    pressed = "the load of the study" if report.study.own_load else "this Hertz pressure"
+    lead += f"What follows after this section leaves the oil out, under {pressed}."
+    out = [f"<p>{words(text)}</p>" for text in (lead, *summary(report.film))]
+    if total > 1:
+        drawn = svg_of(stribeck(states, report.film.regime_speeds))
+        caption = "Friction, load shares and film thickness over speed; grey: the regimes."
+        out.append(f'<div class="figures tall">{figure(drawn, caption)}</div>')
+    which = some_of(total, MOST_COLUMNS)
+    columns = [point(report.film, i) for i in which]
+    head = ["at a speed of", *(value_of(states["speed"][i], "m/s") for i in which)]
+    rows = [[name, *(column[name] for column in columns)] for name in columns[0]]
+    return [section("The oil film", [*out, text_table(head, rows)], name="film")]
 
-        head, rows = comparison_table(found)
-        last = len(rows) - 1
-        told = [headline(found, last), *found.warnings]
-        out = [f"<p>{words(text)}</p>" for text in told]
-        caption = (
-            f"At F* = {rows[last][0]}: (a) contact pressure, with the particles that carry in true "
-            "size; (b) gap; (c) section through the particle that carries most; (d) parts of the "
-            "load on single particles."
-        )
-        drawn = figure(svg_of(explicit(found.state)), caption)
-        out += [text_table(head, rows), drawn]
-        return [section("Point by point", out, name="explicit")]
+
+def explicit_section(report: Found) -> list[str]:
+    """One small surface, every particle at its place, beside the states of the study."""
+    found = report.pressed
+    if found is None:
+        return []
+    if isinstance(found, str):
+        text = f"<p>{words(f'The surface of the study could not be pressed: {found}.')}</p>"
+        return [section("Point by point", [text], name="explicit")]
+    from ..plot.explicit import explicit
+
+    head, rows = comparison_table(found)
+    last = len(rows) - 1
+    told = [headline(found, last), *found.warnings]
+    out = [f"<p>{words(text)}</p>" for text in told]
+    caption = (
+        f"At F* = {rows[last][0]}: (a) contact pressure, with the particles that carry in true "
+        "size; (b) gap; (c) section through the particle that carries most; (d) parts of the "
+        "load on single particles."
+    )
+    drawn = figure(svg_of(explicit(found.state)), caption)
+    out += [text_table(head, rows), drawn]
+    return [section("Point by point", out, name="explicit")]
 
 
 def column_value(name: str, value: Any) -> str:
