@@ -31,7 +31,8 @@ NODES, AT_ONCE = 13, 8_192
 EXACT, PASSES, HALVINGS = 1e-6, 60, 30
 """Last step to a crossing, over the range of separations, which leaves less than 1e-5 of the load;
 passes at most, and halvings of a cell to the root of its spline."""
-EXACT_PEAK = 1e-4
+EXACT_PEAK, NEAR = 1e-4, 0.3
+"""Tolerance of a peak, and ln of the loads' ratio below which there may be a crossing between."""
 
 
 @takes_units
@@ -175,12 +176,12 @@ def _log_ratio(one: Array, other: Array) -> Array:
 
 
 def _critical_loads(
-    contact: Contact, vary: Arrays, count: int
+    contact: Contact, vary: Arrays, count: int, nodes: int = NODES
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:
     shares = Shares(contact, vary, count)
-    t = np.linspace(0.0, 1.0, NODES)
-    found = shares.at(np.tile(t, count), np.repeat(np.arange(count), NODES))
-    area, load, F = (values.reshape(count, NODES) for values in found)
+    t = np.linspace(0.0, 1.0, nodes)
+    found = shares.at(np.tile(t, count), np.repeat(np.arange(count), nodes))
+    area, load, F = (values.reshape(count, nodes) for values in found)
     lost = np.isnan(shares.top)
 
     def entry(
@@ -202,8 +203,8 @@ def _critical_loads(
     where = [np.flatnonzero(each) for each in rows]
     cells = [
         np.argmax(below, 1) - 1,
-        NODES - 1 - np.argmax(above[:, ::-1], 1),
-        NODES - 2 - np.argmax(changes[:, ::-1], 1),
+        nodes - 1 - np.argmax(above[:, ::-1], 1),
+        nodes - 2 - np.argmax(changes[:, ::-1], 1),
     ]
     misses = [area - level_1, area - level_2, load]
     loads = _crossings(
@@ -225,7 +226,24 @@ def _critical_loads(
     names = ("F_cr1", "F_cr2", "F_tpca.B")
     each = zip(names, cases, zip(parts, where, strict=True), strict=True)
     out = {name: entry(case, part) for name, case, part in each}
-    return out | {"F_tpca.A": _peak(shares, area, t, lost, entry)}
+    out["F_tpca.A"] = _peak(shares, area, t, lost, entry)
+    close = np.flatnonzero(_all_but_equal(t, load) & unequal & ~lost)
+    if nodes == NODES and len(close):
+        some = {name: values[close] for name, values in vary.items()}
+        again = _critical_loads(contact, some, len(close), 2 * NODES - 1)
+        for name, (values, status) in out.items():
+            values[close], status[close] = again[name]
+    return out
+
+
+def _all_but_equal(t: Array, load: Array) -> NDArray[np.bool_]:
+    """Which contacts may have equal loads twice between two nodes, by splines through the nodes."""
+    from scipy.interpolate import CubicSpline
+
+    known = np.all(np.isfinite(load), axis=1)
+    between = CubicSpline(t, load[known], axis=1)(np.linspace(0.0, 1.0, 4 * len(t)))
+    known[known] = np.min(np.abs(between), axis=1) < NEAR
+    return known
 
 
 def _crossings(
@@ -305,7 +323,7 @@ def _peak(
     top = np.argmax(area, axis=1)
     size, rows = expit(area), np.arange(len(area))
     ends = np.maximum(size[:, 0], size[:, -1])
-    good = (top > 0) & (top < NODES - 1) & (ends <= 0.9 * size[rows, top])
+    good = (top > 0) & (top < len(t) - 1) & (ends <= 0.9 * size[rows, top])
     good &= (size[rows, top] >= 1e-6) & ~lost
     which = np.flatnonzero(good)
     if not len(which):
