@@ -117,7 +117,7 @@ def test_what_is_no_argument_is_refused_in_words(
 def test_most_public_functions_are_called():
     names = {name for name, *_ in CALLS}
     assert {"solve", "load_study", "transitions", "sizes.read_sizes", "plot.area"} <= names
-    assert {"ContactTable.to_csv", "LogNormal.ppf", "rough_body.rough_sphere"} <= names
+    assert {"ContactTable.to_csv", "LogNormal.ppf", "systems.rough_body.rough_sphere"} <= names
     assert len(CALLS) > 400
 
 
@@ -160,7 +160,7 @@ def test_every_public_function_that_takes_anything_is_marked():
         and {*inspect.signature(function).parameters} - {"self", "cls"}
     }
     assert bare == {
-        *("Assessment.page", "InvalidValue.under"),  # a text, whatever it is
+        *("results.Assessment.page", "errors.InvalidValue.under"),  # a text, whatever it is
         *(f"outputs.Solved.{key}" for key in ("output", "total", "total_of_particles")),
         "particle.OneParticle.sinks",
     }

@@ -22,10 +22,6 @@ __all__ = [
     "RangeWarning",
     "SlowWarning",
     "ThirdBodyError",
-    "code_of",
-    "note_of",
-    "ranked",
-    "tell_of_range",
 ]
 
 

@@ -52,7 +52,7 @@ def test_how_high_a_wafer_stands_over_a_grain():
     assert "The plate stands 410 nm high over a particle of 10 µm (quartz)" in told
     assert "Above the limit of 50 nm there are 1.78 bumps on a plate" in told
     assert "16.8 % of the plates have none" in told
-    assert done.stderr.count("warning: ") == 3
+    assert done.stderr.count("warning: ") == 2
 
 
 @pytest.mark.parametrize(("command", "kind"), FILES.items())
@@ -82,7 +82,9 @@ def test_neither_roughness_nor_load_is_needed(command, kind):
 
 
 def test_the_same_study_is_solved_under_its_own_pressure():
-    plug = check(tomllib.loads(Path("connector.toml").read_text("utf-8")))
+    data = tomllib.loads(Path("connector.toml").read_text("utf-8"))
+    del data["load"]
+    plug = check(data)
     # Hertz: mean pressure W/(π a²), a³ = 3 W R/(4 E*)
     a = (3 * 0.5 * 2e-3 / (4 * (115e9 / (1 - 0.34**2)) / 2)) ** (1 / 3)
     assert plug.values[0] == pytest.approx(0.5 / (math.pi * a**2), rel=1e-9)

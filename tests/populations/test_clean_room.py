@@ -94,7 +94,7 @@ def test_a_study_file_takes_the_class():
     assert dust.areal_density == number
     assert dust.diameter == sizes
     assert "settles from still air" in " ".join(particles().assumed)
-    assert "up to 5 µm" in " ".join(particles(largest="20 um").notes)
+    assert "up to 5 µm" in " ".join(particles(largest="20 um").assumed)
 
 
 @pytest.mark.parametrize(

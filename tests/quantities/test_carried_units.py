@@ -205,7 +205,7 @@ REFUSED = {
     r"(Objective\.cost|Limit\.excess)\(metric\)": HOOK,
     r"outputs\.AbstractOutput\.\w+\((state|contact)\)": "no number",
     r"explicit\.ensemble\((seats|cap)\)": "words as well",
-    r"explicit\.\w+\.draw\(.*": HOOK,
+    r"explicit\.\w+\.(draw|room)\(.*": HOOK,
     r"asperity\.(\w+\.pressure|\w+\.reduced)\([uy]\)": HOOK,
     r"particle\.OneParticle\.\w+\((depth|delta|number)\)": HOOK,
     r"films\.\w+\.(limits_of|joined|warnings)\(.*": HOOK,

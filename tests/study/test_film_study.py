@@ -447,7 +447,7 @@ def test_the_example_shows_what_it_says():
 # ---------------------------------------------------------------- report
 def test_the_report_has_the_film_and_the_same_bytes(monkeypatch):
     # the other figures cost most of a page and know nothing of the film
-    monkeypatch.setattr(Report, "_figures", lambda report: [])
+    monkeypatch.setattr("thirdbody.views.report.page.figures_of", lambda report: [])
     data = data_of()
     del data["particles"], data["outputs"]
     study = check(data)

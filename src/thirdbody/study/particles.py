@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Note, Problem
+from ..errors import InvalidValue, Problem
 from ..populations.distributions import Histogram
 from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
@@ -311,18 +311,14 @@ def _settled(
     values: dict[str, Any],
 ) -> Particles:
     """Dust that settles out of the air of a clean room."""
-    if options.get("largest", 0.0) > clean_room.COUNTED_TO:
-        reader.notes.append(
-            Note(
-                f"{path}.iso14644: ISO 14644-1 states its classes up to 5 µm; beyond, its power "
-                "law is continued, and large particles settle most",
-                code="settled",
-                action=f"count them on a witness plate, and give {path}.areal_density and sizes",
-            )
-        )
+    beyond = options.get("largest", 0.0) > clean_room.COUNTED_TO
+    more = (
+        "; ISO 14644-1 states its classes up to 5 µm, and beyond its power law is continued: count "
+        f"large ones on a witness plate, and give {path}.areal_density and sizes"
+    )
     reader.assumed.append(
         f"{path}.iso14644: dust settles from still air, at the limit of its class, on surfaces "
-        "that face up; nothing is brought by hands or charges"
+        f"that face up; nothing is brought by hands or charges{more * beyond}"
     )
     if (density := options.pop("particle_density", None)) is None:
         density = values["material"].density
