@@ -161,6 +161,7 @@ def test_every_public_function_that_takes_anything_is_marked():
     }
     assert bare == {
         *("results.Assessment.page", "errors.InvalidValue.under"),  # a text, whatever it is
+        *(f"errors.Problem.{key}" for key in ("changed", "under", "worded")),
         *(f"outputs.Solved.{key}" for key in ("output", "total", "total_of_particles")),
         "particle.OneParticle.sinks",
     }

@@ -21,6 +21,7 @@ from thirdbody.systems.mixed_film import COLUMNS, mean_gap
 from thirdbody.systems.stribeck import regime_speeds
 from thirdbody.views.plot.film import bands_of
 from thirdbody.views.report import Report
+from thirdbody.views.report.tables import film_section
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "oil_film.toml"
@@ -462,7 +463,7 @@ def test_the_report_has_the_film_and_the_same_bytes(monkeypatch):
         film=run_film(study),
     )
     page = told.html()
-    assert told._film()[0] in page
+    assert film_section(told)[0] in page
     section = page.partition('<section id="film">')[2].partition("</section>")[0]
     ends = told.study.film.regime_speeds(told.contact)
     assert f"boundary up to {ends.boundary:.4g} m/s, where solids carry 99 % of the load" in section

@@ -26,6 +26,7 @@ HOMES = ("quantities/say.py", "papers/", "views/html.py")
 KEPT = (
     "task.percentage",  # the bar of rich
     "the last amount is",  # repeats a cell of the file
+    *("size.clearance[0]:g", "return f'\"{1e3 * value"),  # numbers of a drawing, in a study file
 )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import Note
 from ..quantities.plain_data import plain_data
 from ..quantities.record import Record, column, declared_columns
-from ..quantities.say import percent
+from ..quantities.say import number, percent
 from ..systems.connector import Connector
 from ..version import __version__
 from .connector import AskedConnector, connector_of
@@ -270,8 +270,8 @@ def _bounds_note(found: ConnectorResult, at: int) -> list[Note]:
         return []
     return [
         Note(
-            f"one contact stays open between {low:.2g} and {high:.2g} of the time: the force is at "
-            "a jump, where particles of one size are just pressed in",
+            f"one contact stays open between {number(low, 2)} and {number(high, 2)} of the time: "
+            "the force is at a jump, where particles of one size are just pressed in",
             code="jump",
             effect=(high - low) / high,
             action='give the dust its spread of sizes, e.g. distribution = "log-normal"',

@@ -62,6 +62,7 @@ class BearingSize(NamedTuple):
     estimated: bool
     """Whether number and diameter of the balls follow from the dimensions alone."""
 
+    @names_arguments
     def bearing(self, **others: Any) -> BallBearing:
         """The bearing, with the least clearance of its class unless another is given."""
         given = {

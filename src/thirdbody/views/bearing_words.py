@@ -62,7 +62,9 @@ def rows(study: Study) -> list[list[str]]:
             value_of(float(each.hertz(load, E=2 * E_star).maximum), "Pa", 3) for each in sides
         ]
         axes = [" × ".join(_lengths(each.semi_axes(load, E=2 * E_star))) for each in sides]
-        out.append([f"{both}{np.degrees(angle):.0f} deg", value_of(load, "N"), *pressures, *axes])
+        out.append(
+            [f"{both}{round(np.degrees(angle))} deg", value_of(load, "N"), *pressures, *axes]
+        )
     return out
 
 

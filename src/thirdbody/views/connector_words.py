@@ -49,7 +49,7 @@ def _count(failure: float) -> str:
     if turns >= 1e7:
         return number(turns, 3)
     digits = max(2 - math.floor(math.log10(turns)), -9)
-    return f"{round(turns, digits):,.0f}".replace(",", " ")
+    return f"{round(round(turns, digits)):,}".replace(",", " ")
 
 
 def answer(found: ConnectorResult) -> list[str]:

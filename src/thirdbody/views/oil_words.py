@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from ..quantities.say import join_words, number, percent, value_of
 from ..study.dirty_oil import DirtyOil, Life, PopulationDents
 
@@ -174,7 +176,7 @@ def _count(value: float) -> str:
     """A number of dents as people say it."""
     if not math.isfinite(value):
         return number(value)
-    return number(float(f"{value:.2g}"), 6 if 1 <= value < 1e6 else 2)
+    return number(float(np.format_float_scientific(value, 1)), 6 if 1 <= value < 1e6 else 2)
 
 
 def _share(value: float) -> str:
