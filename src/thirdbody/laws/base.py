@@ -143,6 +143,8 @@ class AbstractAsperityLaw(Law):
     registry: ClassVar[dict[str, type[Law]]] = {}
     of_surface: ClassVar[bool] = False
     """It says what a rough surface does as a whole; of one tip it borrows what another law says."""
+    bandwidths: ClassVar[tuple[float, float]] = (0.0, math.inf)
+    """Least and largest α that the law knows [1]."""
     beyond: ClassVar[str] = ""
     """What an asperity is past `valid_to`, to follow "x % of the asperities' area is"."""
 

@@ -215,11 +215,17 @@ class Uncertainty:
 
 
 def stated_ranges(contact: Contact) -> dict[str, Uncertain]:
-    """Ranges that nobody gave: of the materials library, and of a finishing process."""
-    return library_ranges(contact) | {
-        f"roughness.{name}": Uncertain.log_uniform(low=ends[0], high=ends[1])
-        for name, ends in contact.roughness.ranges.items()
-    }
+    """Ranges that nobody gave: of the materials library, and of a finishing process.
+
+    Bandwidths α of a process go as far as the law of the asperities knows them.
+    """
+    known = {"alpha": contact.asperity_law.bandwidths}
+    out = library_ranges(contact)
+    for name, ends in contact.roughness.ranges.items():
+        least, most = known.get(name, ends)
+        low, high = max(ends[0], least), min(ends[1], most)
+        out[f"roughness.{name}"] = Uncertain.log_uniform(low=low, high=high)
+    return out
 
 
 def library_ranges(contact: Contact) -> dict[str, Uncertain]:

@@ -137,14 +137,16 @@ def _sheets(data: xarray.Dataset) -> list[Sheet]:
     from ...quantities.say import unit_of
     from ...views.workbook import Grid, Sheet, sheet_of_table
 
+    columns, units = _table(data)
+    abouts = {name: data[name].attrs for name in columns if name in data.variables}
     told = [
-        (str(name), unit_of(each.attrs.get("units", "")), each.attrs.get("long_name", ""))
-        for name, each in data.variables.items()
+        (name, unit_of(about.get("units", "")), about.get("long_name", ""))
+        for name, about in abouts.items()
     ]
     notes = [(line, "", "") for name in ("warnings", "citations", "version")
              for line in str(data.attrs[name]).splitlines()]  # fmt: skip
     return [
-        sheet_of_table("States", *_table(data)),
+        sheet_of_table("States", columns, units),
         Sheet("Notes", (Grid(("column", "unit", "meaning"), told), Grid(("note", "", ""), notes))),
     ]
 

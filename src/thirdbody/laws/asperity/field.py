@@ -93,6 +93,7 @@ class Field(AbstractAsperityLaw):
     valid_range = "Gaussian heights, α 2.5 to 30; h from 0.2 σ, from −1 σ where H/(E*g) ≤ 0.4"
 
     of_surface = True
+    bandwidths = ALPHAS
 
     remainder: bool = True
     spectrum: OwnSpectrum | RollOff | None = field(default=None, metadata={"table": SPECTRUM})
@@ -132,7 +133,7 @@ class Field(AbstractAsperityLaw):
                     hint="remove the ellipticity, or take elliptic-zmc",
                 )
             )
-        low, high = ALPHAS
+        low, high = self.bandwidths
         if not low <= roughness.alpha <= high:
             out.append(
                 Problem(
