@@ -208,11 +208,15 @@ def settle(given, sides, panels, p, n, rule):
 def fill_both(sides, p, panel, first, second, room):
     """Loads and areas of both sides at their indentations: into two rows each."""
     wide = len(first)
-    passing = room[PASSING : PASSING + 2, :wide]
-    fill_side(sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide], passing)
+    passing, passing_2 = room[PASSING, :wide], room[PASSING_2, :wide]
     fill_side(
-        sides, 2 * p + 1, panel[FORM_2], second, room[OTHER, :wide], room[AREA_2, :wide], passing
-    )
+        sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide], passing,
+        passing_2,
+    )  # fmt: skip
+    fill_side(
+        sides, 2 * p + 1, panel[FORM_2], second, room[OTHER, :wide], room[AREA_2, :wide], passing,
+        passing_2,
+    )  # fmt: skip
 
 
 @exact
@@ -263,7 +267,7 @@ def take_weaker(first, second, other, load):
 def _fill_unlike(sides, panel, p, room, wide):
     """As `fill_particles`, between two different sides."""
     apart()
-    passing = room[PASSING : PASSING + 2, :wide]
+    passing, passing_2 = room[PASSING, :wide], room[PASSING_2, :wide]
     eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
     load, other, off = room[LOAD, :wide], room[OTHER, :wide], room[OFF, :wide]
     one, two = room[AREA_1, :wide], room[AREA_2, :wide]
@@ -278,8 +282,10 @@ def _fill_unlike(sides, panel, p, room, wide):
         if worst <= BALANCED:
             break
         _step_aside(off, first, second, aside, rest)
-        fill_side(sides, 2 * p, panel[FORM_1], aside, near, near_1, passing)
-        fill_side(sides, 2 * p + 1, panel[FORM_2], rest, near_other, near_2, passing)
+        fill_side(sides, 2 * p, panel[FORM_1], aside, near, near_1, passing, passing_2)
+        fill_side(
+            sides, 2 * p + 1, panel[FORM_2], rest, near_other, near_2, passing, passing_2
+        )
         follow(off, near, near_other, off)
         mix(off, aside, first)
         if worst <= NEARBY or n == 2:
@@ -313,7 +319,7 @@ def fill_particles(given, sides, panels, p, n, count):
             first[j] = 0.5 * eps[j]
         fill_side(
             sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide],
-            room[PASSING : PASSING + 2, :wide],
+            room[PASSING, :wide], room[PASSING_2, :wide],
         )  # fmt: skip
         for j in range(wide):
             room[AREA_2, j] = room[AREA_1, j]
