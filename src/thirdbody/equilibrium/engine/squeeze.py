@@ -21,12 +21,29 @@ from .curves import (
     ROOM,
     SHARE,
     TO,
+    UNTIL,
     fill_particles,
     first_at,
     particle_at,
     settle,
 )
-from .fields import COUNT, EQUAL, FOOTPRINT, JUMPS, KINKS, LIMIT, PROJECTED, SHADOW
+from .densities import scale_of
+from .fields import (
+    COUNT,
+    EQUAL,
+    FOOTPRINT,
+    HIGH,
+    JUMPS,
+    KIND,
+    KINKS,
+    LIMIT,
+    ONE_SIZE,
+    PLANE,
+    PROJECTED,
+    SEAT,
+    SHADOW,
+    WIDTH,
+)
 from .shares import around, inverse, note_jumps, note_loads, share_out
 from .sides import chord, narrowed, prepare, regime_of, scalar, side_at
 from .vectors import VECTOR, formula_of
@@ -36,6 +53,8 @@ __all__ = ["lay_panels"]
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
 DEEPEST, SAME_AREA = 1e3, 1e-5
+PART = 0.2
+"""Of the width of the sizes or the seat over which most of a load is carried, at least."""
 
 
 @scalar
@@ -200,10 +219,13 @@ def lay_panels(given, sides, panels, p, rule):
             a *= step
             count = _lay(panels, p, count, a, -1.0)
     for n in range(count - 1):
-        panels[p, n, TO] = panels[p, n + 1, EDGE]
+        panels[p, n, TO], panels[p, n, UNTIL] = panels[p, n + 1, EDGE], 0.0
     count -= 1
     if not equal:
-        count, worst = share_out(sides, panels, p, count, rule)
+        spread = max(given[p, WIDTH], scale_of(given, p, given[p, HIGH])) / given[p, HIGH]
+        if given[p, SEAT] == PLANE and given[p, KIND] == ONE_SIZE:
+            spread = 0.0  # what is squeezed is squeezed alike
+        count, worst = share_out(sides, panels, p, count, rule, PART * spread)
         count = _cut_at_crossings(given, sides, panels, p, count)
     for n in range(count):
         eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])
