@@ -45,7 +45,7 @@ from .fields import (
     WIDTH,
 )
 from .shares import around, inverse, note_jumps, note_loads, share_out
-from .sides import chord, narrowed, prepare, regime_of, scalar, side_at
+from .sides import chord, is_split, narrowed, prepare, regime_of, scalar, side_at
 from .vectors import VECTOR, formula_of
 
 __all__ = ["lay_panels"]
@@ -81,8 +81,11 @@ def _kinks(given, sides, panels, p):
     equal = given[p, EQUAL] == 1
     for i in range(1 if equal else 2):
         own, other = 2 * p + i, 2 * p + 1 - i
+        stronger = sides[own, LIMIT] - sides[other, LIMIT] > (2 * i - 1) * CLOSE * sides[own, LIMIT]
         for k in range(int(sides[own, COUNT])):
             delta = sides[own, KINKS + k]
+            if stronger and is_split(sides, own, delta) and not equal:
+                continue  # the weaker side has its own, where it is squeezed as far
             if equal:
                 count = _lay(panels, p, count, 2 * delta, delta)
                 continue
