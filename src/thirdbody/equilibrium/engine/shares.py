@@ -358,6 +358,8 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
     else:
         _guess(eps, a, b, low, high, first)
     _bound(eps, a, b, low, high, first, least, most)
+    for j in range(wide):  # of no step before: nothing of another state
+        room[OLD, j], room[OLD_OFF, j] = first[j], 0.0
     middle = TERMS // 2
     panel[FORM_1] = formula_of(sides, 2 * p, first[middle])
     panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
@@ -370,6 +372,8 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
             first[j] = split(sides, 2 * p, eps[j], least[j], most[j])
         for j in range(TERMS, wide):
             first[j] = first[TERMS - 1]
+        panel[FORM_1] = formula_of(sides, 2 * p, first[middle])
+        panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
         find_rest(eps, first, second)
         fill_both(sides, p, panel, first, second, room)
     take_weaker(first, second, room[OTHER, :wide], room[LOAD, :wide])
