@@ -1,7 +1,7 @@
 """What a particle of unit size carries, on panels of its squeeze.
 
-Where load and areas are smooth enough they are series of a panel; elsewhere two different sides
-share a squeeze by a series, corrected where it is read.
+Load and areas are series of a panel: between two different sides on all panels that no jump holds,
+between equal ones where they are smooth enough.
 """
 
 from __future__ import annotations
