@@ -461,12 +461,9 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
         if unit != 0:
             worst = max(worst, abs((out[k] - row[k]) / unit))
     error = SAFE * worst * worst
-    for p in range(len(given)):  # shares of unlike sides are corrected once
-        if given[p, SEAT] == PRINTED:
-            continue
-        error = max(error, SAFE * work[2][p, laid[p, few, COUNT], SHARE] ** 2)
-    if len(given) > 0:
-        error += SAFE * SETTLED  # of the series that are read
+    for p in range(len(given)):  # what series leave out
+        if given[p, SEAT] != PRINTED:
+            error += SAFE * (SETTLED + work[2][p, laid[p, few, COUNT], SHARE])
     if slope < 0:
         error = max(error, error / -slope * skin[0, SIGMA_S] / skin[0, SIGMA])
     return error

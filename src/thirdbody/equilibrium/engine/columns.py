@@ -43,7 +43,7 @@ SHADOWS = {
     "covered": f.COVERED,
     "none": f.NOTHING,
 }
-TERMS, DEEPEST = 16, 5.0
+TERMS, DEEPEST = 24, 5.0
 """Of the series of a panel; lowest separation [σ_s] that may be given, down."""
 NODES = (
     ((6, 3.0, 10, 6.5, 16, 3.6), (12, 3.0, 16, 6.5, 32, 3.6)),

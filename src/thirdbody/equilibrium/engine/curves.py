@@ -1,7 +1,7 @@
 """What a particle of unit size carries, on panels of its squeeze.
 
-Where load and areas are smooth enough they are series of a panel; elsewhere two different sides
-share a squeeze by a series, corrected where it is read.
+Load and areas are series of a panel: between two different sides on all panels that no jump holds,
+between equal ones where they are smooth enough.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from .fields import EQUAL
 from .sides import exact, scalar, side_at, summed
 from .vectors import exp, fill_side, ln, padded
 
-MOST_PANELS, TERMS = 160, 16
+MOST_PANELS, TERMS = 160, 24
 EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
 """Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
 holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
@@ -30,17 +30,20 @@ OF_AREA_1, OF_AREA_2, PANEL = OF_LOAD + TERMS, OF_LOAD + 2 * TERMS, OF_LOAD + 3 
 """Series of the load over ε^1.5 and of both areas over ε."""
 SETTLED = 2e-13
 """Of the last two terms of such a series over its largest value, at most."""
-ROOM = 19
+ROOM = 20
 """Rows behind those of the panels, for what many nodes have on the way."""
 AT, LOAD, AREA_1, AREA_2, FIRST, SECOND, OTHER, OFF, NEAR, NEAR_1, NEAR_OTHER, NEAR_2 = range(12)
-PASSING, PASSING_2, LEAST, MOST, OLD, OLD_OFF, MASS = range(12, ROOM)
+PASSING, PASSING_2, LEAST, MOST, OLD, OLD_OFF, SLOPE, MASS = range(12, ROOM)
 """Of those rows: ε, load and areas over x²; indentations of both sides, load of the second and how
 far it is off; the same a step further; what else is on
 the way, and weights of a caller."""
-CLOSE, BALANCED, NEARBY, RESOLVED = 1e-12, 1e-13, 1e-8, 1e-6
-SHARED, SOLVED, STEEPEST, TRIES, FLAT = 1e-7, 1e-5, 1e4, 25, 1e-12
-"""Imbalances from which one more step of secants leaves 1e-10 and 1e-8 of a share, of which
-`particle_at` leaves the square; power of an indentation like which a load may grow."""
+CLOSE, BALANCED, NEARBY, ROUNDED = 1e-12, 1e-13, 1e-8, 2e-15
+"""Of limits; imbalances that leave nothing, or nothing after one more step of secants, the part of
+an indentation from which on such a step leaves nothing, and what is rounding."""
+STEEPEST, TRIES, FLAT = 1e4, 25, 1e-12
+"""Power of an indentation like which a load may grow."""
+NEGLIGIBLE = 5e-14
+"""What a panel may leave out of its series, times its width over that of the sizes and the seat."""
 JUMP, BESIDE = 1e-9, 1e-14
 """Of a load at a kink, at least, and where its sides are looked at; both relative."""
 
@@ -78,35 +81,15 @@ def particle_at(given, sides, panels, p, n, eps):
     if given[p, EQUAL] == 1:
         load, area = side_at(sides, 2 * p, 0.5 * eps)
         return load, area, area
-    one, held = first_at(panels, p, n, eps), panels[p, n, HELD]
+    held = panels[p, n, HELD]
+    one = held if held > 0 else eps + held
     load, first = side_at(sides, 2 * p, one)
     other, second = side_at(sides, 2 * p + 1, eps - one)
-    if held != 0:
-        return other if held > 0 else load, first, second
-    off = other / load - 1
-    if abs(off) > NEARBY:  # nearer first: what follows has an error of the square of this
-        step = off / (1.3 / one + 1.3 / (eps - one))
-        near = side_at(sides, 2 * p + 1, eps - one - step)[0] / side_at(sides, 2 * p, one + step)[0]
-        one += step * off / (off - (near - 1))
-        load, first = side_at(sides, 2 * p, one)
-        other, second = side_at(sides, 2 * p + 1, eps - one)
-        off = other / load - 1
-    if abs(off) > BALANCED:
-        # along the line from here to a point that is closer, with an error of its square
-        step = off / (1.3 / one + 1.3 / (eps - one))
-        near, near_first = side_at(sides, 2 * p, one + step)
-        near_other, near_second = side_at(sides, 2 * p + 1, eps - one - step)
-        part = off / (off - (near_other / near - 1)) if near_other > 0 else 0.0
-        one += part * step
-        load += part * (near - load)
-        other += part * (near_other - other)
-        first += part * (near_first - first)
-        second += part * (near_second - second)
-    return load if one > eps - one else other, first, second
+    return other if held > 0 else load, first, second
 
 
 @exact
-def _read_shares(panel, eps, first):
+def read_shares(panel, eps, first):
     """Indentation over x of side 1 at squeezes of a panel with a series, into ``first``."""
     apart()
     begin, end, series = panel[FROM], panel[UNTIL], panel[SHARE : SHARE + TERMS]
@@ -165,18 +148,21 @@ def _read_particle(panel, eps):
 
 @scalar
 def _settle_one(rule, values, series):
-    """Coefficients of a series, and whether they end: its last two terms over its largest value."""
+    """Coefficients of a series; its last two terms over its largest value."""
     apart()
     most = 0.0
     for j in range(TERMS):
         most = max(most, abs(values[j]))
     transform(rule, values, series)
-    return abs(series[TERMS - 1]) + abs(series[TERMS - 2]) <= SETTLED * most
+    return (abs(series[TERMS - 1]) + abs(series[TERMS - 2])) / most
 
 
 @scalar
 def settle_rows(panel, room, rule):
-    """Take series of load and areas from the rows of the room, at the places of a series."""
+    """Take series of load and areas from the rows of the room, at the places of a series.
+
+    What is left out of them, at most.
+    """
     apart()
     eps, load = room[AT, :TERMS], room[LOAD, :TERMS]
     one, two = room[AREA_1, :TERMS], room[AREA_2, :TERMS]
@@ -184,35 +170,36 @@ def settle_rows(panel, room, rule):
         load[j] /= eps[j] * math.sqrt(eps[j])
         one[j] /= eps[j]
         two[j] /= eps[j]
-    good = _settle_one(rule, load, panel[OF_LOAD:OF_AREA_1])
-    good &= _settle_one(rule, one, panel[OF_AREA_1:OF_AREA_2])
-    good &= _settle_one(rule, two, panel[OF_AREA_2:PANEL])
-    panel[SURE] = 1.0 if good else 0.0
+    tail = _settle_one(rule, load, panel[OF_LOAD:OF_AREA_1])
+    tail = max(tail, _settle_one(rule, one, panel[OF_AREA_1:OF_AREA_2]))
+    return max(tail, _settle_one(rule, two, panel[OF_AREA_2:PANEL]))
 
 
 @scalar
 def settle(given, sides, panels, p, n, rule):
-    """Series of load and areas on panel n, where they are smooth enough for one."""
+    """Series of load and areas on panel n between equal sides, where they are smooth enough."""
     apart()
     panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
     panel[SURE] = 0.0
-    if panel[HELD] != 0 and given[p, EQUAL] != 1:
-        return
     panel[FROM], panel[UNTIL] = panel[EDGE], panel[TO]
     fill_places(rule[0, :TERMS], panel[EDGE], panel[TO], room[AT, :TERMS])
     fill_particles(given, sides, panels, p, n, TERMS)
-    settle_rows(panel, room, rule)
+    panel[SURE] = 1.0 if settle_rows(panel, room, rule) <= SETTLED else 0.0
 
 
 @scalar
 def fill_both(sides, p, panel, first, second, room):
     """Loads and areas of both sides at their indentations: into two rows each."""
     wide = len(first)
-    passing = room[PASSING : PASSING + 2, :wide]
-    fill_side(sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide], passing)
+    passing, passing_2 = room[PASSING, :wide], room[PASSING_2, :wide]
     fill_side(
-        sides, 2 * p + 1, panel[FORM_2], second, room[OTHER, :wide], room[AREA_2, :wide], passing
-    )
+        sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide], passing,
+        passing_2,
+    )  # fmt: skip
+    fill_side(
+        sides, 2 * p + 1, panel[FORM_2], second, room[OTHER, :wide], room[AREA_2, :wide], passing,
+        passing_2,
+    )  # fmt: skip
 
 
 @exact
@@ -222,21 +209,17 @@ def find_rest(eps, first, second):
 
 
 @exact
-def find_off(load, other, off):
-    """How far the loads of both sides are apart; the largest of them."""
+def find_off(load, other, first, second, slope, off):
+    """How far the loads of both sides are apart; by how much of an indentation, at most.
+
+    The slope is that of ln of the first over the second, at a fixed squeeze.
+    """
     worst = 0.0
     for j in range(len(load)):
         off[j] = other[j] / load[j] - 1
-        worst = max(worst, abs(off[j]))
+        part = abs(off[j]) / (slope[j] * min(first[j], second[j]))
+        worst = max(worst, part if abs(off[j]) > ROUNDED else 0.0)
     return worst
-
-
-@exact
-def _step_aside(off, first, second, near, rest):
-    """Indentations a step further, by the law of a sphere."""
-    for j in range(len(off)):
-        step = off[j] / (1.3 / first[j] + 1.3 / second[j])
-        near[j], rest[j] = first[j] + step, second[j] - step
 
 
 @exact
@@ -260,40 +243,6 @@ def take_weaker(first, second, other, load):
 
 
 @scalar
-def _fill_unlike(sides, panel, p, room, wide):
-    """As `fill_particles`, between two different sides."""
-    apart()
-    passing = room[PASSING : PASSING + 2, :wide]
-    eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
-    load, other, off = room[LOAD, :wide], room[OTHER, :wide], room[OFF, :wide]
-    one, two = room[AREA_1, :wide], room[AREA_2, :wide]
-    near, near_1 = room[NEAR, :wide], room[NEAR_1, :wide]
-    near_other, near_2 = room[NEAR_OTHER, :wide], room[NEAR_2, :wide]
-    aside, rest = room[LEAST, :wide], room[MOST, :wide]
-    _read_shares(panel, eps, first)
-    for n in range(3):
-        find_rest(eps, first, second)
-        fill_both(sides, p, panel, first, second, room)
-        worst = find_off(load, other, off)
-        if worst <= BALANCED:
-            break
-        _step_aside(off, first, second, aside, rest)
-        fill_side(sides, 2 * p, panel[FORM_1], aside, near, near_1, passing)
-        fill_side(sides, 2 * p + 1, panel[FORM_2], rest, near_other, near_2, passing)
-        follow(off, near, near_other, off)
-        mix(off, aside, first)
-        if worst <= NEARBY or n == 2:
-            # along the line to a point that is closer, with an error of its square
-            mix(off, near, load)
-            mix(off, near_other, other)
-            mix(off, near_1, one)
-            mix(off, near_2, two)
-            break
-    find_rest(eps, first, second)
-    take_weaker(first, second, other, load)
-
-
-@scalar
 def fill_particles(given, sides, panels, p, n, count):
     """As `particle_at`, at so many ε in the row `AT` of the room behind the panels of part p.
 
@@ -313,17 +262,15 @@ def fill_particles(given, sides, panels, p, n, count):
             first[j] = 0.5 * eps[j]
         fill_side(
             sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide],
-            room[PASSING : PASSING + 2, :wide],
+            room[PASSING, :wide], room[PASSING_2, :wide],
         )  # fmt: skip
         for j in range(wide):
             room[AREA_2, j] = room[AREA_1, j]
-    elif panel[HELD] != 0:
+    else:
         for j in range(count):
             room[LOAD, j], room[AREA_1, j], room[AREA_2, j] = particle_at(
                 given, sides, panels, p, n, eps[j]
             )
-    else:
-        _fill_unlike(sides, panel, p, room, wide)
 
 
 @exact

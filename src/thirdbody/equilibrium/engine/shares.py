@@ -28,18 +28,17 @@ from .curves import (
     NEAR_2,
     NEAR_OTHER,
     NEARBY,
+    NEGLIGIBLE,
     OFF,
     OLD,
     OLD_OFF,
     ONE,
     OTHER,
-    RESOLVED,
     ROOM,
     SECOND,
+    SETTLED,
     SHARE,
-    SHARED,
-    SOLVED,
-    STEEPEST,
+    SLOPE,
     SURE,
     TERMS,
     TO,
@@ -51,6 +50,7 @@ from .curves import (
     find_rest,
     follow,
     mix,
+    read_shares,
     settle_rows,
     take_weaker,
     transform,
@@ -58,9 +58,6 @@ from .curves import (
 from .fields import CEB, CODE, COUNT, JG, JUMPS, KINKS, LIMIT, LOADS, MOST_JUMPS
 from .sides import exact, scalar, side_at
 from .vectors import exp, formula_of, ln, padded
-
-SEEN = 11
-"""Term of a share that must be small: where it is, rules of as many nodes sum what it gives."""
 
 
 @scalar
@@ -156,17 +153,16 @@ def inverse(sides, i, load):
 
 
 @scalar
-def split(sides, i, eps, low, high, delta, power):
+def split(sides, i, eps, low, high):
     """Indentation over x of side i at a squeeze ε, between two; side i + 1 takes the rest.
 
-    By secants from a first guess, inside the bracket; the first slope is that of a load which
-    grows like a power of the indentation. That power at the end, too.
+    By secants inside the bracket; the first slope is that of a load which grows like a power of
+    the indentation.
     """
     apart()
-    if not low < delta < high:
-        delta = 0.5 * (low + high)
+    delta = 0.5 * (low + high)
     old = old_f = math.nan
-    slope = power / delta + power / max(eps - delta, 1e-300)
+    slope = 1.3 / delta + 1.3 / max(eps - delta, 1e-300)
     for step in range(100):
         f = math.log(side_at(sides, i, delta)[0] / side_at(sides, i + 1, eps - delta)[0])
         if f < 0:
@@ -181,10 +177,9 @@ def split(sides, i, eps, low, high, delta, power):
         delta -= f / slope
         if not low < delta < high or not slope > 0 or step % 12 == 11:
             delta = 0.5 * (low + high)
-        elif abs(delta - old) < 2e-16 * delta or (step > 0 and abs(f) < SHARED):
+        elif abs(delta - old) < 2e-16 * delta:
             break
-    power = slope * delta * (eps - delta) / eps
-    return delta, power if 0.5 < power < STEEPEST else 1.3
+    return delta
 
 
 @scalar
@@ -241,8 +236,8 @@ def _allowed(sides, p, eps):
 
 
 @exact
-def _guess(eps, a, b, low, high, first, least, most):
-    """Indentations of side 1 by a power between two known ones, and where they must lie."""
+def _guess(eps, a, b, low, high, first):
+    """Indentations of side 1 by a power between two known ones."""
     if a > 0:
         power = math.log(high / low) / math.log(b / a)
         for j in range(len(eps)):
@@ -250,6 +245,11 @@ def _guess(eps, a, b, low, high, first, least, most):
     else:
         for j in range(len(eps)):
             first[j] = high * eps[j] / b
+
+
+@exact
+def _bound(eps, a, b, low, high, first, least, most):
+    """Between which indentations side 1 must be, and what is guessed of it there."""
     for j in range(len(eps)):
         least[j] = max(low, eps[j] - (b - high))
         most[j] = min(min(high, eps[j] - (a - low)), eps[j])
@@ -275,14 +275,12 @@ def _find_rates(first, second, load, other, slope):
 
 @exact
 def _improve(load, other, slope, first, least, most, old, old_off, weight):
-    """One step inside the bracket, of ln of the loads; the largest of those before.
+    """One step inside the bracket, of ln of the loads.
 
     With slopes (``weight`` 0), or where they can be had, by secants (1).
     """
-    worst = 0.0
     for j in range(len(first)):
         f, now = ln(load[j] / other[j]), first[j]
-        worst = max(worst, abs(f))
         low = now if f < 0 else least[j]
         high = most[j] if f < 0 else now
         run = now - old[j]
@@ -293,110 +291,107 @@ def _improve(load, other, slope, first, least, most, old, old_off, weight):
         following = following if low < following else beside
         first[j] = following if following < high else beside
         old[j], old_off[j], least[j], most[j] = now, f, low, high
-    return worst
+
+
+@exact
+def _keep(room, wide):
+    """Loads and areas of the step before."""
+    for j in range(wide):
+        room[NEAR, j], room[NEAR_1, j] = room[LOAD, j], room[AREA_1, j]
+        room[NEAR_OTHER, j], room[NEAR_2, j] = room[OTHER, j], room[AREA_2, j]
 
 
 @scalar
-def _end_share(sides, p, panel, room, rule, wide):
-    """Series of the share, and of load and areas, from indentations that are all but found.
+def _find_shares(sides, p, panel, room, wide):
+    """Indentations, loads and areas at the places of a series; whether they could be found.
 
-    What the room has of the step before is a point on the line to the root.
+    The last step is along the line through the two before, with an error of the square of the
+    distance that is left.
     """
     apart()
     eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
     load, other, off = room[LOAD, :wide], room[OTHER, :wide], room[OFF, :wide]
-    for j in range(wide):
-        room[NEAR, j], room[NEAR_1, j] = room[LOAD, j], room[AREA_1, j]
-        room[NEAR_OTHER, j], room[NEAR_2, j] = room[OTHER, j], room[AREA_2, j]
-    find_rest(eps, first, second)
-    fill_both(sides, p, panel, first, second, room)
-    worst = find_off(load, other, off)
-    follow(off, room[NEAR, :wide], room[NEAR_OTHER, :wide], off)
-    mix(off, room[OLD, :wide], first)
-    for j in range(TERMS):
-        room[LEAST, j] = first[j] / eps[j]
-    transform(rule, room[LEAST, :TERMS], panel[SHARE : SHARE + TERMS])
-    if worst <= NEARBY:
-        mix(off, room[NEAR, :wide], load)
-        mix(off, room[NEAR_OTHER, :wide], other)
-        mix(off, room[NEAR_1, :wide], room[AREA_1, :wide])
-        mix(off, room[NEAR_2, :wide], room[AREA_2, :wide])
-        find_rest(eps, first, second)
-        take_weaker(first, second, other, load)
-        settle_rows(panel, room, rule)
-
-
-@scalar
-def _fill_share(sides, panels, p, n, rule, a, b, low, high):
-    """Series of the share of side 1 on panel n; whether it could be found.
-
-    The indentations of side 1 at two squeezes a and b around the panel are ``low`` and ``high``.
-    """
-    apart()
-    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
-    begin, end, wide = panel[EDGE], panel[TO], padded(TERMS)
-    panel[FROM], panel[UNTIL] = begin, end
-    eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
-    load, other, slope = room[LOAD, :wide], room[OTHER, :wide], room[NEAR, :wide]
-    least, most = room[LEAST, :wide], room[MOST, :wide]
-    for j in range(wide):
-        slope[j] = rule[0, min(j, TERMS - 1)]
-    fill_places(slope, begin, end, eps)
-    _guess(eps, a, b, low, high, first, least, most)
-    middle = TERMS // 2
-    panel[FORM_1] = formula_of(sides, 2 * p, first[middle])
-    panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
-    worst = math.inf
+    slope, least, most, old = (
+        room[SLOPE, :wide],
+        room[LEAST, :wide],
+        room[MOST, :wide],
+        room[OLD, :wide],
+    )
     for step in range(TRIES):
+        _keep(room, wide)
         find_rest(eps, first, second)
         fill_both(sides, p, panel, first, second, room)
         if step == 0:
             _find_rates(first, second, load, other, slope)
-        worst = _improve(
-            load, other, slope, first, least, most, room[OLD, :wide], room[OLD_OFF, :wide],
-            min(step, 1),
-        )  # fmt: skip
-        if worst < SOLVED:
-            break
-    panel[SURE] = 0.0
-    if worst < SOLVED:
-        _end_share(sides, p, panel, room, rule, wide)
-    return worst < SOLVED
+        worst = find_off(load, other, first, second, slope, off)
+        if worst == 0:
+            return True
+        if step > 0 and worst <= NEARBY:
+            follow(off, room[NEAR, :wide], room[NEAR_OTHER, :wide], off)
+            for value, near in ((FIRST, OLD), (LOAD, NEAR), (OTHER, NEAR_OTHER)):
+                mix(off, room[near, :wide], room[value, :wide])
+            mix(off, room[NEAR_1, :wide], room[AREA_1, :wide])
+            mix(off, room[NEAR_2, :wide], room[AREA_2, :wide])
+            find_rest(eps, first, second)
+            return True
+        _improve(load, other, slope, first, least, most, old, room[OLD_OFF, :wide], min(step, 1))
+    return False
 
 
 @scalar
-def _fill_share_by_one(sides, panels, p, n, rule, before, behind, low, high):
-    """As `_fill_share`, one node after another."""
-    apart()
-    first, last = panels[p, n, EDGE], panels[p, n, TO]
-    panels[p, n, FROM], panels[p, n, UNTIL] = first, last
-    free = _lets_go(sides, p)
-    for k in range(TERMS):
-        panels[p, n, SHARE + k] = 0.0
-    share, power = 0.0, 1.3
-    for j in range(TERMS):  # from the last place down to the first
-        x = rule[0, j]
-        eps = 0.25 * last * (x + 1) ** 2
-        if first > 0:
-            eps = first * math.exp(0.5 * (x + 1) * math.log(last / first))
-        guess = share * eps if j > 0 else high * eps / behind
-        least, most = max(low, eps - (behind - high)), min(high, eps - (before - low))
-        if free:
-            least, most = _allowed(sides, p, eps)
-        delta, power = split(sides, 2 * p, eps, least, most, guess, power)
-        share = delta / eps
-        for k in range(TERMS):
-            panels[p, n, SHARE + k] += rule[1 + k, j] * share
+def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
+    """Series of the share of side 1, of load and areas on panel n; what they leave out, at most.
 
-
-@scalar
-def share_out(sides, panels, p, count, rule):
-    """Fill the series of the share on every panel, halved where it is not resolved.
-
-    How many panels there are then, and the largest last term of a series.
+    The indentations of side 1 at two squeezes a and b around the panel are ``low`` and ``high``.
+    Where ``free``, a side lets go.
     """
     apart()
-    n, worst, free = int(panels[p, 0, EDGE]), 0.0, _lets_go(sides, p)  # 0, and no constant
+    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    begin, end, wide = panel[EDGE], panel[TO], padded(TERMS)
+    eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
+    places, least, most = room[SLOPE, :wide], room[LEAST, :wide], room[MOST, :wide]
+    for j in range(wide):
+        places[j] = rule[0, min(j, TERMS - 1)]
+    fill_places(places, begin, end, eps)
+    if panel[UNTIL] > 0:  # a part of a panel that has one
+        read_shares(panel, eps, first)
+    else:
+        _guess(eps, a, b, low, high, first)
+    _bound(eps, a, b, low, high, first, least, most)
+    for j in range(wide):  # of no step before: nothing of another state
+        room[OLD, j], room[OLD_OFF, j] = first[j], 0.0
+    middle = TERMS // 2
+    panel[FORM_1] = formula_of(sides, 2 * p, first[middle])
+    panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
+    panel[FROM], panel[UNTIL], panel[SURE] = begin, end, 1.0
+    if free or not _find_shares(sides, p, panel, room, wide):
+        _bound(eps, a, b, low, high, first, least, most)
+        for j in range(TERMS):
+            if free:
+                least[j], most[j] = _allowed(sides, p, eps[j])
+            first[j] = split(sides, 2 * p, eps[j], least[j], most[j])
+        for j in range(TERMS, wide):
+            first[j] = first[TERMS - 1]
+        panel[FORM_1] = formula_of(sides, 2 * p, first[middle])
+        panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
+        find_rest(eps, first, second)
+        fill_both(sides, p, panel, first, second, room)
+    take_weaker(first, second, room[OTHER, :wide], room[LOAD, :wide])
+    for j in range(TERMS):
+        room[LEAST, j] = first[j] / eps[j]
+    transform(rule, room[LEAST, :TERMS], panel[SHARE : SHARE + TERMS])
+    return settle_rows(panel, room, rule)
+
+
+@scalar
+def share_out(sides, panels, p, count, rule, spread):
+    """Fill the series on every panel, halved where they do not end.
+
+    How many panels there are then, and what all series leave out, each over the part that its
+    panel is of what is squeezed at a separation, which ``spread`` is the least of.
+    """
+    apart()
+    n, left, free = int(panels[p, 0, EDGE]), 0.0, _lets_go(sides, p)  # 0, and no constant
     begin, low = 0.0, 0.0
     while n < count:
         a, b = panels[p, n, EDGE], panels[p, n, TO]
@@ -411,18 +406,17 @@ def share_out(sides, panels, p, count, rule):
         if panels[p, n, HELD] != 0:
             n += 1
             continue
-        if free or not _fill_share(sides, panels, p, n, rule, begin, end, low, high):
-            _fill_share_by_one(sides, panels, p, n, rule, begin, end, low, high)
-            panels[p, n, SURE] = 0.0
-        tail = abs(panels[p, n, SHARE + SEEN]) + abs(panels[p, n, SHARE + SEEN - 1])
-        if tail > RESOLVED and b > a * 1.001 and count < MOST_PANELS - 2:
+        tail = _fill_share(sides, panels, p, n, rule, begin, end, low, high, free)
+        part = min((b - a) / spread, 1.0)
+        if tail > SETTLED and tail * part > NEGLIGIBLE and count < MOST_PANELS - 2:
             for m in range(count + 1, n, -1):
-                for k in (EDGE, TO, ONE):
+                for k in range(SHARE + TERMS):
                     panels[p, m, k] = panels[p, m - 1, k]
+                panels[p, m, ONE] = panels[p, m - 1, ONE]
             panels[p, n, TO] = panels[p, n + 1, EDGE] = math.sqrt(a * b) if a > 0 else 0.25 * b
             panels[p, n + 1, ONE] = -1.0
             count += 1
             continue
-        worst = max(worst, tail)
+        left += tail * part
         n += 1
-    return count, worst
+    return count, left

@@ -415,6 +415,16 @@ def _prepare_table(rows, i):
 
 
 @scalar
+def is_split(rows, i, delta):
+    """Whether a kink is none, but an end of panels so that series resolve the table."""
+    if rows[i, FORM] == DEEP:
+        for eps in SPLITS:
+            if abs(delta - eps * rows[i, TIP]) < 1e-13:
+                return True
+    return False
+
+
+@scalar
 def side_at(rows, i, delta):
     """Load over x² [Pa] and area over x² of a side indented by δ over x."""
     apart()

@@ -21,14 +21,31 @@ from .curves import (
     ROOM,
     SHARE,
     TO,
+    UNTIL,
     fill_particles,
     first_at,
     particle_at,
     settle,
 )
-from .fields import COUNT, EQUAL, FOOTPRINT, JUMPS, KINKS, LIMIT, PROJECTED, SHADOW
+from .densities import scale_of
+from .fields import (
+    COUNT,
+    EQUAL,
+    FOOTPRINT,
+    HIGH,
+    JUMPS,
+    KIND,
+    KINKS,
+    LIMIT,
+    ONE_SIZE,
+    PLANE,
+    PROJECTED,
+    SEAT,
+    SHADOW,
+    WIDTH,
+)
 from .shares import around, inverse, note_jumps, note_loads, share_out
-from .sides import chord, narrowed, prepare, regime_of, scalar, side_at
+from .sides import chord, is_split, narrowed, prepare, regime_of, scalar, side_at
 from .vectors import VECTOR, formula_of
 
 __all__ = ["lay_panels"]
@@ -36,6 +53,8 @@ __all__ = ["lay_panels"]
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
 DEEPEST, SAME_AREA = 1e3, 1e-5
+PART = 0.2
+"""Of the width of the sizes or the seat over which most of a load is carried, at least."""
 
 
 @scalar
@@ -62,8 +81,11 @@ def _kinks(given, sides, panels, p):
     equal = given[p, EQUAL] == 1
     for i in range(1 if equal else 2):
         own, other = 2 * p + i, 2 * p + 1 - i
+        stronger = sides[own, LIMIT] - sides[other, LIMIT] > (2 * i - 1) * CLOSE * sides[own, LIMIT]
         for k in range(int(sides[own, COUNT])):
             delta = sides[own, KINKS + k]
+            if stronger and is_split(sides, own, delta) and not equal:
+                continue  # the weaker side has its own, where it is squeezed as far
             if equal:
                 count = _lay(panels, p, count, 2 * delta, delta)
                 continue
@@ -200,10 +222,13 @@ def lay_panels(given, sides, panels, p, rule):
             a *= step
             count = _lay(panels, p, count, a, -1.0)
     for n in range(count - 1):
-        panels[p, n, TO] = panels[p, n + 1, EDGE]
+        panels[p, n, TO], panels[p, n, UNTIL] = panels[p, n + 1, EDGE], 0.0
     count -= 1
     if not equal:
-        count, worst = share_out(sides, panels, p, count, rule)
+        spread = max(given[p, WIDTH], scale_of(given, p, given[p, HIGH])) / given[p, HIGH]
+        if given[p, SEAT] == PLANE and given[p, KIND] == ONE_SIZE:
+            spread = 0.0  # what is squeezed is squeezed alike
+        count, worst = share_out(sides, panels, p, count, rule, PART * spread)
         count = _cut_at_crossings(given, sides, panels, p, count)
     for n in range(count):
         eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])

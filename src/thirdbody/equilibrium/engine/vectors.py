@@ -266,10 +266,10 @@ def _join(rate, delta, load, area, table_load, table_area):
 
 
 @scalar
-def fill_side(rows, i, formula, delta, load, area, room):
+def fill_side(rows, i, formula, delta, load, area, passing, passing_2):
     """Load over x² [Pa] and area over x² of a side by a formula, at indentations δ over x.
 
-    ``room`` (2, n) is for what is on the way.
+    The last two rows are for what is on the way.
     """
     apart()
     if formula == ANY:
@@ -296,5 +296,5 @@ def fill_side(rows, i, formula, delta, load, area, room):
         )  # fmt: skip
     else:
         _fill_law(rows, i, formula - BLEND, delta, load, area)
-        _fill_table(series, rate, unit, breadth, delta, room[0], room[1])
-        _join(rate, delta, load, area, room[0], room[1])
+        _fill_table(series, rate, unit, breadth, delta, passing, passing_2)
+        _join(rate, delta, load, area, passing, passing_2)
