@@ -91,6 +91,8 @@ class Key(NamedTuple):
         Tables that have other keys than an empty one.
     items : callable, optional
         What reads each table of a list, where ``read`` takes one.
+    default : object
+        What counts where it is left out, as a file would write it; None where that is no one value.
     """
 
     read: ReadOne | None = None
@@ -100,6 +102,7 @@ class Key(NamedTuple):
     table: ReadOne | None = None
     also: tuple[dict[str, Any], ...] = ()
     items: ReadOne | None = None
+    default: bool | float | str | None = None
 
     def read_any(self, reader: Reader, path: str, value: Any) -> Any:
         """A value, whether it is a table or none."""
@@ -286,7 +289,8 @@ def keys_of(kind: type) -> dict[str, Key]:
             key = FIELDS[each.declared]
         else:
             continue
-        out[each.name] = key._replace(required=each.needed)
+        default = each.default if isinstance(each.default, bool | float | int | str) else None
+        out[each.name] = key._replace(required=each.needed, default=default)
     return out
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,8 @@ from .tables import TABLES
 __all__ = ["Describer", "study_schema"]
 
 DRAFT = "http://json-schema.org/draft-07/schema#"
+REMARKS = ("description", "default")
+"""What a schema says of a key beside what may stand there."""
 DEEPEST = 5
 """Names in the path of a table inside tables beyond which all may stand."""
 
@@ -66,7 +69,9 @@ class Describer(Reader):
             return {}
         properties = {}
         for name, key in keys.items():
-            described = {"description": key.about} if key.about else {}
+            described: dict[str, Any] = {"description": key.about} if key.about else {}
+            if _in_json(key.default):
+                described["default"] = key.default
             where = f"{path}.{name}" if path else name
             properties[name] = described | _any_of(self._ways(key, where, get(data, name)))
         self.known.keys[path] = {name: key.about for name, key in keys.items()}
@@ -146,12 +151,22 @@ def _merged(tables: list[dict[str, Any]]) -> dict[str, Any]:
     properties = {}
     for name, several in ways.items():
         about = next((each["description"] for each in several if "description" in each), None)
-        described = {} if about is None else {"description": about}
-        bare = ({k: v for k, v in each.items() if k != "description"} for each in several)
+        described: dict[str, Any] = {} if about is None else {"description": about}
+        defaults = [each.get("default") for each in several]
+        if defaults[0] is not None and all(each == defaults[0] for each in defaults):
+            described["default"] = defaults[0]
+        bare = ({k: v for k, v in each.items() if k not in REMARKS} for each in several)
         properties[name] = described | _any_of(bare)
     first, *others = (table.get("required", []) for table in tables)
     needed = [name for name in first if all(name in other for other in others)]
     return _schema_of(properties, needed)
+
+
+def _in_json(default: object) -> bool:
+    """Whether a default can stand in a schema: finite, and not the empty text of a label."""
+    if isinstance(default, float):
+        return math.isfinite(default)
+    return default is not None and default != ""
 
 
 def _schema_of(properties: dict[str, Any], needed: list[str]) -> dict[str, Any]:
