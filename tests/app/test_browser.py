@@ -30,6 +30,7 @@ from hostile import PAYLOADS, several, wrong  # noqa: E402
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.fields import engineering  # noqa: E402
 from thirdbody.app.sliders import REACH, STEPS, at_position  # noqa: E402
+from thirdbody.app.tabs import TABS  # noqa: E402
 from thirdbody.app.tabs.interface import abouts, headline  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
@@ -776,7 +777,7 @@ def test_texts_of_a_link_are_shown_as_text(visit):
             when(page, "document.querySelector('[data-path=python]')?.innerText.includes('__hit')")
         page.wait_for_timeout(200)
         assert not page.evaluate(HARM), name
-    assert len(TITLES) == 12
+    assert len(TITLES) == len(TABS)
     page.set_viewport_size({"width": 390, "height": 860})
     for name in TITLES:  # tables are cards there
         tab(page, name.strip())
