@@ -5,7 +5,9 @@ import inspect
 import re
 from pathlib import Path
 
+from facts import insert_facts
 from matplotlib.figure import Figure
+from pages import insert_generated
 from sphinx_gallery.scrapers import figure_rst
 
 SEEN = "_figures_shown"
@@ -112,7 +114,8 @@ def stay_in_the_book(app, docname, source):
         text = text.replace(f"]({outside})", f"]({inside})").replace(
             f"](../{outside})", f"]({inside})"
         )
-    source[0] = text.replace("](docs/", "](")
+    text = insert_facts(text.replace("](docs/", "]("), docname)
+    source[0] = insert_generated(text)
 
 
 def setup(app):

@@ -3,6 +3,8 @@
 A page writes a fence ``{generated} NAME`` where a part shall stand.
 """
 
+import dataclasses
+import inspect
 import re
 
 __all__ = ["FENCE", "GENERATED", "insert_generated"]
@@ -48,6 +50,65 @@ EXPLAINED = {
     "design": "design.md",
     "explicit": "explicit.md",
 }
+# keys whose reader says no more than what may stand there
+MEANING = {
+    "asperity_law.name": "which law; [every law](laws.md)",
+    "asperity_law.unloading": "pull the surfaces apart instead of pressing them",
+    "asperity_law.remainder": "count the fitted remainder ε of the law `field`",
+    "body.kind": "which bodies touch",
+    "chunk": "states solved at a time",
+    "concentration": "particles in a fluid, by weight or volume; needs `gap`, or comes with a film",
+    "conjunction.shape": "point or line contact",
+    "design.limits": "columns that must stay above or below a value",
+    "design.objective": "the column to make smallest or largest",
+    "design.points": "points of the search over one input",
+    "design.samples": "samples of [uncertainty] for each candidate",
+    "design.scatter": "judge candidates with the scatter of [uncertainty]",
+    "distribution": "which distribution of sizes",
+    "exceed": "how often a column exceeds a value",
+    "extrema": "smallest and largest value",
+    "fit": "a distribution to fit to the sizes of a file",
+    "film.oil": "the oil",
+    "formula.name": "which film formula",
+    "heights.name": "which distribution of heights",
+    "iso14644": "class of a clean room, whose particles settle during `exposure`",
+    "iso4406": "cleanliness code of an oil, \"18/16/13\"",
+    "as4059": "cleanliness class of an oil after SAE AS4059",
+    "nas1638": "cleanliness class of an oil after NAS 1638",
+    "law.law": "law of the contact on each side of a particle",
+    "particle_law.law": "law of the contact on each side of a particle",
+    "level": "which end of the range of each code number",
+    "limit": "which limit of the range that the standard allows for the dust",
+    "max_iterations": "iterations after which a state counts as not converged",
+    "mean": "mean value",
+    "name": "which law or distribution; of a material or population a label",
+    "normalise": "divide the truncated density by its mass (`horng2022`)",
+    "plastic": "keep the second integral (`horng2022`)",
+    "process": "how the face was finished",
+    "quantiles": "quantiles of each column",
+    "ratios": "ratios of the radii R′/R″, one for each class",
+    "rear": "support of the rear half of a ploughing contact over that of the front half",
+    "reduce": "what to keep of the states instead of all of them",
+    "rule": "where particles lie",
+    "samples": "how many samples",
+    "seed": "seed of the random numbers; the same seed gives the same result",
+    "shape.kind": "round or with faces",
+    "sizes": "a file of counted or sieved sizes",
+    "source": "where the numbers are from",
+    "spacing": "even steps of the value or of its logarithm",
+    "sweep.design": "all combinations, in pairs, or drawn",
+    "test_dust": "standard test dust, \"A2\"",
+    "vary": "inputs and the values they take",
+    "weighting": "what the file counts",
+}
+
+
+def meaning_of(path, key, what):
+    """What a key is: its own words, else those for its place or its name."""
+    if what and not what.startswith("one of "):
+        return what
+    last = path.rpartition(".")[2]
+    return MEANING.get(f"{last}.{key}") or MEANING.get(key, "")
 
 
 def cell(text):
@@ -159,9 +220,8 @@ class StudyFile:
             default = "needed" if needed else code(number(each["default"])) if "default" in each else ""
             if isinstance(each.get("default"), bool):
                 default = code(str(each["default"]).lower())
-            if what.startswith("one of ") and values:
-                what = ""
-            row = [code(key), cell(what.rstrip(" ,")), "; ".join(values), default, code(example.strip().replace("|", "/"))]
+            what = meaning_of(path, key, what.rstrip(" ,"))
+            row = [code(key), what if "](" in what else cell(what), "; ".join(values), default, code(example.strip().replace("|", "/"))]
             self.lines.append("| " + " | ".join(row) + " |")
         self.lines.append("")
         for inner_path, inner in later:
@@ -200,7 +260,74 @@ def commands():
     return "\n".join(lines)
 
 
-GENERATED = {"study-file": study_file, "commands": commands}
+def attributes_of(kind):
+    """What the fields of a class hold: its section Attributes, else the text below each field."""
+    from sphinx.pycode import ModuleAnalyzer
+
+    text = inspect.cleandoc(kind.__doc__ or "")
+    section = re.search(r"^Attributes\n-+\n(.*?)(?=^\w[\w ]*\n-{3,}\n|\Z)", text, re.S | re.M)
+    entries = re.findall(r"^(\S.*)\n((?:[ ].*\n?|\n)*)", (section[1] if section else "") + "\n", re.M)
+    out = {}
+    for head, body in entries:
+        names, _, type_of = head.partition(" : ")
+        out[names] = " ".join(body.split()) or type_of
+    below = ModuleAnalyzer.for_module(kind.__module__).find_attr_docs()
+    for (owner, name), lines in below.items():
+        if owner == kind.__name__:
+            out.setdefault(name, " ".join(" ".join(lines).split()))
+    return out
+
+
+def columns():
+    """Every result, its columns and what else it holds."""
+    import thirdbody as tb
+    from thirdbody.quantities.record import declared_columns
+
+    lines = []
+    for name in tb.results.__all__:
+        kind = getattr(tb.results, name)
+        if not inspect.isclass(kind):
+            continue
+        declared = declared_columns(kind) if dataclasses.is_dataclass(kind) else {}
+        others = {key: say for key, say in attributes_of(kind).items() if key not in declared}
+        first = inspect.cleandoc(kind.__doc__).splitlines()[0]
+        lines += [f"## `{name}`", "", markdown_of(first), ""]
+        if declared:
+            lines += ["| column | symbol | unit | meaning |", "|---|---|---|---|"]
+            lines += [
+                f"| {code(key)} | {cell(about.symbol)} | {cell(about.unit)} | {cell(about.meaning)} |"
+                for key, about in declared.items()
+            ]
+            lines.append("")
+        if others:
+            lines += ["| holds | what it is |", "|---|---|"]
+            lines += [
+                f"| {', '.join(map(code, key.split(', ')))} | {markdown_of(say)} |"
+                for key, say in others.items()
+            ]
+            lines.append("")
+    return "\n".join(lines)
+
+
+def markdown_of(text):
+    """A sentence of a docstring, in Markdown: names in backticks stay code."""
+    return cell(re.sub(r":\w+:`([^`]*)`", r"`\1`", text).replace("``", "`"))
+
+
+def explicit_tables():
+    """Load shares that were pressed point by point, beside those of the model."""
+    from thirdbody.papers import seats
+    from thirdbody.papers.explicit import page
+
+    return page.markdown(seats.comparison()).strip()
+
+
+GENERATED = {
+    "study-file": study_file,
+    "commands": commands,
+    "columns": columns,
+    "explicit-tables": explicit_tables,
+}
 
 
 def insert_generated(text):

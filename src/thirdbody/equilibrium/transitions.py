@@ -98,6 +98,7 @@ class Transitions(Record):
     F_cr2: Critical
     """From it on particles have little of the contact left (hybrid to s-s)."""
     F_tpca: TurningPoint
+    """Turning point of the contact area, by three definitions."""
 
     def entries(self) -> dict[str, Critical]:
         """Every critical load by its name, those of the turning point as ``F_tpca.A``."""

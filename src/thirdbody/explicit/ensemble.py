@@ -81,6 +81,12 @@ class Ensemble:
 
     Attributes
     ----------
+    contact : Contact
+        What was pressed.
+    statistical : Equilibrium
+        The statistical answer at the same loads, with the seats that were drawn.
+    surfaces : int
+        How many maps of heights were pressed.
     table : xarray.Dataset
         Along ``F_star``: for ``h``, ``A_t``, ``particle_load_share`` and ``particle_area_share``
         the raw number, ``…_raw``, the one without the luck of the draw, ``…_cv``, their jackknife
@@ -96,6 +102,8 @@ class Ensemble:
         Columns of every state: surface, h, loads, areas, certificate.
     left_out : int
         States that did not converge, which count nowhere.
+    warnings : tuple of str
+        Where the numbers are bounds, or the maps too coarse or too small, a sentence each.
     """
 
     contact: Contact = field(repr=False)

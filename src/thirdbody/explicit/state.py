@@ -78,6 +78,7 @@ class ExplicitState(StateRecord):
     maps: xarray.Dataset = field(repr=False)
     particles: xarray.Dataset = field(repr=False)
     warnings: tuple[str, ...] = ()
+    """Where the map is too coarse or too small for the answer, a sentence each."""
     errors: Mapping[str, Number] = field(default_factory=dict)
     """Standard errors of h, A_t and the shares, over blocks of the map; empty unless asked for."""
 
