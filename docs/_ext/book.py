@@ -8,6 +8,7 @@ from pathlib import Path
 from facts import insert_facts
 from matplotlib.figure import Figure
 from pages import insert_generated
+from search import find_digits, insert_keywords
 from sphinx_gallery.scrapers import figure_rst
 
 SEEN = "_figures_shown"
@@ -115,11 +116,12 @@ def stay_in_the_book(app, docname, source):
             f"](../{outside})", f"]({inside})"
         )
     text = insert_facts(text.replace("](docs/", "]("), docname)
-    source[0] = insert_generated(text)
+    source[0] = insert_keywords(insert_generated(text), docname)
 
 
 def setup(app):
     app.connect("source-read", stay_in_the_book)
+    app.connect("build-finished", find_digits)
     app.connect("autodoc-process-docstring", plain_bars, priority=100)
     app.connect("autodoc-process-docstring", hide_colon, priority=100)
     app.connect("autodoc-process-docstring", show_colon, priority=900)

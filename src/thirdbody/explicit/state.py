@@ -51,6 +51,7 @@ class ExplicitState(StateRecord):
     """
 
     contact: Contact = field(repr=False)
+    """What was pressed."""
     h: Number = _as_equilibrium("h")
     F_star: Number = _as_equilibrium("F_star")
     pressure: Number = _as_equilibrium("pressure")

@@ -80,8 +80,9 @@ class Best(Record):
     objectives : dict
         Value of every objective there.
     feasible : bool
-        Whether every limit holds there; if not, nothing tried was feasible, and ``reason`` says
-        why not at the point that came nearest.
+        Whether every limit holds there; if not, nothing tried was feasible.
+    reason : str
+        Why the point that came nearest is not feasible; empty where one is.
     load, loads : str, array (L,)
         Which load is given, and its values.
     of_states, of_points : dict of Column
