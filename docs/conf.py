@@ -94,7 +94,7 @@ sphinx_gallery_conf = {
 
 # ---------------------------------------------------------------- HTML, complete in itself
 html_theme = "pydata_sphinx_theme"
-html_title = f"thirdbody {version}"
+html_title = "thirdbody"
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
 html_theme_options = {

@@ -2,6 +2,9 @@
 Dust in a ball screw: temperature of the contacts
 =================================================
 
+**In short**: the hottest contact is on a grain, and the larger the grain the hotter. At 1 m/s grains above
+2 µm double the rise over clean steel.
+
 Quartz dust enters a stainless ball screw that runs dry for a moment. How much hotter than the
 steel around it is the hottest contact on a square millimetre, and which grains make it so?
 """

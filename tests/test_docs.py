@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import threading
+import urllib.parse
 import warnings
 from pathlib import Path
 
@@ -31,6 +32,7 @@ DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS / "_ext"))
 from facts import facts, insert_facts  # noqa: E402
 from pages import columns, commands, insert_generated, study_file  # noqa: E402
+from search import KEYWORDS, insert_keywords  # noqa: E402
 
 PAGES = sorted(DOCS.glob("*.md"))
 NOTEBOOKS = sorted((DOCS / "tutorials").glob("*.ipynb"))
@@ -622,10 +624,10 @@ def book(tmp_path_factory):
             pytest.skip(f"{name} is not installed; pip install -e '.[docs]'")
     # in a copy: the build writes pages of the gallery and of the API beside its sources
     folder = tmp_path_factory.mktemp("book")
-    ignore = shutil.ignore_patterns("_build", "gallery.*", "__pycache__")
+    ignore = shutil.ignore_patterns("_build", "_cases", "gallery.*", "__pycache__")
     for part in ("docs", "examples", "benchmarks", "src"):
         shutil.copytree(ROOT / part, folder / part, ignore=ignore)
-    for made in ("gallery", "api"):
+    for made in ("gallery", "api", "cases", "_cases"):
         shutil.rmtree(folder / "docs" / made, ignore_errors=True)
     for file in ROOT.glob("*.md"):
         shutil.copy(file, folder)
@@ -678,6 +680,102 @@ def test_the_search_of_the_book_finds_an_equation_by_its_number(book):
         assert section.bounding_box()["y"] < page.viewport_size["height"]
         browser.close()
     assert [url for url in asked if not url.startswith((address, "data:", "blob:"))] == []
+
+
+# what people type, and the page that they want
+SEARCHES = {
+    "install": "install",
+    "quickstart": "start",
+    "FAQ": "faq",
+    "no equilibrium": "faq",
+    "NaN": "faq",
+    "gasket": "faq",
+    "fretting": "faq",
+    "ISO 4406": "dust",
+    "ISO4406": "dust",
+    "4406": "dust",
+    "NAS 1638": "dust",
+    "test dust": "dust",
+    "debris": "dust",
+    "bearing": "bearings",
+    "6205": "bearings",
+    "ISO 281": "bearings",
+    "ball screw": "cases",
+    "additive": "cases",
+    "connector": "connector",
+    "relay": "connector",
+    "contact resistance": "conductance",
+    "wafer": "wafer",
+    "EHL": "lubrication",
+    "Stribeck": "lubrication",
+    "Hertz": "bodies",
+    "friction": "friction",
+    "wear": "wear",
+    "Ra": "surfaces",
+    "Greenwood-Williamson": "choose-a-law",
+    "Abaqus": "tables",
+    "Excel": "files",
+    "Tamaas": "others",
+    "BibTeX": "cite",
+    "error bars": "uncertainty",
+    "study file": "study-file",
+    "command line": "commands",
+    "columns": "columns",
+    "glossary": "glossary",
+    "what's new": "changes",
+    "Equation 9": "equations",
+}
+
+
+@pytest.mark.slow
+def test_the_search_of_the_book_leads_to_the_page(book):
+    """In a real browser: the first result for each of the words that people type."""
+    api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    if chromium is None:
+        pytest.skip("needs chromium")
+    first = {}
+    with api.sync_playwright() as playwright, served(book) as address:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        page = browser.new_page()
+        for words in SEARCHES:
+            page.goto(f"{address}/search.html?q={urllib.parse.quote_plus(words)}")
+            link = page.locator("#search-results ul.search li > a").first
+            link.wait_for(timeout=30_000)
+            first[words] = link.get_attribute("href").partition(".html")[0]
+        browser.close()
+    assert first == SEARCHES
+
+
+def test_every_keyword_leads_to_one_page_that_exists():
+    words = [word.lower() for several in KEYWORDS.values() for word in several]
+    assert len(words) == len(set(words))
+    assert [page for page in KEYWORDS if not (DOCS / f"{page}.md").is_file()] == []
+    text = insert_keywords("# A title\n\nwords\n", "faq")
+    assert text.startswith("# A title\n\n```{index} ! FAQ, ")
+    assert insert_keywords("# A title\n", "no-such-page") == "# A title\n"
+
+
+# ---------------------------------------------------------------- versions beside each other
+def test_the_switch_lists_the_versions_of_the_folder(tmp_path):
+    made = importlib.util.spec_from_file_location("site_of_book", DOCS / "site.py")
+    site = importlib.util.module_from_spec(made)
+    made.loader.exec_module(site)
+    for version in ("0.9.0", "0.10.0"):
+        (tmp_path / version).mkdir()
+        (tmp_path / version / "objects.inv").touch()
+    (tmp_path / "not-a-book").mkdir()
+    site.add_switch(tmp_path, "0.2.0")
+    switch = (tmp_path / "versions.js").read_text("utf-8")
+    assert switch == 'window.BOOK_VERSIONS = ["0.10.0", "0.9.0", "0.2.0"];\n'
+    assert 'url=0.2.0/index.html"' in (tmp_path / "index.html").read_text("utf-8")
+
+
+@pytest.mark.slow
+def test_every_page_shows_its_version(book):
+    shown = f"<span>version {tb.__version__}</span>"
+    for name in ("index", "theory", "api/thirdbody.solve"):
+        assert shown in (book / f"{name}.html").read_text("utf-8")
 
 
 @contextlib.contextmanager

@@ -11,7 +11,7 @@ KEYWORDS = {
     "app": ["app", "browser", "slider", "GUI"],
     "bearings": ["bearing", "ball bearing", "6205", "ISO 281", "ISO281", "filter", "beta ratio"],
     "big-sweeps": ["sweep", "cluster", "Dask", "Monte Carlo"],
-    "bodies": ["Hertz pressure", "force", "newton", "roller"],
+    "bodies": ["Hertz", "Hertz pressure", "force", "newton", "roller"],
     "cases": ["examples", "case", "ball screw", "additive"],
     "changes": ["what's new", "release notes", "breaking changes"],
     "changelog": ["changelog"],
