@@ -93,7 +93,7 @@ coverage: $(VENV)/installed-test
 	$(PYTEST) $(QUICK) --cov --cov-report term:skip-covered
 
 docs: $(VENV)/installed-docs
-	$(RUN)/python docs/site.py docs/_build/html
+	$(RUN)/python docs/versions.py docs/_build/html
 	@echo "Open $(abspath docs/_build/html)/index.html in a browser."
 
 bench: $(VENV)/installed-test

@@ -758,14 +758,14 @@ def test_every_keyword_leads_to_one_page_that_exists():
 
 # ---------------------------------------------------------------- versions beside each other
 def test_the_switch_lists_the_versions_of_the_folder(tmp_path):
-    made = importlib.util.spec_from_file_location("site_of_book", DOCS / "site.py")
-    site = importlib.util.module_from_spec(made)
-    made.loader.exec_module(site)
+    made = importlib.util.spec_from_file_location("versions_of_book", DOCS / "versions.py")
+    versions = importlib.util.module_from_spec(made)
+    made.loader.exec_module(versions)
     for version in ("0.9.0", "0.10.0"):
         (tmp_path / version).mkdir()
         (tmp_path / version / "objects.inv").touch()
     (tmp_path / "not-a-book").mkdir()
-    site.add_switch(tmp_path, "0.2.0")
+    versions.add_switch(tmp_path, "0.2.0")
     switch = (tmp_path / "versions.js").read_text("utf-8")
     assert switch == 'window.BOOK_VERSIONS = ["0.10.0", "0.9.0", "0.2.0"];\n'
     assert 'url=0.2.0/index.html"' in (tmp_path / "index.html").read_text("utf-8")

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-MADE = "<!-- made by docs/site.py -->"
+MADE = "<!-- made by docs/versions.py -->"
 
 
 def in_order(version):
