@@ -24,7 +24,7 @@ CLOSE = 1e-11
 """A point is on the branch when every equation is closer to zero than this."""
 CORRECTIONS = 12
 """Corrections after which a step is halved."""
-SHORTEST = 1e-5
+SHORTEST = 1e-4
 """Steps below which a branch ends, over the largest step."""
 AT_EXTREMUM = 1e-6
 """How near a fold is looked for along the branch; the parameter varies with the square of it."""
@@ -174,8 +174,8 @@ def follow_branch(
 
     Notes
     -----
-    At every point each equation holds to 1e-11; λ of a fold varies with the square of its place, which
-    is known to 1e-6 of a step. Branches that hang together with this one nowhere are not seen.
+    At every point each equation holds to 1e-11; λ of a fold varies with the square of its place,
+    which is known to 1e-6 of a step. Branches that hang together with this one nowhere are not seen.
 
     References
     ----------
