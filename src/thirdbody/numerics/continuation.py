@@ -50,11 +50,20 @@ class Branch(NamedTuple):
     ended: str
     """Why it ends: "border", "step" (no shorter step helps), or "points" (as many as allowed)."""
 
-    def crossings(self, value: float) -> list[tuple[Array, Array]]:
-        """Neighbours (x, λ) between which the parameter passes ``value``, as pairs of points."""
+    def solutions(self, residual: Residual, value: float) -> list[Array]:
+        """The unknowns at each place where the parameter passes ``value``, along the branch.
+
+        Parameters
+        ----------
+        residual : callable
+            That of `follow_branch`.
+        value : float
+            λ.
+        """
         y = np.column_stack([self.x, self.parameter])
         over = self.parameter >= value
-        return [(y[i], y[i + 1]) for i in np.flatnonzero(over[1:] != over[:-1])]
+        turns = np.flatnonzero(over[1:] != over[:-1])
+        return [_between(residual, y[i], y[i + 1], value)[:-1] for i in turns]
 
 
 @dataclass
@@ -116,6 +125,26 @@ class _Walk:
         return best["y"]
 
 
+def _between(residual: Residual, one: Array, other: Array, value: float) -> Array:
+    """The point between two of a branch at which the parameter has a value."""
+    walk = _Walk(residual, first_jacobian(residual, one))
+    direction = (other - one) / np.linalg.norm(other - one)
+    last = one
+
+    def excess(part: float) -> float:
+        nonlocal last
+        found = walk.corrected(one + part * (other - one), direction)
+        if found is None:
+            raise ValueError("the branch is lost between two of its points")
+        last = found[0]
+        return float(last[-1] - value)
+
+    if one[-1] == value:
+        return one
+    optimize.brentq(excess, 0.0, 1.0, xtol=1e-13, rtol=1e-13)
+    return last
+
+
 def first_jacobian(residual: Residual, y: Array) -> Array:
     """The Jacobian by central differences at one point: (n, n + 1)."""
     columns = []
@@ -175,7 +204,7 @@ def follow_branch(
     Notes
     -----
     At every point each equation holds to 1e-11; λ of a fold varies with the square of its place,
-    which is known to 1e-6 of a step. Branches that hang together with this one nowhere are not seen.
+    which is known to 1e-6 of a step. Branches that never meet this one are not seen.
 
     References
     ----------

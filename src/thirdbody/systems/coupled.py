@@ -21,6 +21,7 @@ from ..errors import (
     tell_of_range,
 )
 from ..numerics.continuation import Branch, follow_branch
+from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Record, column
 from ..quantities.say import number, value_of
@@ -272,7 +273,7 @@ def coupled(
     feedback: Sequence[Law],
     cooling: ThermalPath | HalfSpaces | None = None,
     flash: bool = False,
-    limits: Literal["both", "speed", "load", "none"] = "both",
+    limits: Literal["both", "speed", "load"] = "both",
 ) -> Coupled:
     r"""States in which a contact and the temperature that its friction makes agree.
 
@@ -301,7 +302,7 @@ def coupled(
     flash : bool, optional
         Surfaces take the mean temperature of all spots by load, and particles that of their own
         spots, in place of the mean temperature of the surfaces. Bodies need thermal data.
-    limits : {"both", "speed", "load", "none"}, optional
+    limits : {"both", "speed", "load"}, optional
         Along what the end of the stable state is sought.
 
     Returns
@@ -326,9 +327,10 @@ def coupled(
     -----
     The branch is followed by pseudo-arclength from a speed at which nothing warms, over its folds,
     up to 0.999 of the way to the first melting point (500 K of rise where nothing melts), or until
-    more than half of the area touches. With one temperature (without ``flash``) all states hang together on it, because each temperature has one
-    speed; with two, branches that never meet it would not be seen. A fold is known to 1e-8 of its
-    speed (measured against closed forms). E, ν, τ and the roughness stay as they are.
+    more than half of the area touches. With one temperature (without ``flash``) all states hang
+    together on it, because each temperature has one speed; with two, branches that never meet it
+    are not seen. A fold is known to 1e-8 of its speed (measured against closed forms). E, ν, τ and
+    the roughness stay as they are.
 
     References
     ----------
@@ -352,6 +354,7 @@ def coupled(
     >>> print(f"stable up to {answer.seizure_speed:.3g} m/s")
     stable up to 6.8 m/s
     """
+    need_one("limits", limits, "both", "speed", "load")
     laws = tuple(feedback)
     _refuse(contact, pressure, sliding_speed, film, laws, cooling, flash)
     if film is not None:
@@ -366,9 +369,7 @@ def coupled(
     if loop.cooling is None:
         return _without_heat(loop, v, p, notes)
     walks = {
-        name: _Walk(loop, name, v, p)
-        for name in ("speed", "load")
-        if limits in ("both", name) or (name == "speed" and limits == "none")
+        name: _Walk(loop, name, v, p) for name in ("speed", "load") if limits in ("both", name)
     }
     first = next(iter(walks.values()))
     states = tuple(_state(loop, x, v, p) for x in first.states())
@@ -439,8 +440,8 @@ def _operating_problems(
         out.append("film: give it, or pressure and sliding_speed; not both")
     if len(film.speed) != 1 or not film.slide_roll:
         out.append("film: one speed and a slide_roll > 0 are needed")
-    if film.oil.tau_E is None:
-        out.append("film.oil.tau_E is missing: without it the film has no friction")
+    if film.oil.eyring_stress is None:
+        out.append("film.oil.eyring_stress is missing: without it the film has no friction")
     if flash:
         out.append("flash = True is for dry contacts: leave it out, or leave film out")
     return out
@@ -522,39 +523,8 @@ class _Walk:
 
     def states(self) -> list[Array]:
         """Unknowns at the speed and load that were asked for, the coldest first."""
-        found = []
-        for one, other in self.branch.crossings(0.0):
-            part = -one[-1] / (other[-1] - one[-1])
-            guess = one + part * (other - one)
-            found.append(self._at_zero(guess[:-1], one, other))
+        found = self.branch.solutions(self.residual, 0.0)
         return sorted(found, key=lambda x: float(x[0]))
-
-    def _at_zero(self, x: Array, one: Array, other: Array) -> Array:
-        """The crossing between two points, by secants in the direction of the branch."""
-        slope = (other[:-1] - one[:-1]) / (other[-1] - one[-1])
-        jacobian = self._jacobian(x)
-        for _ in range(40):
-            miss = self.residual(x, 0.0)
-            if np.max(np.abs(miss)) < 1e-12:
-                break
-            x = x - np.linalg.solve(jacobian, miss)
-        low, high = np.minimum(one[:-1], other[:-1]), np.maximum(one[:-1], other[:-1])
-        slack = 0.5 * (high - low) + np.abs(slope) * 1e-9
-        if np.any(x < low - slack) or np.any(x > high + slack):
-            raise NoEquilibrium(
-                "a state at this speed lies too near the end of the stable one to tell them apart"
-            )
-        return x
-
-    def _jacobian(self, x: Array) -> Array:
-        columns = []
-        for i in range(len(x)):
-            step = np.zeros_like(x)
-            step[i] = SLOPE
-            columns.append(
-                (self.residual(x + step, 0.0) - self.residual(x - step, 0.0)) / 2 / SLOPE
-            )
-        return np.stack(columns, axis=1)
 
     def end(self) -> tuple[float, str]:
         """Speed or load at which the stable state ends, NaN where it does not, and a sentence."""
@@ -571,8 +541,8 @@ class _Walk:
         value = self.speed_and_load(float(places[-1]))[index]
         if self.branch.ended == "step":
             return math.nan, (
-                f"not known: beyond {value_of(value, unit)} and {number(T)} K no state is solved, or "
-                "half of the area touches"
+                f"not known: beyond {value_of(value, unit)} and {number(T)} K no state is solved, "
+                "or half of the area touches"
             )
         if self.branch.x[-1].max() > 0.8:
             return math.nan, (

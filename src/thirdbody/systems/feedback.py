@@ -366,5 +366,5 @@ def growth_problems(law: JunctionGrowth, contact: Contact) -> list[str]:
     most = H / math.sqrt(law.weight)
     return [
         f"feedback: with alpha = {law.weight:g} junctions under tau_ss = {value_of(tau, 'Pa')} "
-        f"grow without end; it must be below H/√alpha = {value_of(most, 'Pa')} of the softer surface"
+        f"grow without end; it must be below H/√alpha = {value_of(most, 'Pa')} of the softer one"
     ]
