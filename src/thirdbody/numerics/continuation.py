@@ -20,13 +20,16 @@ __all__ = ["Branch", "follow_branch"]
 
 DIFFERENCE = 1e-5
 """Step of the first Jacobian, in units of the unknowns."""
-CLOSE = 1e-11
-"""A point is on the branch when every equation is closer to zero than this."""
+ROUGH, CLOSE = 1e-7, 1e-11
+"""A point is on the branch when every equation is closer to zero than this, times the largest slope
+where that is above 1: on the way, and at folds and solutions."""
+TINY = 1e-9
+"""Corrections below it teach nothing of the Jacobian: rounding decides what they change."""
 CORRECTIONS = 12
 """Corrections after which a step is halved."""
 SHORTEST = 1e-4
 """Steps below which a branch ends, over the largest step."""
-AT_EXTREMUM = 1e-6
+AT_EXTREMUM = 3e-5
 """How near a fold is looked for along the branch; the parameter varies with the square of it."""
 
 
@@ -74,7 +77,9 @@ class _Walk:
     jacobian: Array
     points: list[Array] = field(default_factory=list)
 
-    def corrected(self, guess: Array, direction: Array) -> tuple[Array, int] | None:
+    def corrected(
+        self, guess: Array, direction: Array, close: float = CLOSE
+    ) -> tuple[Array, int] | None:
         """The point of the branch in the plane through a guess across a direction, and the
         corrections it took; None where there is none near."""
         y, value = guess.copy(), self.residual(guess[:-1], float(guess[-1]))
@@ -90,11 +95,11 @@ class _Walk:
             if not np.all(np.isfinite(after)):
                 return None
             size = float(change @ change)
-            if size > 0:  # Broyden's update
+            if size > TINY**2:  # Broyden's update
                 miss = after - value - self.jacobian @ change
                 self.jacobian = self.jacobian + np.outer(miss, change) / size
             value = after
-            if np.abs(after).max() < CLOSE:
+            if np.abs(after).max() < close * max(1.0, np.abs(self.jacobian).max()):
                 return y, count
         return None
 
@@ -133,15 +138,17 @@ def _between(residual: Residual, one: Array, other: Array, value: float) -> Arra
 
     def excess(part: float) -> float:
         nonlocal last
+        if part in (0.0, 1.0):
+            last = one if part == 0 else other
+            return float(last[-1] - value)
         found = walk.corrected(one + part * (other - one), direction)
         if found is None:
             raise ValueError("the branch is lost between two of its points")
         last = found[0]
         return float(last[-1] - value)
 
-    if one[-1] == value:
-        return one
-    optimize.brentq(excess, 0.0, 1.0, xtol=1e-13, rtol=1e-13)
+    part = optimize.brentq(excess, 0.0, 1.0, xtol=1e-13, rtol=1e-13)
+    excess(part)
     return last
 
 
@@ -203,8 +210,8 @@ def follow_branch(
 
     Notes
     -----
-    At every point each equation holds to 1e-11; λ of a fold varies with the square of its place,
-    which is known to 1e-6 of a step. Branches that never meet this one are not seen.
+    Points lie on the branch to 1e-7, folds and solutions to 1e-11; λ of a fold varies with the
+    square of its place, which is known to 3e-5 of a step. Branches that never meet this one are not seen.
 
     References
     ----------
@@ -237,7 +244,7 @@ def follow_branch(
             break
         here = walk.points[-1]
         kept = walk.jacobian
-        found = walk.corrected(_guess(walk.points, tangent, ahead), tangent)
+        found = walk.corrected(_guess(walk.points, tangent, ahead), tangent, ROUGH)
         if found is None or np.linalg.norm(found[0] - here) > 2 * ahead:
             walk.jacobian, ahead = kept, 0.5 * ahead
             continue
@@ -249,7 +256,7 @@ def follow_branch(
         tangent = (new - here) / np.linalg.norm(new - here)
         if len(walk.points) > 2 and _turns(*walk.points[-3:]):
             _put_fold(walk, folds)
-        ahead = min(step, ahead * (1.6 if count <= 4 else 1.0 if count <= 6 else 0.6))
+        ahead = min(step, ahead * (1.6 if count <= 3 else 1.0 if count <= 5 else 0.6))
     y = np.stack(walk.points)
     return Branch(y[:, :-1], y[:, -1], np.array(folds, dtype=np.intp), ended)
 
