@@ -283,3 +283,39 @@ def test_mistakes_are_named(options, words):
 def test_melting_below_the_reference_is_refused():
     with pytest.raises(InvalidValue, match="T_melt = 200 must be above T_0"):
         softening(T_melt=200.0)
+
+
+# ------------------------------------------------------------------ the page
+@pytest.mark.slow
+@pytest.mark.parametrize("density", [1e9, 1e10, 1e11])
+def test_particles_of_the_page(density):
+    """The table of docs/feedback.md, to its printed digits."""
+    mu, speed = {1e9: (0.18, 6.1), 1e10: (0.28, 5.4), 1e11: (0.16, 9.3)}[density]
+    dust = tb.Particles(
+        material=tb.materials["Al2O3"], areal_density=density,
+        diameter=tb.TruncatedGaussian(mean=500e-9, std=50e-9),
+    )  # fmt: skip
+    outputs = tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6)
+    contact = TWO_BODY.replace(particles=dust, outputs=outputs)
+    found = asked(contact, sliding_speed=1.0, laws=[softening(1.03)], limits="speed")
+    assert round(found.states[0].mu, 2) == mu
+    assert round(found.seizure_speed, 1) == speed
+
+
+def test_constants_of_the_page():
+    rows = [
+        ({"exponent": 0.7}, {}, 4.9),
+        ({"exponent": 1.5}, {}, 7.8),
+        ({"exponent": 1.03, "T_melt": 1400.0}, {}, 4.6),
+        ({"exponent": 1.03}, {"tau": 300e6}, 12),
+        ({"exponent": 1.03}, {"tau": 800e6}, 4.6),
+        ({"exponent": 1.03}, {"alpha": 3.0}, 5.8),
+        ({"exponent": 1.03}, {"alpha": 25.0}, 3.1),
+    ]
+    for law, more, speed in rows:
+        laws = [softening(**law)]
+        if "alpha" in more:
+            laws.append(feedback.JunctionGrowth(alpha=more["alpha"]))
+        outputs = tb.outputs.Friction(tau_ss=more.get("tau", TAU))
+        found = asked(TWO_BODY.replace(outputs=outputs), laws=laws, limits="speed")
+        assert float(f"{found.seizure_speed:.2g}") == speed, (law, more)

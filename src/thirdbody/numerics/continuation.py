@@ -211,7 +211,8 @@ def follow_branch(
     Notes
     -----
     Points lie on the branch to 1e-7, folds and solutions to 1e-11; λ of a fold varies with the
-    square of its place, which is known to 3e-5 of a step. Branches that never meet this one are not seen.
+    square of its place, which is known to 3e-5 of a step. Branches that never meet this one are
+    not seen.
 
     References
     ----------
