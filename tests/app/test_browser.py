@@ -459,7 +459,7 @@ def critical_loads_have_error_bars(page):
 
 
 ANSWERS = {
-    "Compare": laws_are_compared,
+    "Laws": laws_are_compared,
     "Dust": sizes_are_drawn,
     "Outputs": outputs_are_drawn,
     "Explicit": a_surface_is_pressed,

@@ -17,6 +17,10 @@ from .widgets import facts, put, table
 __all__ = ["Question", "QuestionTab", "Shown"]
 
 
+NOTE = "Note: "
+"""How a sentence begins that the badge tells."""
+
+
 class Shown(NamedTuple):
     """What is shown of an answer: plain words, numbers and a figure."""
 
@@ -68,9 +72,9 @@ class QuestionTab:
         """Whether there were entries."""
         self.answer: Answer | None = None
         name = question.table
-        ui.label(question.about).classes("hint")
-        self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
         self.words = ui.column().classes("w-full gap-1")
+        self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
+        ui.label(question.about).classes("hint")
         with ui.element("div").classes("figures w-full"):
             with ui.column().classes("w-full"):
                 self._form()
@@ -144,4 +148,7 @@ class QuestionTab:
         self.notes.clear()
         with self.notes:
             for text in shown.notes:
-                ui.label(with_micro(text)).classes("hint")
+                if not text.startswith(NOTE):
+                    ui.label(with_micro(text)).classes("hint")
+        noted = [text.removeprefix(NOTE) for text in shown.notes if text.startswith(NOTE)]
+        self.state.noted[self.state.tab] = noted

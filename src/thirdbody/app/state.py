@@ -298,6 +298,12 @@ class State:
         self.wanted = at
         self.tab = ""
         """The tab in sight."""
+        self.noted: dict[str, list[str]] = {}
+        """What the answers of single tabs leave open."""
+        self.opened = study
+        """The study as it was opened."""
+        self.kept: Tables | None = None
+        """A study that was kept, to lay this one beside it."""
         self.past: list[tuple[Tables, float | None]] = []
         """Study and operating load before each step."""
         self.steps = 0
@@ -349,6 +355,7 @@ class State:
     def open(self, study: Tables) -> None:
         """A study that begins anew, with an operating load of its own."""
         self._step(None)
+        self.opened = study
         self._set_study(study, None)
 
     def _step(self, kind: str | None) -> None:

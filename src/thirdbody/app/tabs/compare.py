@@ -18,7 +18,7 @@ from ..worker import Laws, compared
 
 __all__ = ["TITLE", "build", "law_figure"]
 
-TITLE = "Compare"
+TITLE = "Laws"
 LOADS = 40
 LITTLE = 5
 """A preview has every fifth of them."""

@@ -33,6 +33,8 @@ from ..widgets import Facts
 __all__ = ["TITLE", "abouts", "build", "drawing_of", "facts_of", "headline", "swatch"]
 
 TITLE = "Interface"
+IN_HEADLINE = ("load", "mode", "particles carry")
+"""Facts that the headline says."""
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
 FILM = "The study has an oil film: here surfaces and particles carry the load alone; see Film."
 PLACE = (
@@ -127,7 +129,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     means = abouts()
     numbers = Facts(
         {"separation h": means["h"], "separation d": means["d"], "load": means["F*"]}
-        | {"mode": "; ".join(f"{mode}: {means[mode]}" for mode in MODES)}
+        | {"mode": "; ".join(f"{mode}: {means[mode]}" for mode in MODES)},
+        said=IN_HEADLINE,
     )
     status = ui.label().classes("problem")
     caption = ui.label().classes("hint")
