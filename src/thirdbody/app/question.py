@@ -66,7 +66,7 @@ class QuestionTab:
     """One question, its answer first."""
 
     def __init__(self, state: State, question: Question) -> None:
-        self.state, self.question = state, question
+        self.state, self.question, self.tab = state, question, state.tab
         self.inputs = Inputs(state, self._renewed)
         self.there: Any = None
         """Whether there were entries."""
@@ -76,14 +76,14 @@ class QuestionTab:
         self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
         ui.label(question.about).classes("hint")
         with ui.element("div").classes("figures w-full"):
-            with ui.column().classes("w-full"):
-                self._form()
             self.beside = ui.column().classes("w-full gap-1")
             with self.beside:
                 self.facts = ui.row().classes("facts w-full")
                 self.plot = put(ui.plotly(empty(360)).classes("w-full"), {"data-figure": name})
                 self.rows = ui.column().classes("w-full")
                 self.notes = ui.column().classes("w-full gap-0")
+            with ui.column().classes("w-full"):
+                self._form()
 
     def _renewed(self) -> None:
         self._form.refresh()
@@ -151,4 +151,4 @@ class QuestionTab:
                 if not text.startswith(NOTE):
                     ui.label(with_micro(text)).classes("hint")
         noted = [text.removeprefix(NOTE) for text in shown.notes if text.startswith(NOTE)]
-        self.state.noted[self.state.tab] = noted
+        self.state.note(self.tab, noted)

@@ -9,7 +9,7 @@ import json
 import math
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypedDict, TypeVar, TypeVarTuple
@@ -472,6 +472,12 @@ class State:
         """Nobody looks at the page any more."""
         if self.reading is not None:
             self.reading.cancel()
+
+    def note(self, tab: str, notes: Iterable[str]) -> None:
+        """What the answer of a tab leaves open; the badge tells it."""
+        if (every := list(notes)) != self.noted.get(tab, []):
+            self.noted[tab] = every
+            self.tell()
 
     def tell(self) -> None:
         """The study or the operating load is another one."""

@@ -21,7 +21,9 @@ LITTLE = 0.1
 """An effect up to which an answer is called good."""
 OWN_HEADLINE = ("interface", "film", "connector", "plate", "before_after")
 """Tabs that begin with a headline of their own."""
-OWN_ANSWER = (*OWN_HEADLINE, "take_away")
+QUESTIONS = ("connector", "plate")
+"""Tabs whose answer is not that of the pressed surfaces, and so not their limits."""
+OWN_ANSWER = (*OWN_HEADLINE, "take_away", "explicit")
 """Tabs over which the sentence of the contact says nothing."""
 
 
@@ -92,7 +94,7 @@ class Verdict:
     async def tell(self) -> None:
         """The sentence of the answer as it is now."""
         answer = self.state.answer
-        if answer is None or self.state.tab in OWN_ANSWER:
+        if answer is None:
             return
         if self.shown == (answer, at := self.state.at):
             return
@@ -102,7 +104,9 @@ class Verdict:
     def note(self, remark: str) -> None:
         """What the answer and that of the tab leave open, and a remark of the page."""
         answer = self.state.answer
-        notes = [] if answer is None else [*answer.notes, *self.state.noted.get(self.state.tab, [])]
+        notes = list(self.state.noted.get(self.state.tab, []))
+        if answer is not None and self.state.tab not in QUESTIONS:
+            notes = [*answer.notes, *notes]
         self.remark.set_text(remark)
         self.remark.set_visibility(bool(remark))
         known = ranked(notes)

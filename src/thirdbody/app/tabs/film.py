@@ -280,7 +280,7 @@ class Film:
             return
         said = oil.sentences if oil is not None else []
         self.dents.set_visibility(oil is not None)
-        self.state.noted["film"] = list(found.run_warnings)
+        self.state.note("film", found.run_warnings)
         more = summary(found)
         if not said:
             said, more = more[:1], more[1:]
