@@ -65,6 +65,9 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .hint { color: var(--hint); font-size: 0.83rem; line-height: 1.3; }
 .stale { font-size: 0.85rem; border-left: 3px solid #E69F00; padding-left: 0.6rem; }
 .problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
+.switches { gap: 0 1rem; }
+.subhead.group { border-top: 1px solid rgba(127, 127, 127, 0.3); padding-top: 0.6rem; }
+.subhead.group { width: 100%; }
 .subhead { font-weight: 600; margin-top: 0.4rem; }
 .facts { gap: 0.4rem 1.25rem; }
 .headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
@@ -130,6 +133,7 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
 .here[hidden] { display: none; }
 .sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
+.slider .hint { font-size: 0.76rem; }
 .slider { flex: 1 1 130px; min-width: 130px; padding: 0 8px; }
 .knobs { flex: 6 1 0; gap: 0.4rem 1.6rem; align-items: flex-end; }
 @media (max-width: 699px) {

@@ -22,7 +22,7 @@ from .sizing import size_of, with_size
 from .state import Answer, State
 from .widgets import put
 
-__all__ = ["CodeKnob", "Slider", "Sliders", "at_position", "position_of", "shifted"]
+__all__ = ["CODES", "CodeKnob", "Slider", "Sliders", "at_position", "position_of", "shifted"]
 
 STEPS = 400
 REACH = 10.0

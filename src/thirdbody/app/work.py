@@ -22,7 +22,7 @@ __all__ = ["Work", "when_left"]
 
 RESTS = 0.6
 """Seconds that a study rests before what was shown as a preview is done in full."""
-SLOW = 4.0
+SLOW = 8.0
 """Seconds of a preview from which on the rest is left to the button."""
 LEFT = 3.0
 """Seconds after which a page that is not seen any more counts as closed."""

@@ -15,8 +15,9 @@ from ...quantities.say import number, percent, signed
 from ...study import Study, run_film
 from ...views.film_words import point as film_point
 from ..examples import EXAMPLES, example
-from ..fields import text_of
+from ..fields import engineering, number_of, text_of
 from ..figures import AXES, GREY, SCALES, Figure, figure, fix, line
+from ..sliders import CODES, shifted
 from ..solver import apart
 from ..state import Answer, State, look, measured
 from ..text import with_micro
@@ -28,10 +29,10 @@ __all__ = ["TITLE", "Beside", "beside", "build", "changes"]
 
 TITLE = "Before / after"
 OPENED, KEPT = "as it was opened", "as it was kept"
-SAME = (
-    "Nothing has changed yet. Move a slider or change an entry: the study as it was before and "
-    "as it is now stand here side by side."
-)
+SAME = "Nothing has changed yet; for a start, the same with a tenth of the particles."
+ALONE = "Nothing has changed yet: move a slider, or change an entry."
+FEWER, CLASSES = 0.1, -3
+"""A start has so many times the particles, or an oil of so many classes more."""
 MOST_CHANGES = 6
 """Changed entries that are named."""
 NUMBERS = {
@@ -80,6 +81,28 @@ def changes(before: dict[str, object], after: dict[str, object]) -> list[str]:
         for name in dict.fromkeys([*old, *new])
         if name != "title" and old.get(name) != new.get(name)
     ]
+
+
+def cleaner(study: dict[str, object]) -> dict[str, object] | None:
+    """The study with about a tenth of its particles; None where it does not say how many.
+
+    >>> cleaner({"particles": {"iso4406": "18/16/13"}})
+    {'particles': {'iso4406': '15/13/10'}}
+    """
+    given = study.get("particles")
+    several = given if isinstance(given, list) else [given]
+    new, about = [], tb.Particles.__dataclass_fields__["areal_density"].metadata["quantity"]
+    for each in several:
+        if not isinstance(each, dict):
+            return None
+        many = number_of(each.get("areal_density"), about)
+        if CODES.fullmatch(str(each.get("iso4406"))):
+            new.append(each | {"iso4406": shifted(each["iso4406"], CLASSES)})
+        elif many > 0:
+            new.append(each | {"areal_density": engineering(FEWER * many, "1/m^2", 3)})
+        else:
+            return None
+    return study | {"particles": new if isinstance(given, list) else new[0]}
 
 
 def beside(before: Answer, after: Answer, at: float) -> Beside:
@@ -146,7 +169,10 @@ def _figures(before: Answer, after: Answer) -> dict[str, Figure]:
     """The share of the particles and the real area over the pressure, one curve each."""
     states = [answer.curves for answer in (before, after)]
     x = [SCALES["pressure"] * np.asarray(state.pressure) for state in states]
-    looks: list[dict[str, object]] = [{"color": GREY, "dash": "dash"}, {"width": 2.8}]
+    looks: list[dict[str, object]] = [
+        {"color": GREY, "dash": "dash"},
+        {"dash": "solid", "width": 2.8},
+    ]
     out = {}
     for name, column, scale, label, title in (
         ("shares", "particle_load_share", 100.0, "share of particles [%]", "What particles carry"),
@@ -178,6 +204,7 @@ class BeforeAfter:
         self.shown: tuple[Answer, Answer, float] | None = None
         self.said = put(ui.label().classes("headline"), {"data-fact": "before and after"})
         self.said.props("role=status")
+        self.start = ui.label().classes("stale").props('data-fact="before begun"')
         self.wrong = ui.label().classes("problem").props('role=alert data-said="before"')
         with ui.row().classes("w-full items-end gap-3"):
             self.which = ui.select(self._options(), value=OPENED, label="before")
@@ -217,14 +244,23 @@ class BeforeAfter:
         answer = state.answer
         assert answer is not None
         self._tell(before)
-        old = answer if before == state.study else await self._answer(before)
+        old = now = answer
+        if before != state.study:
+            old = await self._answer(before)
+        elif (fewer := cleaner(before)) is not None:
+            now = await self._answer(fewer) or answer
         if old is None:
             return
-        if self.shown == (old, answer, state.at):
+        if self.shown == (old, now, state.at):
             return
-        found = await apart(beside, old, answer, state.at)
-        self.shown = (old, answer, state.at)
-        self.said.set_text(found.sentence if before != state.study else SAME)
+        found = await apart(beside, old, now, state.at)
+        self.shown = (old, now, state.at)
+        self.said.set_text(found.sentence)
+        start = (
+            "" if old is not now and before != state.study else SAME if old is not now else ALONE
+        )
+        self.start.set_text(start)
+        self.start.set_visibility(bool(start))
         self.rows.clear()
         with self.rows:
             heads = {"name": "quantity", "before": "before", "after": "after", "change": "change"}

@@ -186,11 +186,10 @@ class Surface:
 
     async def _begin(self) -> None:
         """The example of the library, until a file is dropped."""
-        with contextlib.suppress(InvalidValue):
+        with self.box, contextlib.suppress(InvalidValue):
             found = await apart(in_little, "surface", {"file": "example", "options": {}})
             if self.result is None and self.file == "example" and not self.box.is_deleted:
-                with self.box:
-                    self._show(cast(Found, found))
+                self._show(cast(Found, found))
 
     async def _read(self) -> None:
         with self.box:
