@@ -113,7 +113,6 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .so-far { flex: 1 1 20rem; font-weight: 600; line-height: 1.4; min-height: 2.8em; }
 .new-end { position: sticky; bottom: -1.2rem; padding: 0.7rem 0; z-index: 1; background: #fff; }
 .body--dark .new-end { background: #1d1d1d; }
-@media (max-width: 699px) { .fresh .block { display: none; } .fresh .q-icon { margin: 0; } }
 .tab-group { font-size: 0.7rem; font-weight: 600; color: var(--hint); white-space: nowrap; }
 .tab-group { padding: 0 0.35rem 0 0.7rem; text-transform: uppercase; letter-spacing: 0.04em; }
 .grouped .q-tab { min-height: 34px; }
@@ -188,6 +187,10 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
 /* what is important in the framework yields only to an earlier layer */
 @layer overrides {
+  @media (max-width: 699px) {
+    .fresh .block { display: none !important; }
+    .fresh .q-icon { margin: 0 !important; }
+  }
   @media (min-width: 700px) { .grouped .q-tabs__content { flex-wrap: wrap !important; } }
   :root { --focus: #0072B2; }
   .body--dark { --focus: #56B4E9; }
