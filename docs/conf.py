@@ -35,7 +35,11 @@ exclude_patterns = [
     "_templates",
     "**.ipynb_checkpoints",
     "_cases",
-    *(f"{made}/**.{end}" for made in ("gallery", "cases") for end in ("ipynb", "py.md5", "codeobj.json")),
+    *(
+        f"{made}/**.{end}"
+        for made in ("gallery", "cases")
+        for end in ("ipynb", "py.md5", "codeobj.json")
+    ),
 ]
 templates_path = ["_templates"]
 default_role = "py:obj"
@@ -79,6 +83,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": ["gallery", "cases"],
     "filename_pattern": r"\.py$",
     "image_scrapers": ("book.save_figures",),
+    "reset_modules": ("matplotlib", "book.set_colours"),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "capture_repr": (),

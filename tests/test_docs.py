@@ -484,7 +484,9 @@ OF_PAPERS = {"reproduction.md", "errata.md", "equations.md", "changelog.md"}
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_what_is_said_in_several_places_comes_from_one(page):
     if page.name not in OF_PAPERS:
-        assert STATED.findall(page.read_text("utf-8")) == [], "write {{ name }}, see docs/_ext/facts.py"
+        assert STATED.findall(page.read_text("utf-8")) == [], (
+            "write {{ name }}, see docs/_ext/facts.py"
+        )
     insert_facts(page.read_text("utf-8"), page.name)
 
 
@@ -545,7 +547,9 @@ def test_every_field_of_every_result_is_explained():
         part = text.split(f"## `{name}`\n")[1].split("\n## ")[0]
         for item in dataclasses.fields(kind):
             if not item.name.startswith("_"):
-                assert re.search(rf"^\| (?:`\w+`, )*`{item.name}`", part, re.M), f"{name}.{item.name}"
+                assert re.search(rf"^\| (?:`\w+`, )*`{item.name}`", part, re.M), (
+                    f"{name}.{item.name}"
+                )
 
 
 CONSOLE = re.compile(r"^```console\n(.*?)^```\n(.*?)^```text\n(.*?)^```$", re.S | re.M)

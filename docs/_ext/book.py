@@ -32,6 +32,15 @@ def save_figures(block, block_vars, gallery_conf):
     return "".join(figure_rst([image], gallery_conf["src_dir"]) for image in images)
 
 
+def set_colours(gallery_conf, example):
+    """Before each example: the colours of the book, told apart by everybody."""
+    import matplotlib as mpl
+    from thirdbody.views.plot.style import OKABE_ITO
+
+    names = ("blue", "vermilion", "green", "purple", "orange", "sky")
+    mpl.rcParams["axes.prop_cycle"] = mpl.cycler(color=[OKABE_ITO[name] for name in names])
+
+
 def inputs(value):
     """Rows (name, symbol, unit, meaning, range) of the numbers that a class takes."""
     from thirdbody.quantities.value import allowed_range

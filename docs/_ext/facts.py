@@ -105,6 +105,7 @@ def facts():
 
 def insert_facts(text, where="a page"):
     """The text of a page with its facts in place; a name that is none is an error."""
+
     def put(found):
         if found[1] not in facts():
             raise KeyError(f"{where}: no fact {found[1]}; there are {', '.join(facts())}")

@@ -72,7 +72,7 @@ MEANING = {
     "formula.name": "which film formula",
     "heights.name": "which distribution of heights",
     "iso14644": "class of a clean room, whose particles settle during `exposure`",
-    "iso4406": "cleanliness code of an oil, \"18/16/13\"",
+    "iso4406": 'cleanliness code of an oil, "18/16/13"',
     "as4059": "cleanliness class of an oil after SAE AS4059",
     "nas1638": "cleanliness class of an oil after NAS 1638",
     "law.law": "law of the contact on each side of a particle",
@@ -97,7 +97,7 @@ MEANING = {
     "source": "where the numbers are from",
     "spacing": "even steps of the value or of its logarithm",
     "sweep.design": "all combinations, in pairs, or drawn",
-    "test_dust": "standard test dust, \"A2\"",
+    "test_dust": 'standard test dust, "A2"',
     "vary": "inputs and the values they take",
     "weighting": "what the file counts",
 }
@@ -198,14 +198,24 @@ class StudyFile:
         self.seen[frozenset(table["properties"])] = path
         self.lines += [f"({label(path)})=", title, ""]
         self.lines += [intro, ""] if intro else []
-        self.lines += ["| key | what it is | what stands there | default | example |", "|---|---|---|---|---|"]
+        self.lines += [
+            "| key | what it is | what stands there | default | example |",
+            "|---|---|---|---|---|",
+        ]
         later = []
         for key, each in table["properties"].items():
             what, _, example = each.get("description", "").partition("e.g. ")
             values = [written(each)] if written(each) else []
             for inner in tables_in(each):
                 names = set(inner["properties"])
-                known = next((f"a [{kind}](#study-{kind})" for kind, some in SHARED.items() if some <= names), None)
+                known = next(
+                    (
+                        f"a [{kind}](#study-{kind})"
+                        for kind, some in SHARED.items()
+                        if some <= names
+                    ),
+                    None,
+                )
                 for kind, some in SHARED.items():
                     if some <= names:
                         self.shared.setdefault(kind, inner)
@@ -217,11 +227,19 @@ class StudyFile:
                     self.seen[frozenset(names)] = f"{path}.{key}"
                 values.append(known)
             needed = key in table.get("required", [])
-            default = "needed" if needed else code(number(each["default"])) if "default" in each else ""
+            default = (
+                "needed" if needed else code(number(each["default"])) if "default" in each else ""
+            )
             if isinstance(each.get("default"), bool):
                 default = code(str(each["default"]).lower())
             what = meaning_of(path, key, what.rstrip(" ,"))
-            row = [code(key), what if "](" in what else cell(what), "; ".join(values), default, code(example.strip().replace("|", "/"))]
+            row = [
+                code(key),
+                what if "](" in what else cell(what),
+                "; ".join(values),
+                default,
+                code(example.strip().replace("|", "/")),
+            ]
             self.lines.append("| " + " | ".join(row) + " |")
         self.lines.append("")
         for inner_path, inner in later:
@@ -255,7 +273,9 @@ def commands():
                 continue
             record = item.get_help_record(context) if hasattr(item, "get_help_record") else None
             record = record or (item.make_metavar(context), getattr(item, "help", "") or "")
-            rows.append("| " + " | ".join([code(record[0].replace("|", "/")), cell(record[1])]) + " |")
+            rows.append(
+                "| " + " | ".join([code(record[0].replace("|", "/")), cell(record[1])]) + " |"
+            )
         lines += ["| argument or option | what it does |", "|---|---|", *rows, ""]
     return "\n".join(lines)
 
@@ -266,7 +286,9 @@ def attributes_of(kind):
 
     text = inspect.cleandoc(kind.__doc__ or "")
     section = re.search(r"^Attributes\n-+\n(.*?)(?=^\w[\w ]*\n-{3,}\n|\Z)", text, re.S | re.M)
-    entries = re.findall(r"^(\S.*)\n((?:[ ].*\n?|\n)*)", (section[1] if section else "") + "\n", re.M)
+    entries = re.findall(
+        r"^(\S.*)\n((?:[ ].*\n?|\n)*)", (section[1] if section else "") + "\n", re.M
+    )
     out = {}
     for head, body in entries:
         names, _, type_of = head.partition(" : ")
