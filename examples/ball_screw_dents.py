@@ -2,8 +2,8 @@
 Dust in a ball screw: which grains dent, and how deep
 =====================================================
 
-**In short**: fine quartz of a few micrometres already dents deeper than the roughness. A filter of 10 µm stops the deep
-dents, which are few: wipers must keep the dust out.
+**In short**: fine quartz of a few micrometres already dents deeper than the roughness. A filter of
+10 µm stops the deep dents, which are few: wipers must keep the dust out.
 
 Fine test dust gets into the oil of a ball screw. The film between ball and groove is 0.3 µm high,
 the ground surfaces are 0.1 µm rough. Grains larger than the film are pressed into both surfaces;

@@ -2,7 +2,7 @@
 Dust in a ball screw: temperature of the contacts
 =================================================
 
-**In short**: the hottest contact is on a grain, and the larger the grain the hotter. At 1 m/s grains above
+**In short**: the larger the grains, the hotter the hottest contact. At 1 m/s grains above about
 2 µm double the rise over clean steel.
 
 Quartz dust enters a stainless ball screw that runs dry for a moment. How much hotter than the

@@ -35,6 +35,7 @@ def save_figures(block, block_vars, gallery_conf):
 def set_colours(gallery_conf, example):
     """Before each example: the colours of the book, told apart by everybody."""
     import matplotlib as mpl
+
     from thirdbody.views.plot.style import OKABE_ITO
 
     names = ("blue", "vermilion", "green", "purple", "orange", "sky")

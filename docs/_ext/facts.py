@@ -14,8 +14,11 @@ from pathlib import Path
 __all__ = ["WRITTEN", "facts", "insert_facts"]
 
 WRITTEN = re.compile(r"\{\{ (\w+) \}\}")
-NUMBERS = "no one two three four five six seven eight nine ten eleven twelve thirteen".split()
-NUMBERS += "fourteen fifteen sixteen seventeen eighteen nineteen twenty".split()
+NUMBERS = (
+    *("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
+    *("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen"),
+    *("eighteen", "nineteen", "twenty"),
+)
 SIZES = {"x2": 600e-9, "x1": 300e-9, "x067": 200e-9}
 
 
@@ -80,8 +83,8 @@ def facts():
         "version": tb.__version__,
         "agreement_share": f"{two}, {one}, {small} %",
         "agreement_separation": separation,
-        "agreement": f"within {two} % of the load share at x = 2σ, {one} % at x = σ and {small} % at "
-        f"x = 0.67σ, and within {separation} of the separation",
+        "agreement": f"within {two} % of the load share at x = 2σ, {one} % at x = σ and {small} % "
+        f"at x = 0.67σ, and within {separation} of the separation",
         "measurements": f"{len(verdicts['measurements'])}",
         "measurements_word": word(len(verdicts["measurements"])),
         "measurements_lost": word(measured["lost"]),

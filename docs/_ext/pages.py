@@ -168,6 +168,12 @@ def label(path):
     return "study-" + re.sub(r"\W+", "-", path)
 
 
+HEAD = (
+    "| key | what it is | what stands there | default | example |",
+    "|---|---|---|---|---|",
+)
+
+
 class StudyFile:
     """Walks through the schema of study files and writes a table of keys for each table."""
 
@@ -195,55 +201,49 @@ class StudyFile:
         return "\n".join(self.lines)
 
     def section(self, path, title, table, intro=""):
+        """The keys of one table, and after it the tables that may stand in it."""
         self.seen[frozenset(table["properties"])] = path
-        self.lines += [f"({label(path)})=", title, ""]
-        self.lines += [intro, ""] if intro else []
-        self.lines += [
-            "| key | what it is | what stands there | default | example |",
-            "|---|---|---|---|---|",
-        ]
+        self.lines += [f"({label(path)})=", title, "", *([intro, ""] if intro else []), *HEAD]
         later = []
         for key, each in table["properties"].items():
             what, _, example = each.get("description", "").partition("e.g. ")
-            values = [written(each)] if written(each) else []
-            for inner in tables_in(each):
-                names = set(inner["properties"])
-                known = next(
-                    (
-                        f"a [{kind}](#study-{kind})"
-                        for kind, some in SHARED.items()
-                        if some <= names
-                    ),
-                    None,
-                )
-                for kind, some in SHARED.items():
-                    if some <= names:
-                        self.shared.setdefault(kind, inner)
-                if known is None and (place := self.seen.get(frozenset(names))):
-                    known = f"a table as [{place}](#{label(place)})"
-                if known is None:
-                    known = f"a table [{path}.{key}](#{label(f'{path}.{key}')})"
-                    later.append((f"{path}.{key}", inner))
-                    self.seen[frozenset(names)] = f"{path}.{key}"
-                values.append(known)
-            needed = key in table.get("required", [])
-            default = (
-                "needed" if needed else code(number(each["default"])) if "default" in each else ""
-            )
-            if isinstance(each.get("default"), bool):
-                default = code(str(each["default"]).lower())
             what = meaning_of(path, key, what.rstrip(" ,"))
-            row = [
+            cells = [
                 code(key),
                 what if "](" in what else cell(what),
-                "; ".join(values),
-                default,
+                "; ".join([*filter(None, [written(each)]), *self.inner(path, key, each, later)]),
+                default_of(key, each, table.get("required", [])),
                 code(example.strip().replace("|", "/")),
             ]
-            self.lines.append("| " + " | ".join(row) + " |")
+            self.lines.append(f"| {' | '.join(cells)} |")
         self.lines.append("")
         for inner_path, inner in later:
             self.section(inner_path, f"### `{inner_path}`", inner)
+
+    def inner(self, path, key, schema, later):
+        """Links to the tables that may stand under a key; new ones are put off until later."""
+        for table in tables_in(schema):
+            names = frozenset(table["properties"])
+            shared = next((kind for kind, some in SHARED.items() if some <= names), None)
+            if shared:
+                self.shared.setdefault(shared, table)
+                yield f"a [{shared}](#study-{shared})"
+            elif place := self.seen.get(names):
+                yield f"a table as [{place}](#{label(place)})"
+            else:
+                place = self.seen[names] = f"{path}.{key}"
+                later.append((place, table))
+                yield f"a table [{place}](#{label(place)})"
+
+
+def default_of(key, schema, needed):
+    """What counts where a key is left out."""
+    if key in needed:
+        return "needed"
+    if "default" not in schema:
+        return ""
+    default = schema["default"]
+    return code(str(default).lower() if isinstance(default, bool) else number(default))
 
 
 def study_file():
@@ -273,9 +273,8 @@ def commands():
                 continue
             record = item.get_help_record(context) if hasattr(item, "get_help_record") else None
             record = record or (item.make_metavar(context), getattr(item, "help", "") or "")
-            rows.append(
-                "| " + " | ".join([code(record[0].replace("|", "/")), cell(record[1])]) + " |"
-            )
+            name_of, what = record
+            rows.append(f"| {code(name_of.replace('|', '/'))} | {cell(what)} |")
         lines += ["| argument or option | what it does |", "|---|---|", *rows, ""]
     return "\n".join(lines)
 
@@ -317,7 +316,7 @@ def columns():
         if declared:
             lines += ["| column | symbol | unit | meaning |", "|---|---|---|---|"]
             lines += [
-                f"| {code(key)} | {cell(about.symbol)} | {cell(about.unit)} | {cell(about.meaning)} |"
+                f"| {code(key)} | {' | '.join(map(cell, about))} |"
                 for key, about in declared.items()
             ]
             lines.append("")

@@ -101,7 +101,7 @@ class Equilibrium(_ContactRecord):
     residual: Number = column("r", "1", "relative imbalance |F_t/F − 1|")
     iterations: int | NDArray[np.int_] = column("n", "", "evaluations of the load")
     warnings: tuple[str, ...] = ()
-    """Where the answer leaves the range of a model: cause, effect and what to do, a sentence each."""
+    """Where the answer leaves the range of a model: cause, effect, what to do; a sentence each."""
     populations: tuple[PopulationShare, ...] = ()
     """What each of several populations carries; empty for one."""
     outputs: Mapping[str, Number] = field(default_factory=dict)
