@@ -120,6 +120,7 @@ class Coupled(Record):
     branch_of_load: dict[str, Array] = field(repr=False)
     """Points along the load: ``pressure`` [Pa], ``T`` [K], ``mu`` [1]."""
     warnings: tuple[str, ...] = ()
+    """Where a state leaves the range of a model, a sentence each."""
 
     @property
     def stable(self) -> CoupledState | None:
