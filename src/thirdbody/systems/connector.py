@@ -52,6 +52,8 @@ CLASSES = 300
 """Classes of size, equally wide in ln x."""
 SHARED = 20.0
 """Loads of a curve within this factor share their steps."""
+APART = 1e-3
+"""Bounds farther apart than this are computed anew, with the steps of one load."""
 SQUEEZES = 4096
 """Squeezes at which the load of a particle is tabled."""
 HEIGHTS, COARSE = 40, 256
@@ -241,8 +243,11 @@ class Connector(Value):
         out, left = np.empty(len(every)), every.copy()
         kinds = self._kinds(conduct=False)
         while np.any(left >= 0):
-            here = left >= left.max() / SHARED
-            out[here] = np.mean(_open(kinds, left[here], 0.0), axis=0)
+            here = np.flatnonzero(left >= left.max() / SHARED)
+            low, high = _open(kinds, left[here], 0.0)
+            out[here] = 0.5 * (low + high)
+            for i in here[high - low > APART]:  # the steps of the largest load are too long
+                out[i] = np.mean(_open(kinds, left[[i]], 0.0))
             left[here] = -1.0
         return out
 

@@ -73,11 +73,11 @@ def changes(before: dict[str, object], after: dict[str, object]) -> list[str]:
     """
     old, new = dict(flat(before)), dict(flat(after))
 
-    def said(table: dict[str, object], name: str) -> str:
+    def value_in(table: dict[str, object], name: str) -> str:
         return text_of(table[name]) if name in table else "none"
 
     return [
-        f"{name}: {said(old, name)} → {said(new, name)}"
+        f"{name}: {value_in(old, name)} → {value_in(new, name)}"
         for name in dict.fromkeys([*old, *new])
         if name != "title" and old.get(name) != new.get(name)
     ]
@@ -110,7 +110,7 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
     forces press."""
     forced = before.forced or after.forced
     same = before.load == after.load and not forced
-    points = (before.solve(at if same else _own(before, after, at)), after.solve(at))
+    points = (before.solve(at if same else _load_before(before, after, at)), after.solve(at))
     told = [
         dict(facts_of(each, answer.held))
         for each, answer in zip(points, (before, after), strict=True)
@@ -124,7 +124,7 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
     return Beside(_sentence(points), rows, _figures(before, after))
 
 
-def _own(before: Answer, after: Answer, at: float) -> float:
+def _load_before(before: Answer, after: Answer, at: float) -> float:
     """The load of the study before that is compared: its own, or the same load in its words."""
     if before.forced or after.forced:
         return before.default_at()
@@ -209,7 +209,7 @@ class BeforeAfter:
         with ui.row().classes("w-full items-end gap-3"):
             self.which = ui.select(self._options(), value=OPENED, label="before")
             put(self.which.props("dense options-dense").classes("wide"), {"data-path": "before"})
-            keep = ui.button("Keep as it is now", icon="push_pin", on_click=self._kept)
+            keep = ui.button("Keep as it is now", icon="push_pin", on_click=self._keep)
             put(keep.props("no-caps outline"), {"data-path": "before.keep"})
             back = ui.button("Go back to before", icon="history", on_click=self._back)
             put(back.props("no-caps flat"), {"data-path": "before.back"})
@@ -229,7 +229,7 @@ class BeforeAfter:
             return self.state.kept
         return self.state.opened if name in (OPENED, KEPT) else example(name)
 
-    def _kept(self) -> None:
+    def _keep(self) -> None:
         self.state.kept = self.state.study
         self.which.set_options(self._options(), value=KEPT)
         self.state.tell()
@@ -244,7 +244,8 @@ class BeforeAfter:
         answer = state.answer
         assert answer is not None
         self._tell(before)
-        old = now = answer
+        old: Answer | None = answer
+        now = answer
         if before != state.study:
             old = await self._answer(before)
         elif (fewer := cleaner(before)) is not None:

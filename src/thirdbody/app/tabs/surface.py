@@ -187,7 +187,8 @@ class Surface:
     async def _begin(self) -> None:
         """The example of the library, until a file is dropped."""
         with self.box, contextlib.suppress(InvalidValue):
-            found = await apart(in_little, "surface", {"file": "example", "options": {}})
+            asked: Asked = {"file": "example", "options": {}}
+            found = await apart(in_little, "surface", asked)
             if self.result is None and self.file == "example" and not self.box.is_deleted:
                 self._show(cast(Found, found))
 
