@@ -12,8 +12,10 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable
 from types import FrameType
+from typing import Self
 
 __all__ = [
+    "Advice",
     "InvalidValue",
     "NoEquilibrium",
     "NoTransition",
@@ -27,6 +29,45 @@ __all__ = [
 
 class ThirdBodyError(Exception):
     """Base class of every error that this library raises on purpose."""
+
+
+class Advice(str):
+    """Words of Python, and what is said in their place to who writes a study file.
+
+    Sentences put together with ``+`` keep both.
+
+    Examples
+    --------
+    >>> text = "use " + Advice("particle.Series", 'particle_law.name = "series"') + ", or no shape"
+    >>> print(text)
+    use particle.Series, or no shape
+    >>> print(in_study(text))
+    use particle_law.name = "series", or no shape
+    """
+
+    study: str
+
+    def __new__(cls, python: str, study: str) -> Self:
+        self = super().__new__(cls, python)
+        self.study = study
+        return self
+
+    def __getnewargs__(self) -> tuple[str, str]:
+        return str(self), self.study
+
+    def __add__(self, other: str) -> Advice:
+        return Advice(str(self) + str(other), self.study + in_study(other))
+
+    def __radd__(self, other: str) -> Advice:
+        return Advice(other + str(self), in_study(other) + self.study)
+
+    def removeprefix(self, prefix: str, /) -> Advice:
+        return Advice(super().removeprefix(prefix), self.study.removeprefix(prefix))
+
+
+def in_study(text: str) -> str:
+    """A sentence in the words of a study file; itself where it names nothing of Python."""
+    return getattr(text, "study", text)
 
 
 class Problem(str):
@@ -84,6 +125,11 @@ class Problem(str):
         """The dotted place, from the outermost name that is known."""
         return ".".join(filter(None, (self.owner, self.path)))
 
+    @property
+    def study(self) -> str:
+        """Its sentence in the words of study files."""
+        return str(self.worded(in_study))
+
     def changed(self, **changes: object) -> Problem:
         """The same mistake with some of its parts changed."""
         return Problem(**{**vars(self), **changes})
@@ -96,7 +142,7 @@ class Problem(str):
     def under(self, owner: str) -> Problem:
         """The same mistake where what it is a part of goes by another name."""
         whole = not self.path and not self.owner
-        return self.changed(owner=owner, rule=f": {self.rule}" if whole else self.rule)
+        return self.changed(owner=owner, rule=": " + self.rule if whole else self.rule)
 
 
 class Note(str):
@@ -123,12 +169,16 @@ class Note(str):
     code: str
     effect: float
     action: str
+    study: str
+    """Its sentence in the words of study files."""
 
     def __new__(
         cls, what: str, *, code: str = "", effect: float = math.nan, action: str = ""
     ) -> Note:
-        self = super().__new__(cls, f"{what}; {action}" if action else what)
+        sentence = what + "; " + action if action else what
+        self = super().__new__(cls, sentence)
         self.code, self.effect, self.action = code, effect, action
+        self.study = in_study(sentence)
         return self
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, object]]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
+from ..errors import Advice
 from ..laws.particle.breakage import Breakage, crush_embed_size
 from ..quantities.value import quantity
 from .quantiles import Values, exceeded
@@ -90,7 +91,10 @@ class Crushing(AbstractOutput):
             return []
         return [
             "outputs.crushing needs particles with a strength, e.g. "
-            "Particles(..., strength=WeibullStrength.of(material))"
+            + Advice(
+                "Particles(..., strength=WeibullStrength.of(material))",
+                'particles.strength = "material"',
+            )
         ]
 
     def of(self, state: Solved) -> dict[str, Array]:

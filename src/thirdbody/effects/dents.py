@@ -11,6 +11,7 @@ import numpy as np
 
 from ..contact.output import AbstractOutput, Column
 from ..errors import InvalidValue, Note, Problem
+from ..laws.base import SERIES
 from ..laws.particle.series import Series
 from ..laws.particle.squashed import widest_disc
 from ..populations.materials import softer_hardness
@@ -176,7 +177,7 @@ class Dents(AbstractOutput):
         laws = [contact.law_of(each) for each in contact.populations]
         if all(isinstance(law, Series) and law.breakable for law in laws):
             return []
-        return ["outputs.dents: fragments of brittle particles need particle.Series"]
+        return ["outputs.dents: fragments of brittle particles need " + SERIES]
 
     def _contradictions(self, contact: Contact) -> list[str]:
         """Particles that keep their shape here and are squashed by their law."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
-from ..errors import Note
+from ..errors import Advice, Note
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule
 from ..populations.materials import reduced_modulus
@@ -248,4 +248,5 @@ class StaticFriction(AbstractOutput):
             "plastic contacts, to which Kogut–Etsion give no friction at all"
         )
         code = f"{self.name}.plastic"
-        return [Note(what, code=code, effect=float(share), action="use law='full stick'")]
+        action = Advice("use law='full stick'", 'use law = "full stick"')
+        return [Note(what, code=code, effect=float(share), action=action)]

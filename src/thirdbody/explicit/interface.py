@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue
+from ..errors import Advice, InvalidValue
 from ..laws.base import AbstractParticleLaw
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.topography import Topography
@@ -184,8 +184,9 @@ def _sentence_of_smoothing(surface: Topography, z: Array) -> tuple[str, ...]:
     return (
         f"{surface.source} is pressed without its waves below the recommended cut-off, "
         f"{value_of(surface.cutoff, 'm')}, as the roughness of the statistical model is: sigma is "
-        f"{percent(kept, digits=3)} of that of the heights, and the separation smaller (cutoff=0 "
-        "presses the heights as they are, a cutoff of your own those without shorter waves)",
+        f"{percent(kept, digits=3)} of that of the heights, and the separation smaller ("
+        + Advice("cutoff=0", "roughness.cutoff = 0")
+        + " presses the heights as they are, a cutoff of your own those without shorter waves)",
     )
 
 

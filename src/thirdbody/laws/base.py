@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Problem
 from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
 from ..quantities.arguments import need_one
@@ -46,8 +46,11 @@ if TYPE_CHECKING:
 
 __all__ = [
     "COLUMNS",
+    "FLAKES",
+    "HERMITE",
     "KINDS",
     "REGIMES",
+    "SERIES",
     "AbstractAsperityLaw",
     "AbstractParticleLaw",
     "Branch",
@@ -57,6 +60,11 @@ __all__ = [
     "SeatedLaw",
     "Squeezed",
 ]
+
+SERIES = Advice("particle.Series", 'particle_law.name = "series"')
+FLAKES = Advice("particle.Flakes", 'particle_law.name = "flakes"')
+HERMITE = Advice("Hermite()", '"hermite"')
+"""Laws that are advised, in words of Python and of study files."""
 
 REGIMES = ("elastic", "elastoplastic", "plastic")
 COLUMNS = ("force", "elastic", "elastoplastic", "plastic", "second", "footprint", "projected")
@@ -459,7 +467,8 @@ class AbstractParticleLaw(Law):
             return self
         raise InvalidValue(
             f"Particles.shape: particles of the law {self.name} have a shape of their own; use "
-            "particle.Series, or remove shape"
+            + SERIES
+            + ", or remove shape"
         )
 
     def single(

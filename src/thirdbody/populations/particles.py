@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, Literal, Self
 
-from ..errors import InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Problem
 from ..quantities.units import to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
@@ -82,7 +82,11 @@ class Particles(Value):
             out.append(
                 Problem(
                     "shape",
-                    "must be Sphere() or Angular(roundness=..., angle=...)",
+                    Advice(
+                        "must be Sphere() or Angular(roundness=..., angle=...)",
+                        'must be "sphere" or "angular", or a table: { name = "angular", '
+                        'roundness = 0.1, angle = "60 deg" }',
+                    ),
                     repr(self.shape),
                 )
             )

@@ -8,11 +8,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ..errors import InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Problem
 from ..quantities.value import Value, choice, quantity
 from .materials import Material
 
 __all__ = ["WeibullStrength"]
+
+OTHER_STRENGTH = Advice(
+    "give WeibullStrength(sigma_0=..., x_0=..., m=...), or material.replace(K_c=...)",
+    'give particles.strength = { sigma_0 = "60 MPa", x_0 = "10 mm", m = 3 } with numbers of your '
+    "own, or K_c with the numbers of the material",
+)
+"""What to do where a material has no strength."""
 
 TOUGHNESS, TOUGHNESS_SIZE, TOUGHNESS_MODULUS = 1.8, 1e-3, 3.0
 """σ_x √x/K_c and Weibull modulus of an estimate from toughness, and the size it is told at [m]."""
@@ -134,8 +141,7 @@ class WeibullStrength(Value):
         missing = ", ".join(name for name, value in known.items() if value is None)
         raise InvalidValue(
             f"the material {material.name or 'of these particles'} has no strength: it lacks "
-            f"{missing}, and K_c for an estimate; "
-            "give WeibullStrength(sigma_0=..., x_0=..., m=...), or material.replace(K_c=...)"
+            f"{missing}, and K_c for an estimate; " + OTHER_STRENGTH
         )
 
     @classmethod

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
 
-from ..errors import SlowWarning, tell_of_range
+from ..errors import Advice, SlowWarning, tell_of_range
 
 __all__ = [
     "Cost",
@@ -439,7 +439,7 @@ class Cost:
         reason = f" ({why})" if why else ""
         tell_of_range(
             f"{self.total:,} {self.what} take some {duration(whole)}: {rate:.2g} a second, as they "
-            f"are solved one by one{reason}; progress=True shows how far they are",
+            f"are solved one by one{reason}" + Advice("; progress=True shows how far they are", ""),
             SlowWarning,
         )
 

@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue
+from ..errors import Advice, InvalidValue
 from .files import is_draft, make_folder, write_text
 
 __all__ = [
@@ -214,8 +214,8 @@ def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
     if there and not all(same):
         raise InvalidValue(
             f"{folder} holds {', '.join(there)} of another study, or of another program; "
-            "give another folder, remove what is not needed, or replace it (--force, in Python "
-            "force=True)"
+            "give another folder, remove what is not needed, or replace it "
+            + Advice("(--force, in Python force=True)", "(--force)")
         )
 
 

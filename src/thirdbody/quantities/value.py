@@ -110,7 +110,7 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
         or (about["le"] is not None and not number <= about["le"])
     )
     if outside:
-        return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+        return allowed_range(about) + ("; " + about["hint"] if about["hint"] else "")
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 

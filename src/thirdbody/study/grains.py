@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue
 from ..populations.particles import Particles
 from ..populations.shape import SPHERE, Angular, Sphere
 from ..populations.strength import WeibullStrength
@@ -102,5 +102,5 @@ def with_strength(particles: Particles, path: str, asked: Any) -> Particles:
     try:
         found = WeibullStrength.of(particles.material, **asked)
     except InvalidValue as error:
-        raise InvalidValue(*(Problem(path, f": {text}") for text in error.problems)) from None
+        raise error.under(path) from None
     return particles.replace(strength=found)

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Problem, in_study
 from ..quantities.nearest import guess
 from ..quantities.units import say
 from .fields import declarations
-from .vocabulary import in_words, near
+from .vocabulary import near
 
 __all__ = ["Known", "Missing", "Unknown", "clash", "in_file"]
 
@@ -114,7 +114,7 @@ def in_file(error: InvalidValue, kind: type, path: str, values: Mapping[str, Any
         if not said and all(isinstance(one, (str, float, int)) for one in items):
             value = say(entry)
         owner = path if each.owner == kind.__name__ else each.owner
-        out.append(each.changed(owner=owner, value=value).worded(in_words))
+        out.append(each.changed(owner=owner, value=value).worded(in_study))
     return InvalidValue(*out)
 
 

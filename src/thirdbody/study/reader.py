@@ -10,7 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
@@ -18,7 +18,7 @@ from ..quantities.units import EXAMPLES, quantity_to_si, say
 from ..quantities.value import allowed_range, problem_with, unit_meant
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
-from .vocabulary import in_words, near
+from .vocabulary import near
 
 __all__ = [
     "ANYTHING",
@@ -361,7 +361,7 @@ def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> 
         raise wrong(path, f"is not a finite number{allowed}", value)
     if why := problem_with(about, found):
         meant = "" if about["hint"] else f"; it is the {about['meaning']}"
-        raise wrong(path, in_words(why) + meant, value)
+        raise wrong(path, in_study(why) + meant, value)
     load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
     if likely := unit_meant(about, found, load=load):
         _refuse_slip(reader, path, value, f"{found:g} {about['unit']}", f"{found:g} {likely}")

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...contact.interface import interface
-from ...errors import InvalidValue
+from ...errors import Advice, InvalidValue
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import write_text
@@ -137,8 +137,11 @@ class ContactTable:
     def share(self, name: str, h: ArrayLike) -> Number:
         """A share [1] that was asked for in ``columns``; constant beyond the ends."""
         if name not in self._shares:
-            known = ", ".join(self._shares) or "none; give columns=... when the table is made"
-            raise InvalidValue(f"share {name!r} is not in this table; it has {known}")
+            known = ", ".join(self._shares) or "none; " + Advice(
+                "give columns=... when the table is made",
+                "this command makes tables without shares",
+            )
+            raise InvalidValue(f"share {name!r} is not in this table; it has " + known)
         c = self._shares[name]
         x = np.clip(np.asarray(h, dtype=float), self.h[0], self.h[-1])
         i = self._p.panel(x)

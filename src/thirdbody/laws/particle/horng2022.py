@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue, Problem
 from ...quantities.value import choice, quantity
-from ..base import AbstractParticleLaw, OneParticle
+from ..base import FLAKES, SERIES, AbstractParticleLaw, OneParticle
 
 if TYPE_CHECKING:
     from ...populations.materials import Material, MaterialPair
@@ -26,7 +26,7 @@ PRESETS: dict[str, dict[str, Any]] = {
 
 NO_ONE_PARTICLE = (
     "the particle law horng2022 knows loads and areas of all particles together, not how deep one "
-    "of them sits; outputs need particle.Series or particle.Flakes"
+    "of them sits; outputs need " + SERIES + " or " + FLAKES
 )
 
 

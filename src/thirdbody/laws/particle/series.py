@@ -10,7 +10,7 @@ from ...errors import Note, Problem
 from ...populations.shape import Angular
 from ...quantities.value import choice, quantity
 from ..asperity.hermite import Hermite
-from ..base import AbstractAsperityLaw, AbstractParticleLaw, OneParticle, SeatedLaw
+from ..base import HERMITE, AbstractAsperityLaw, AbstractParticleLaw, OneParticle, SeatedLaw
 from .deep import DeepSqueeze
 from .faces import FacedSide, Faces
 from .one_particle import SideForm, SqueezedParticle, contact_sides, squeezed_particle
@@ -165,14 +165,14 @@ class Series(SeatedLaw, _OfTips):
         out = []
         if not isinstance(self.law, AbstractAsperityLaw):
             out.append(
-                Problem("law", "must be a law of one contact, e.g. Hermite()", repr(self.law))
+                Problem("law", "must be a law of one contact, e.g. " + HERMITE, repr(self.law))
             )
         elif self.law.of_surface:
             out.append(
                 Problem(
                     "law",
                     "is a law of a whole surface; particles "
-                    "need a law of one contact, e.g. Hermite()",
+                    "need a law of one contact, e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
                 )
             )
@@ -181,7 +181,7 @@ class Series(SeatedLaw, _OfTips):
                 Problem(
                     "law",
                     "has a length of its own; particles of "
-                    "all sizes need a law that only knows indentation over radius, e.g. Hermite()",
+                    "all sizes need a law that only knows indentation over radius, e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
                 )
             )
