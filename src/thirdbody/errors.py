@@ -52,8 +52,8 @@ class Advice(str):
         self.study = study
         return self
 
-    def __getnewargs__(self) -> tuple[str, str]:
-        return str(self), self.study
+    def __reduce__(self) -> tuple[type[Advice], tuple[str, str]]:
+        return type(self), (str(self), self.study)
 
     def __add__(self, other: str) -> Advice:
         return Advice(str(self) + str(other), self.study + in_study(other))

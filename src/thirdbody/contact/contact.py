@@ -113,10 +113,10 @@ class Contact(Value):
             )
         for each in self.populations:
             if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
-                rule = "must be a particle law, e.g. " + Advice(
+                allowed = "must be a particle law, e.g. " + Advice(
                     "particle.Series(seat='plane')", '{ name = "series", seat = "plane" }'
                 )
-                out.append(Problem("law", rule, repr(each.law), owner="Particles"))
+                out.append(Problem("law", allowed, repr(each.law), owner="Particles"))
                 continue
             try:
                 law = self.law_of(each)

@@ -19,7 +19,7 @@ from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .curves import Curve
 from .quantiles import Values, exceeded, number_above
-from .single.dent import dent_of, fragments, sink, sunk
+from .single.dent import Debris, dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -111,14 +111,7 @@ class Dents(AbstractOutput):
     '8.8e+09 dents, 17 nm deep on average'
     """
 
-    debris: str = choice(
-        "what particles do when pressed",
-        "by_hardness",
-        "hard",
-        "ductile",
-        "brittle",
-        default="by_hardness",
-    )
+    debris: Debris = choice("what particles do when pressed", default="by_hardness")
     fragment: float | None = quantity("x_f", "m", "size of fragments", default=None, gt=0)
     shallowest: float = quantity("δ_0", "m", "depth from which a dent counts", default=0.0, ge=0)
     A_n: float = quantity(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -211,17 +211,17 @@ class Friction(AbstractOutput):
         "α_T", "1", "weight of shear in the yield of a growing contact", default=None, gt=0
     )
     rear: str | float = "recovery"
-    angle: str = choice(
-        "what the angle of a ploughing contact follows from", "depth", "area", default="depth"
+    angle: Literal["depth", "area"] = choice(
+        "what the angle of a ploughing contact follows from", default="depth"
     )
     hardness_ratio: float = quantity(
         "H_1/H_2", "1", "hardness ratio above which asperities plough", default=1.2, ge=1
     )
-    soft_particles: str = choice(
-        "particles softer than a surface", "flatten", "plough", default="flatten"
+    soft_particles: Literal["flatten", "plough"] = choice(
+        "particles softer than a surface", default="flatten"
     )
-    rolling: str = choice(
-        "what decides that a particle rolls", "moment", "severity", default="moment"
+    rolling: Literal["moment", "severity"] = choice(
+        "what decides that a particle rolls", default="moment"
     )
     aspect: float = quantity("D_l/x", "1", "longest axis over size", default=1.0, ge=1)
     offset: float = quantity("e/x", "1", "offset of both contacts over size", default=0.0, ge=0)

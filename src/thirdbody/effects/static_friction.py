@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -144,8 +144,8 @@ class StaticFriction(AbstractOutput):
     0.335
     """
 
-    law: str = choice(
-        "static friction of one contact", "full stick", "kogut-etsion", default="full stick"
+    law: Literal["full stick", "kogut-etsion"] = choice(
+        "static friction of one contact", default="full stick"
     )
 
     name = "static_friction"

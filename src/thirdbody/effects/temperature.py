@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from ..quantities.say import number
 from ..quantities.value import choice, quantity
 from .conductance import about_wide, wide_share
 from .single.heat import (
+    Flux,
+    Kind,
     body_conductance,
     bridge,
     partition,
@@ -151,16 +153,16 @@ class FlashTemperature(AbstractOutput):
     h_2: float | None = quantity(
         "h_2", "W/m^2/K", "conductance of body 2 to its surroundings", default=None, ge=0
     )
-    spots_on: str = choice(
-        "surface on which asperity contacts stay put", "first", "second", "both", default="second"
+    spots_on: Literal["first", "second", "both"] = choice(
+        "surface on which asperity contacts stay put", default="second"
     )
-    kind: str = choice("temperature of a contact", "mean", "max", default="max")
-    flux: str = choice("heat over a contact", "uniform", "hertz", default="uniform")
-    lifetime: str = choice(
-        "heating of contacts that stay put", "steady", "lifetime", default="steady"
+    kind: Kind = choice("temperature of a contact", default="max")
+    flux: Flux = choice("heat over a contact", default="uniform")
+    lifetime: Literal["steady", "lifetime"] = choice(
+        "heating of contacts that stay put", default="steady"
     )
-    quantiles: str = choice(
-        "what quantiles are shares of", "number", "area", "load", default="number"
+    quantiles: Literal["number", "area", "load"] = choice(
+        "what quantiles are shares of", default="number"
     )
 
     name = "flash_temperature"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,7 +18,7 @@ from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Column, StateRecord, column, declared_columns
 from ..version import __version__
-from .modes import EPS_1, EPS_2, MODES, need_shares
+from .modes import EPS_1, EPS_2, MODES, Basis, need_shares
 from .status import WORDS
 
 if TYPE_CHECKING:
@@ -136,7 +136,7 @@ class Equilibrium(_ContactRecord):
 
     @takes_units
     def modes(
-        self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
+        self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: Basis = "area"
     ) -> str | NDArray[np.str_]:
         """Contact mode with other thresholds, by area (as in the paper) or by load.
 
@@ -153,7 +153,7 @@ class Equilibrium(_ContactRecord):
             A threshold outside 0 to 1, another basis.
         """
         need_shares(eps_1=eps_1, eps_2=eps_2)
-        need_one("basis", basis, "area", "load")
+        need_one("basis", basis, *get_args(Basis))
         share = self.particle_area_share if basis == "area" else self.particle_load_share
         return _mode(share, eps_1, eps_2)
 

@@ -9,7 +9,7 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,7 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, Note, tell_of_range
-from ..quantities.arguments import only_one
+from ..quantities.arguments import need_one, only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
@@ -36,6 +36,9 @@ __all__ = ["pull_off", "roots", "solve"]
 Array = NDArray[np.float64]
 
 Index = NDArray[np.intp]
+
+LoadBranch = Literal["loading", "unloading"]
+"""Where several separations carry a load: that of loading, or of unloading."""
 
 
 def given_load(
@@ -84,7 +87,7 @@ def solve(
     pressure: ArrayLike | None = None,
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
-    branch: Literal["loading", "unloading"] = "loading",
+    branch: LoadBranch = "loading",
 ) -> Equilibrium:
     r"""Separation, areas, load shares and mode of a contact under a load.
 
@@ -149,8 +152,7 @@ def solve(
     ('hybrid', 0.78)
     """
     name, values, scalar = given_load(contact, pressure, F_star, d)
-    if branch not in ("loading", "unloading"):
-        raise InvalidValue(f"branch = {branch!r} must be 'loading' or 'unloading'")
+    need_one("branch", branch, *get_args(LoadBranch))
     if branch == "unloading" and any(each.strength is not None for each in contact.populations):
         raise InvalidValue(
             "branch = 'unloading' has no meaning with particles that break (strength): what is "

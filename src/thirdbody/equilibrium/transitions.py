@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Record
 from .load_scan import load_scan
-from .modes import EPS_1, EPS_2, WINDOW, CriticalStatus, need_shares
+from .modes import EPS_1, EPS_2, WINDOW, Basis, CriticalStatus, need_shares
 from .words import happens
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
@@ -120,7 +120,7 @@ def transitions(
     window: tuple[float, float] = WINDOW,
     eps_1: float = EPS_1,
     eps_2: float = EPS_2,
-    basis: Literal["area", "load"] = "area",
+    basis: Basis = "area",
 ) -> Transitions:
     r"""Loads at which the contact changes its mode, and its turning point.
 
@@ -176,7 +176,7 @@ def transitions(
     low, high = (float(load) for load in window)
     if not 0 < low < high:
         raise InvalidValue(f"window = {window!r} must be two loads F* with 0 < first < second")
-    need_one("basis", basis, "area", "load")
+    need_one("basis", basis, *get_args(Basis))
     need_shares(eps_1=eps_1, eps_2=eps_2)
     if contact.two_body:
         none = Critical(value=None, status=CriticalStatus.NONE)

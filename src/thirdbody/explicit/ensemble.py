@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -43,7 +43,7 @@ from ..version import __version__
 from .interface import Map, cap_of, map_of
 from .pooling import COMPARED, RATIOS, SHARES, AtLoads, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
-from .solve import FEW, TOL
+from .solve import FEW, TOL, Cap
 from .sums import one_surface, places
 
 if TYPE_CHECKING:
@@ -179,7 +179,7 @@ def ensemble(
     spacing: float | None = None,
     seats: object = "random",
     seed: int = 0,
-    cap: Literal["hardness", "none"] | float | None = "hardness",
+    cap: Cap | float | None = "hardness",
     tol: float = TOL,
     max_iterations: int = 300,
     workers: int = 1,

@@ -19,7 +19,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, get_args
 
 import numpy as np
 
@@ -57,10 +57,15 @@ __all__ = [
     "Jump",
     "Law",
     "OneParticle",
+    "Seat",
     "SeatedLaw",
     "Squeezed",
 ]
 
+Reduced = Literal["force", "area", "stiffness"]
+"""What a law gives in reduced form."""
+Seat = Literal["rough", "plane", "offset"]
+"""Where particles rest: on the rough surface, on its mean plane, or on a plane above that."""
 SERIES = Advice("particle.Series", 'particle_law.name = "series"')
 FLAKES = Advice("particle.Flakes", 'particle_law.name = "flakes"')
 HERMITE = Advice("Hermite()", '"hermite"')
@@ -214,9 +219,9 @@ class AbstractAsperityLaw(Law):
         """The formulas between the breakpoints, from zero interference upward."""
 
     # ---------------------------------------------------------------- reduced form
-    def reduced(self, quantity: str, y: ArrayLike) -> Array:
+    def reduced(self, quantity: Reduced, y: ArrayLike) -> Array:
         """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero without contact."""
-        need_one("quantity", quantity, "force", "area", "stiffness")
+        need_one("quantity", quantity, *get_args(Reduced))
         y = np.asarray(y, dtype=float)
         out = np.zeros_like(y)
         start = self.start
@@ -538,17 +543,12 @@ class SeatedLaw(AbstractParticleLaw):
         The share of nominal area in which loaded particles keep asperities apart.
     """
 
-    seat: str = choice("where particles rest", "rough", "plane", "offset", default="rough")
+    seat: Seat = choice("where particles rest", default="rough")
     h_0: float = quantity("h_0", "m", "seat height above the mean asperity plane", default=0.0)
     zeta_mean: float = quantity("m_ζ", "1", "mean seat height over σ", default=0.0)
     zeta_std: float = quantity("s_ζ", "1", "width of seat heights over σ", default=1.0, gt=0)
-    shadow: str = choice(
-        "area in which particles keep asperities apart",
-        "footprint",
-        "projected",
-        "covered",
-        "none",
-        default="footprint",
+    shadow: Literal["footprint", "projected", "covered", "none"] = choice(
+        "area in which particles keep asperities apart", default="footprint"
     )
 
     def _problems(self) -> list[str]:

@@ -10,7 +10,7 @@ import math
 import threading
 import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -148,5 +148,7 @@ def _mixed(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return x ^ (x >> np.uint64(31))
 
 
+SweepDesign = Literal["grid", "zip", "latin", "sobol"]
+"""How a sweep puts values of several inputs together."""
 DESIGNS = {"latin": latin, "sobol": sobol}
 """The sampled designs by name."""

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from ..errors import Advice, InvalidValue, Problem
 from ..quantities.value import Value, choice, quantity
@@ -90,9 +90,9 @@ class WeibullStrength(Value):
     )
     x_c: float | None = quantity("x_c", "m", "size below which nothing breaks", default=None, ge=0)
     B: float = quantity("B", "1", "x_c over (K_c/H_a)²", default=96.0, gt=0)
-    fragments: str = choice("what pieces bear", "footprint", "gone", "all", default="footprint")
+    fragments: Literal["footprint", "gone", "all"] = choice("what pieces bear", default="footprint")
     ratio: float = quantity("κ", "1", "size of pieces over parent", default=0.5, gt=0, lt=1)
-    confinement: str = choice("tension inside", "sphere", "none", default="sphere")
+    confinement: Literal["sphere", "none"] = choice("tension inside", default="sphere")
     x_from: float | None = quantity("x_from", "m", "smallest size of the data", default=None,
                                     gt=0, usual=1.0)  # fmt: skip
     x_to: float | None = quantity("x_to", "m", "largest size of the data", default=None,

@@ -8,14 +8,16 @@ the same declaration.
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
+import sys
 import types
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import MISSING, field
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self, get_args
 
 from ..errors import InvalidValue, NotCompiled, Note, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
@@ -74,8 +76,19 @@ def several(unit: str, meaning: str, *, default: Any = MISSING) -> Any:
 
 
 def choice(meaning: str, *options: str, default: str) -> Any:
-    """A dataclass field that holds one of a few words."""
+    """A dataclass field that holds one of a few words: ``options``, or those of its `Literal`."""
     return field(default=default, metadata={"choice": {"meaning": meaning, "options": options}})
+
+
+def _take_options(kind: type) -> None:
+    """Fill in the words of the choices of a class that is being made, from its annotations."""
+    fields = {n: getattr(member, "metadata", {}) for n, member in vars(kind).items()}
+    choices = {n: about["choice"] for n, about in fields.items() if "choice" in about}
+    for name in (n for n, about in choices.items() if not about["options"]):
+        words = inspect.get_annotations(kind)[name]
+        if isinstance(words, str):
+            words = eval(words, vars(sys.modules[kind.__module__]))
+        choices[name]["options"] = get_args(words)
 
 
 def allowed_range(about: dict[str, Any]) -> str:
@@ -243,6 +256,7 @@ class Value:
         super().__init_subclass__(**kwargs)
         if not stand_in:
             Value._classes[cls.__name__] = cls
+            _take_options(cls)
         for name, member in list(vars(cls).items()):
             if not name.startswith("_") and (taker := _taker(member)):
                 setattr(cls, name, taker)

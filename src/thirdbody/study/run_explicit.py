@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -28,7 +28,7 @@ from ..explicit.ensemble import (
     spacing_for,
     surface_of,
 )
-from ..explicit.solve import solve
+from ..explicit.solve import Maps, solve
 from ..explicit.state import COLUMNS, ExplicitState
 from ..quantities.plain_data import plain_data
 from ..quantities.run_files import MARK, claim_folder, read_json
@@ -68,7 +68,7 @@ def run_explicit(
     study: Study,
     *,
     folder: Path | None = None,
-    maps: Literal["last", "all"] = "last",
+    maps: Maps = "last",
     workers: int = 1,
     scheduler: str | None = None,
     progress: bool | Callable[[int], None] = False,
@@ -213,7 +213,7 @@ def _run_measured(
     contact: Contact,
     loads: np.ndarray,
     asked: dict[str, Any],
-    maps: Literal["last", "all"],
+    maps: Maps,
     workers: int,
 ) -> ExplicitResult:
     """One map: the numbers are its own, and the model beside it has its seats."""

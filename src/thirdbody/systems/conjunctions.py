@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -251,7 +251,7 @@ class Oil(Value):
     )
     eyring_stress: float | None = quantity("τ_E", "Pa", "Eyring stress", default=None, gt=0)
     limiting_stress: float | None = quantity("τ_L", "Pa", "limiting stress", default=None, gt=0)
-    viscosity: str = choice("viscosity under pressure", "roelands", "barus", default="roelands")
+    viscosity: Literal["roelands", "barus"] = choice("viscosity under pressure", default="roelands")
 
     def at(self, pressure: Number) -> Number:
         """Viscosity under a pressure [Pa s].

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -40,6 +40,7 @@ __all__ = ["Folder", "in_memory", "run"]
 
 Result = tuple[Arrays, dict[str, Any]]
 
+Format = Literal["zarr", "netcdf"]
 FORMATS = {"zarr": ("zarr",), "netcdf": ("h5netcdf", "h5py")}
 """Formats and the packages they need."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = [
+    "Debris",
     "Dent",
     "dent_diameter",
     "dent_of",
@@ -31,6 +32,9 @@ __all__ = [
     "sink",
     "sunk",
 ]
+
+Debris = Literal["by_hardness", "hard", "ductile", "brittle"]
+"""What particles do when pressed; by default what their hardness says."""
 
 
 # ------------------------------------------------------------------------------ one particle
@@ -200,7 +204,7 @@ class Dent(NamedTuple):
 
 @takes_units
 def sink(
-    particle: Material, *, hardness: float, debris: str = "by_hardness", computed: bool = False
+    particle: Material, *, hardness: float, debris: Debris = "by_hardness", computed: bool = False
 ) -> float:
     """The part of its sink into a surface that stays a dent: what a particle does, decided here.
 
@@ -230,7 +234,7 @@ def sink(
     >>> sink(tb.materials["SiO2"], hardness=steel.H), sink(steel, hardness=steel.H)
     (1.0, nan)
     """
-    need_one("debris", debris, "by_hardness", "hard", "ductile", "brittle")
+    need_one("debris", debris, *get_args(Debris))
     if debris == "hard" or (debris != "ductile" and (computed or particle.H > hardness)):
         return 1.0
     return math.nan
@@ -238,7 +242,7 @@ def sink(
 
 @takes_units
 def sunk(
-    spots: ParticleSpots, *, side: int, particle: Material, debris: str = "by_hardness"
+    spots: ParticleSpots, *, side: int, particle: Material, debris: Debris = "by_hardness"
 ) -> Array:
     """How deep particles sit in surface 1 (side 0) or 2 (side 1) under load (M, n) [m].
 
@@ -295,7 +299,7 @@ def dent_of(
     *,
     side: int,
     particle: Material,
-    debris: str = "by_hardness",
+    debris: Debris = "by_hardness",
     squashed: bool = False,
 ) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from scipy.special import ndtr, ndtri
@@ -217,7 +217,7 @@ class RollOff(Value):
     """
 
     hurst: float = quantity("H", "1", "Hurst exponent", default=HURST, gt=0, le=1)
-    corner: str = choice("corner of the spectrum", "smooth", "sharp", default="smooth")
+    corner: Literal["smooth", "sharp"] = choice("corner of the spectrum", default="smooth")
 
     def spectrum_of(self, alpha: float) -> Spectrum:
         """The spectrum in the units of the theory, ⟨q²⟩ = 2.

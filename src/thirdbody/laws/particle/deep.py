@@ -495,8 +495,8 @@ class DeepSide(Side):
             span = math.log(TABLE_BEGINS / LAW_ENDS)
             u = np.log(np.maximum(eps[low], LAW_ENDS) / LAW_ENDS) / span
             w = u * u * (3 - 2 * u)
-            for values, name in ((load, "force"), (area, "area")):
-                first = thin * self.law.reduced(name, y[low])
+            force, dent = self.law.reduced("force", y[low]), self.law.reduced("area", y[low])
+            for values, first in ((load, thin * force), (area, thin * dent)):
                 table = values[low] / np.where(w > 0, first, 1.0)
                 values[low] = first * np.where(w > 0, table, 1.0) ** w
         over = eps > TABLE_ENDS

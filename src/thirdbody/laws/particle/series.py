@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ...errors import Note, Problem
 from ...populations.shape import Angular
@@ -22,7 +22,10 @@ if TYPE_CHECKING:
     from ...populations.roughness import Roughness
     from ...populations.shape import Shape
 
-__all__ = ["Series"]
+__all__ = ["Deep", "Series"]
+
+Deep = Literal["table", "off"]
+"""Particles beyond small indentations: by the computed table, or as at small ones."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -144,12 +147,14 @@ class Series(SeatedLaw, _OfTips):
     breakable = True
 
     law: AbstractAsperityLaw = field(default_factory=Hermite)
-    soft: str = choice("particles softer than a surface", "squashed", "sphere", default="squashed")
+    soft: Literal["squashed", "sphere"] = choice(
+        "particles softer than a surface", default="squashed"
+    )
     friction_factor: float = quantity(
         "m_f", "1", "shear factor on the faces of squashed particles", default=0.2, le=1
     )
-    onset: str = choice("how squashed particles set in", "hermite", "jg", default="hermite")
-    deep: str = choice("particles beyond small indentations", "table", "off", default="table")
+    onset: Literal["hermite", "jg"] = choice("how squashed particles set in", default="hermite")
+    deep: Deep = choice("particles beyond small indentations", default="table")
 
     @property
     def tip_radius(self) -> float:

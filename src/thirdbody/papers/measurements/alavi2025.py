@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 
 from .row import Band, row_of
 
@@ -14,12 +15,12 @@ DENSITIES = (0.0, 1e9, 1e10, 1e11)
 PRESSURES = (5e6, 100e6)
 SHEARED = (30e6, 100e6, 300e6)
 """Shear strength of asperities and of particles [Pa]."""
-OTHERS = (("off", "zmc"), ("table", "field"), ("off", "field"))
+OTHERS: tuple[tuple[Deep, str], ...] = (("off", "zmc"), ("table", "field"), ("off", "field"))
 """Laws beside those that are the default: of particles, and of asperities."""
 
 
 def friction(
-    density: float, sheared: float = 100e6, laws: tuple[str, str] = ("table", "zmc")
+    density: float, sheared: float = 100e6, laws: tuple[Deep, str] = ("table", "zmc")
 ) -> tuple[float, float]:
     """Coefficient of friction at both of ``PRESSURES`` with so many particles [1/m²].
 

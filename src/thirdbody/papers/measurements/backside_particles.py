@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 from thirdbody.systems.plate_over_particle import PlateOverParticle
 
 from .row import Band, row_of
@@ -15,7 +16,7 @@ PARTICLES = ("SiO2", "Al2O3")
 
 
 def chuck(
-    thickness: float = 725e-6, pressure: float = 1e5, deep: str = "table"
+    thickness: float = 725e-6, pressure: float = 1e5, deep: Deep = "table"
 ) -> PlateOverParticle:
     """A silicon wafer of this thickness [m] under this pressure [Pa] on steel.
 
@@ -44,7 +45,7 @@ def _height() -> Band:
     return Band.of(_heights("table"), f'particles of 1 to 20 µm; deep = "off": {off.text}')
 
 
-def _heights(deep: str) -> list[float]:
+def _heights(deep: Deep) -> list[float]:
     return [
         chuck(t, p, deep).over(x, tb.materials[name]).height / x
         for t in THICKNESSES

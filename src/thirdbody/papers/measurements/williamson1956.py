@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 from thirdbody.systems.contact_probability import ContactProbability
 
 from ..panels import Line, Panel
@@ -26,11 +27,11 @@ LOADS = np.geomspace(0.1, 8, 121)
 """Loads over that of a fully embedded particle."""
 LEVELS = (1e-6, 1e-5, 1e-4)
 """F*."""
-OTHERS = (("off", "zmc"), ("table", "field"))
+OTHERS: tuple[tuple[Deep, str], ...] = (("off", "zmc"), ("table", "field"))
 """Laws beside those that are the default: of particles, and of asperities."""
 
 
-def closing(number: float, spread: float = 1.0, deep: str = "table") -> ContactProbability:
+def closing(number: float, spread: float = 1.0, deep: Deep = "table") -> ContactProbability:
     """Dust of which so many particles are in the way on average.
 
     Parameters
@@ -66,7 +67,7 @@ def closing(number: float, spread: float = 1.0, deep: str = "table") -> ContactP
 
 
 @cache
-def _curve(number: float, spread: float, deep: str = "table") -> Array:
+def _curve(number: float, spread: float, deep: Deep = "table") -> Array:
     found = closing(number, spread, deep)
     out: Array = found.probability(LOADS * found.threshold)
     return out
@@ -81,7 +82,7 @@ def _sharpest() -> Band:
     )
 
 
-def _sharpest_areas(deep: str) -> list[float]:
+def _sharpest_areas(deep: Deep) -> list[float]:
     found = []
     for spread in SPREADS:
         for number in NUMBERS:
@@ -93,7 +94,7 @@ def _sharpest_areas(deep: str) -> list[float]:
     return found
 
 
-def share(level: float, ratio: Array, laws: tuple[str, str] = ("table", "zmc")) -> Array:
+def share(level: float, ratio: Array, laws: tuple[Deep, str] = ("table", "zmc")) -> Array:
     """Share of the load on hard particles at F* = ``level`` over x/σ.
 
     ``laws``: ``deep`` of the particles, and the law of the asperities.
@@ -127,7 +128,7 @@ def _roughness() -> Band:
     return Band.of(_steepest(("table", "zmc")), "; ".join(["F* of 1e-6 to 1e-4", *others]))
 
 
-def _steepest(laws: tuple[str, str]) -> list[float]:
+def _steepest(laws: tuple[Deep, str]) -> list[float]:
     ratio = np.geomspace(0.3, 6.0, 61)
     found = []
     for level in LEVELS:
