@@ -71,11 +71,12 @@ class Objective(Value):
     @property
     def label(self) -> str:
         """What results call it."""
-        how: list[str] = [
-            self.aim if self.aim == "window" else "worst" if self.over_loads == "worst" else ""
-        ]
-        how.append("" if self.over_scatter in ("mean", "nominal") else self.over_scatter)
-        return ":".join([self.of, *filter(None, how)])
+        how = [self.of]
+        if self.aim == "window" or self.over_loads == "worst":
+            how.append("window" if self.aim == "window" else "worst")
+        if self.over_scatter not in ("mean", "nominal"):
+            how.append(self.over_scatter)
+        return ":".join(how)
 
     def cost(self, metric: Array, weights: Array) -> Array:
         """What is to be small: (P,) for metrics (P, S, J), sample 0 nominal."""

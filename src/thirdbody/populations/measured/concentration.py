@@ -35,12 +35,14 @@ class Concentration(NamedTuple):
     """Which of them: "number", "mass", "volume" or "mass per volume"."""
 
 
-_KINDS = {
-    "mass": r"(?:wt|mass|m|w)[ .-]?%|%[ ]?(?:wt|w/w|by (?:mass|weight)|mass)",
-    "volume": r"(?:vol|v)[ .-]?%|%[ ]?(?:vol|v/v|by volume|volume)",
-    "mass ppm": r"ppm(?:[ ]?(?:wt|w|m|mass|by mass))?|mg/kg",
-    "volume ppm": r"ppm[ ]?(?:vol|v|by volume)|ppmv",
-}
+_PARTS: tuple[tuple[Amount, float, str], ...] = (
+    ("mass", 100, r"(?:wt|mass|m|w)[ .-]?%|%[ ]?(?:wt|w/w|by (?:mass|weight)|mass)"),
+    ("volume", 100, r"(?:vol|v)[ .-]?%|%[ ]?(?:vol|v/v|by volume|volume)"),
+    ("mass", 1e6, r"ppm(?:[ ]?(?:wt|w|m|mass|by mass))?|mg/kg"),
+    ("volume", 1e6, r"ppm[ ]?(?:vol|v|by volume)|ppmv"),
+)
+"""Parts of a whole: of what, how many make the whole, and how their unit is written."""
+_DENSITIES: tuple[tuple[Amount, str], ...] = (("number", "1/m^3"), ("mass per volume", "kg/m^3"))
 _SAID = '"0.1 wt%", "0.02 vol%", "50 ppm" (by mass), "10 mg/L" or "1e6 / mL"'
 
 
@@ -92,13 +94,12 @@ def _read(text: str) -> tuple[float, Amount]:
         cause = "" if number is None else " has no unit:"
         raise InvalidValue(f"{say(text)}{cause} must be a concentration, {_SAID}")
     amount, unit = float(number[1]), number[2]
-    for kind, pattern in _KINDS.items():
+    for kind, whole, pattern in _PARTS:
         if re.fullmatch(pattern, unit, re.IGNORECASE):
-            name, _, ppm = kind.partition(" ")
-            return amount / (1e6 if ppm else 100), name
+            return amount / whole, kind
     if unit == "%":
         raise InvalidValue(f'{say(text)} is of mass or of volume? write "wt%" or "vol%"')
-    for kind, si in (("number", "1/m^3"), ("mass per volume", "kg/m^3")):
+    for kind, si in _DENSITIES:
         try:
             return to_si(text, si), kind
         except InvalidValue:
