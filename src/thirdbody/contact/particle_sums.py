@@ -64,7 +64,7 @@ def _over_sizes_and_seats(
         if particles.strength is None:
             average = size_average(one, shape)
         else:
-            breakage = Breakage.of(particles.strength, particles.material, scale)
+            breakage = Breakage.of_material(particles.strength, particles.material, scale)
             average = broken_average(one, shape, breakage)
         if law.seat == "rough":
             average = seat_average(average, law.zeta_std * roughness.sigma / scale)

@@ -319,6 +319,6 @@ def _broken(
         approach = np.broadcast_to(spots.depths[0] + spots.depths[1], beyond.shape)[beyond]
         squeeze = approach / np.broadcast_to(spots.x, beyond.shape)[beyond]
         found = np.zeros(beyond.shape)
-        found[beyond] = tension(one, material.nu, strength.confinement).met(squeeze)
+        found[beyond] = tension(one, material.nu, strength.confinement).greatest_so_far(squeeze)
         beyond &= found > most
     return beyond

@@ -171,4 +171,4 @@ def _x_star(contact: Contact) -> float:
     assert each.strength is not None
     one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
     scale = each.strength.x_0
-    return scale * crush_embed_size(one, Breakage.of(each.strength, each.material, scale))
+    return scale * crush_embed_size(one, Breakage.of_material(each.strength, each.material, scale))

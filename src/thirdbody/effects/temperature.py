@@ -55,7 +55,7 @@ class Body(NamedTuple):
     """Diffusivity [m²/s]"""
 
     @staticmethod
-    def of(material: Material) -> Body:
+    def of_material(material: Material) -> Body:
         k, density, heat = material.thermal_conductivity, material.density, material.specific_heat
         assert k is not None
         assert density is not None
@@ -228,7 +228,7 @@ class FlashTemperature(AbstractOutput):
         speeds = {"first": (0.0, self.v), "second": (self.v, 0.0), "both": (self.v / 2,) * 2}
         G = []
         for material, speed in zip((pair.first, pair.second), speeds[self.spots_on], strict=True):
-            body = Body.of(material)
+            body = Body.of_material(material)
             takes = self._takes(body, b, speed)
             if speed == 0 and self.v > 0 and self.lifetime == "lifetime":
                 # Fo = D (2b/v)/b²
@@ -259,7 +259,7 @@ class FlashTemperature(AbstractOutput):
             for i, (material, a) in enumerate(
                 zip((pair.first, pair.second), (a_1, a_2), strict=True)
             ):
-                body = Body.of(material)
+                body = Body.of_material(material)
                 slow, half, fast = (self._takes(body, a, part * self.v) for part in (0, 0.5, 1))
                 G.append(np.where(rolls, half, np.where(side == i, fast, slow)))
                 heat.append(np.where(rolls, 0.5, side == i) * Q)
@@ -301,11 +301,11 @@ class FlashTemperature(AbstractOutput):
             )
             with np.errstate(invalid="ignore", divide="ignore"):
                 out[f"dT_{group}_{name}"] = above / total[name]
-        counted = _Counted.of(spots, T, WEIGHTS[self.quantiles], states)
+        counted = _Counted.from_spots(spots, T, WEIGHTS[self.quantiles], states)
         for name, share in QUANTILES.items():
             out[f"dT_{group}_{name}"] = counted.inverse((1 - share) * total[self.quantiles])
         if self.quantiles != "number":
-            counted = _Counted.of(spots, T, WEIGHTS["number"], states)
+            counted = _Counted.from_spots(spots, T, WEIGHTS["number"], states)
         out[f"dT_{group}_peak"] = counted.inverse(np.full(states, math.log(2) / self.A_n))
         return out
 
@@ -385,7 +385,9 @@ class _Counted(NamedTuple):
     above: Array
 
     @staticmethod
-    def of(spots: Any, T: list[Array], weight: Callable[[Any], Array], states: int) -> _Counted:
+    def from_spots(
+        spots: Any, T: list[Array], weight: Callable[[Any], Array], states: int
+    ) -> _Counted:
         parts = [t[each.load > 0] for each, t in zip(spots, T, strict=True)]
         known = np.concatenate([*parts, np.zeros(0)])
         if not len(known):

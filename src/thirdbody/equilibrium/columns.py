@@ -205,7 +205,7 @@ def quantity_of(contact: Contact, name: str) -> dict[str, Any] | None:
     """Symbol, unit and range of an input by its dotted name."""
     path, _, last = name.rpartition(".")
     try:
-        owner = contact.part(path)
+        owner = contact.value_at(path)
     except InvalidValue:
         return None
     if not is_dataclass(owner):

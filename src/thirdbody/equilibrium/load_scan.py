@@ -235,11 +235,11 @@ class LoadScan:
 
     def solve(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
         """Separation, number of evaluations and status of every load."""
-        d, iterations, status = self.met(target, branch)
+        d, iterations, status = self.solve_across_jumps(target, branch)
         d[~status.solved] = np.nan
         return d, iterations, status
 
-    def met(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
+    def solve_across_jumps(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
         """As `solve`; where the load jumps over a load, the separation at which it does."""
         d = np.full(len(target), np.nan)
         iterations = np.zeros(len(target), dtype=int)

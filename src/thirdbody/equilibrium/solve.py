@@ -214,7 +214,7 @@ def _result(
         if scalar and deep.any():
             raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
         separation = np.where(deep, np.nan, values)
-        status = Statuses.of(np.where(deep, Status.TOO_DEEP, Status.OK))
+        status = Statuses.from_codes(np.where(deep, Status.TOO_DEEP, Status.OK))
         iterations, path = np.where(deep, 0, 1), "numpy: the separations are given"
     else:
         try:

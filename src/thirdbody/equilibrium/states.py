@@ -192,7 +192,7 @@ def unknown_inputs(
             yield Problem(place, "says nothing of a contact without particles")
             continue
         try:
-            contact.part(name)
+            contact.value_at(name)
         except InvalidValue:
             paths = known or list(paths_of(contact))
             above = name.rpartition(".")[0]

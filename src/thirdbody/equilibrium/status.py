@@ -101,7 +101,7 @@ class Statuses:
     words: NDArray[Any]
 
     @staticmethod
-    def of(codes: ArrayLike) -> Statuses:
+    def from_codes(codes: ArrayLike) -> Statuses:
         """With the sentences that every state of a code shares."""
         own = np.array(codes, dtype=np.int8, ndmin=1)
         return Statuses(own, SENTENCES[own])
@@ -109,7 +109,7 @@ class Statuses:
     @staticmethod
     def ok(count: int) -> Statuses:
         """All of them ok."""
-        return Statuses.of(np.zeros(count, np.int8))
+        return Statuses.from_codes(np.zeros(count, np.int8))
 
     def set(self, which: Any, status: Status, sentence: str = "") -> None:
         """Give states another status, and the sentence of their own if they have one."""

@@ -197,7 +197,7 @@ def transitions(
 
     def states(loads: Array) -> tuple[Array, Array, Array]:
         """Shares of area and load of the particles, and A_t: where the load jumps, below it."""
-        d, _, _ = scan.met(loads * contact.E_ss, "loading")
+        d, _, _ = scan.solve_across_jumps(loads * contact.E_ss, "loading")
         raw = bound.fields(d)
         F = raw["F_ss"] + raw["F_sa"]
         return raw["A_sa"] / raw["A_t"], raw["F_sa"] / F, raw["A_t"]

@@ -123,8 +123,8 @@ class Ensemble:
             "surfaces": self.surfaces,
             "left_out": self.left_out,
             "seats": self.seats._asdict(),
-            "table": _plain(self.table),
-            "at_h": _plain(self.at_h),
+            "table": _columns_as_lists(self.table),
+            "at_h": _columns_as_lists(self.at_h),
             "summary": self.sentence,
             "warnings": list(self.warnings),
         }
@@ -429,7 +429,7 @@ def _ensemble(
 ) -> Ensemble:
     import xarray
 
-    pool = Pool.of(records, grid)
+    pool = Pool.from_records(records, grid)
     seats = pooled_seats([each["zeta"] for each in records])
     model = counterpart(contact, seats)
     state = statistical(model, F_star=loads)
@@ -559,7 +559,7 @@ def _file(folder: Path, i: int) -> Path:
 
 
 # -------------------------------------------------------------------------- what is told
-def _plain(data: xarray.Dataset) -> dict[str, list[float | None]]:
+def _columns_as_lists(data: xarray.Dataset) -> dict[str, list[float | None]]:
     return {str(name): plain_data(data[name].values) for name in (*data.coords, *data.data_vars)}
 
 

@@ -114,7 +114,7 @@ class Pool:
     expected: dict[str, Array]
 
     @classmethod
-    def of(cls, records: list[dict[str, Any]], h: Array) -> Pool:
+    def from_records(cls, records: list[dict[str, Any]], h: Array) -> Pool:
         """Of what `one_surface` tells of each."""
         return cls(
             h=h,

@@ -306,7 +306,7 @@ class _Programme:
         self.own = self.top = np.empty(0)
         if len(bodies):
             self.own = self.placed.own_displacement(self.space.green(), self.space.lattice)
-            self.top = self.placed.at(self.z) + bodies.lift + bodies.diameter
+            self.top = self.placed.at_particles(self.z) + bodies.lift + bodies.diameter
 
     def first(self, start: tuple[Array, Array] | None) -> _Iterate:
         """A guess, or the start that is given, with the load wanted."""
@@ -357,7 +357,7 @@ class _Programme:
 
     def _beneath(self, u: Array, phi: Array) -> Array:
         """Displacement under each particle, without the dent that its law counts already [m]."""
-        return self.placed.at(u) - self.own * phi if len(self.bodies) else phi
+        return self.placed.at_particles(u) - self.own * phi if len(self.bodies) else phi
 
     def squeeze(self, x: _Iterate) -> Array:
         """δ of each particle under its force [m]."""

@@ -31,7 +31,7 @@ class Span:
     high: float
     scale: str = "linear"
 
-    def at(self, u: Array) -> Array:
+    def values_at(self, u: Array) -> Array:
         """Values at u in [0, 1)."""
         if self.scale == "log":
             return self.low * (self.high / self.low) ** u

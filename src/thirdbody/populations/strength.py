@@ -177,7 +177,7 @@ class WeibullStrength(Value):
         return 3 / self.m if self.size_exponent is None else self.size_exponent
 
     @property
-    def kept(self) -> float:
+    def bearing_share(self) -> float:
         """χ, part of the volume of a broken particle whose pieces bear [1]."""
         kept = KEPT[self.fragments]
         return self.ratio if kept is None else kept

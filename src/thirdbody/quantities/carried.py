@@ -424,7 +424,7 @@ def _unit_of_input(contact: Any, name: str) -> str | None:
     if not path:
         return USUAL.get(last)
     try:
-        owner = getattr(contact, "contact", contact).part(path)
+        owner = getattr(contact, "contact", contact).value_at(path)
     except (AttributeError, InvalidValue):
         return None
     item = getattr(type(owner), "__dataclass_fields__", {}).get(last)

@@ -342,7 +342,7 @@ class Value:
         return out
 
     @names_arguments
-    def part(self, path: str) -> Any:
+    def value_at(self, path: str) -> Any:
         """What a dotted name stands for: a field, or an item of a tuple by place or name."""
         where: Any = self
         for step in filter(None, path.split(".")):

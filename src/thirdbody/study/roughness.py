@@ -38,7 +38,7 @@ def _roughness(reader: Reader, path: str, data: Any) -> Any:
     if isinstance(data, dict) and "topography" in data:
         return _topography(reader, path, data)
     if is_drawn(data):
-        return _drawn(reader, path, data)
+        return _read_drawing(reader, path, data)
     keys = dict(keys_of(Roughness))
     about = keys["sigma"].about
     keys["sigma"] = keys["sigma"]._replace(about=f'{about}, or Ra = "0.2 um" of the drawing')
@@ -74,7 +74,7 @@ def is_drawn(data: Any) -> bool:
     return isinstance(data, dict) and not data.keys().isdisjoint({*STATED, *SIDES, "process"})
 
 
-def _drawn(reader: Reader, path: str, data: dict[str, Any]) -> Any:
+def _read_drawing(reader: Reader, path: str, data: dict[str, Any]) -> Any:
     """A height for the pair or one for each face, the process, and what is known better."""
     keys = {name: key._replace(required=False) for name, key in keys_of(Roughness).items()}
     keys |= _height_keys() | dict.fromkeys(SIDES, FACE)

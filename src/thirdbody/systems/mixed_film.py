@@ -346,7 +346,7 @@ def mixed_film(
         "A_ss": state.A_ss,
         "A_sa": state.A_sa,
         **_traction(oil, state, slide_roll, u, h_T, p * film_share, p, (ss, sa)),
-        "viscosity": oil.at(p * film_share),
+        "viscosity": oil.at_pressure(p * film_share),
         "regime": _regimes(ss + sa, few, most),
         "residual": np.abs(film_share + (ss + sa) - 1),
         "status": np.asarray(state.status, dtype=str),

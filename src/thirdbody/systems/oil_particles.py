@@ -326,7 +326,7 @@ class FilmParticles(Value):
             gap, top = self.film / scale, shape.support[1]
             if gap >= top:
                 continue
-            breakage = Breakage.of(self.strength, self.material, scale)
+            breakage = Breakage.of_material(self.strength, self.material, scale)
             average = broken_average(self._particle(), shape, breakage)
             found = average.pieces(
                 np.array([[gap]]), np.array([[top - gap]]), eps,

@@ -103,7 +103,7 @@ def _choices(
     for name, allowed in vary.items():
         try:
             if _is_materials(allowed):
-                if not isinstance(contact.part(name), Material):
+                if not isinstance(contact.value_at(name), Material):
                     raise InvalidValue(f"vary[{name!r}] lists materials, but {name} is not one")
                 materials[name] = list(allowed)
             else:

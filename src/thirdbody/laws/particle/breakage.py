@@ -53,14 +53,14 @@ class Breakage:
     nu: float
 
     @classmethod
-    def of(cls, strength: WeibullStrength, material: Material, scale: float) -> Self:
+    def of_material(cls, strength: WeibullStrength, material: Material, scale: float) -> Self:
         """Of particles of a material, in units of ``scale`` [m]."""
         return cls(
             sigma=float(strength.of_size(scale)),
             m=strength.m,
             b=strength.b,
             x_c=strength.least(material) / scale,
-            kept=strength.kept,
+            kept=strength.bearing_share,
             ratio=strength.ratio,
             confinement=strength.confinement,
             nu=material.nu,

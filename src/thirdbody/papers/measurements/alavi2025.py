@@ -57,13 +57,15 @@ def _change() -> Band:
         density: [heavy / light for light, heavy in (friction(density, tau) for tau in SHEARED)]
         for density in DENSITIES
     }
-    words = ", ".join(f"{density:g} per m²: {Band.of(one).text}" for density, one in ratios.items())
+    words = ", ".join(
+        f"{density:g} per m²: {Band.from_values(one).text}" for density, one in ratios.items()
+    )
     others = []
     for laws in OTHERS:
         found = [friction(density, tau, laws) for density in DENSITIES for tau in SHEARED]
-        one = Band.of([heavy / light for light, heavy in found])
+        one = Band.from_values([heavy / light for light, heavy in found])
         others.append(f'deep = "{laws[0]}" with {laws[1]}: {one.text}')
-    return Band.of(list(ratios.values()), "; ".join([words, *others]))
+    return Band.from_values(list(ratios.values()), "; ".join([words, *others]))
 
 
 ROW = row_of("alavi2025", {"falls": _change})

@@ -37,12 +37,14 @@ def chuck(
 
 
 def _width() -> Band:
-    return Band.of([2 * chuck(t, p).bump(100e-9).radius for t in THICKNESSES for p in PRESSURES])
+    return Band.from_values(
+        [2 * chuck(t, p).bump(100e-9).radius for t in THICKNESSES for p in PRESSURES]
+    )
 
 
 def _height() -> Band:
-    off = Band.of(_heights("off"))
-    return Band.of(_heights("table"), f'particles of 1 to 20 µm; deep = "off": {off.text}')
+    off = Band.from_values(_heights("off"))
+    return Band.from_values(_heights("table"), f'particles of 1 to 20 µm; deep = "off": {off.text}')
 
 
 def _heights(deep: Deep) -> list[float]:

@@ -51,7 +51,7 @@ def pressure(depth: float, deep: Deep) -> tuple[float, ...]:
 
 def _rise(deep: Deep) -> Band:
     pairs = zip(pressure(0.95, deep), pressure(0.4, deep), strict=True)
-    return Band.of([deeper / shallow for deeper, shallow in pairs])
+    return Band.from_values([deeper / shallow for deeper, shallow in pairs])
 
 
 def _band() -> Band:
@@ -60,8 +60,8 @@ def _band() -> Band:
 
 
 def _most() -> Band:
-    off = Band.of(pressure(0.95, "off"))
-    return Band.of(pressure(0.95, "table"), f'deep = "off": {off.text}')
+    off = Band.from_values(pressure(0.95, "off"))
+    return Band.from_values(pressure(0.95, "table"), f'deep = "off": {off.text}')
 
 
 ROW = row_of("bishop1945", {"rises": _band, "limit": _most})

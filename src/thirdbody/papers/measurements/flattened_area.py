@@ -50,8 +50,8 @@ def over_truncation(squash: float, deep: Deep) -> tuple[float, ...]:
 
 
 def _band(squash: float) -> Band:
-    off = Band.of(over_truncation(squash, "off"))
-    return Band.of(over_truncation(squash, "table"), f'deep = "off": {off.text}')
+    off = Band.from_values(over_truncation(squash, "off"))
+    return Band.from_values(over_truncation(squash, "table"), f'deep = "off": {off.text}')
 
 
 ROW = row_of("flattened_area", {f"area-{squash:g}": partial(_band, squash) for squash in SQUASHED})

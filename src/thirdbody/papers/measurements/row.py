@@ -42,7 +42,7 @@ class Band:
 
     Examples
     --------
-    >>> Band.of([0.9, 0.95, 1.0]).text
+    >>> Band.from_values([0.9, 0.95, 1.0]).text
     '0.95 (0.9 … 1)'
     """
 
@@ -52,7 +52,7 @@ class Band:
     note: str = ""
 
     @classmethod
-    def of(cls, values: object, note: str = "") -> Band:
+    def from_values(cls, values: object, note: str = "") -> Band:
         """From predictions over the corners of the inputs; the middle one is the number."""
         import numpy as np
 

@@ -75,8 +75,8 @@ def _curve(number: float, spread: float, deep: Deep = "table") -> Array:
 
 def _sharpest() -> Band:
     """Area W/H over πx²/4 where the probability changes most with ln W."""
-    off = Band.of(_sharpest_areas("off"))
-    return Band.of(
+    off = Band.from_values(_sharpest_areas("off"))
+    return Band.from_values(
         _sharpest_areas("table"),
         'N of 0.25 to 3, equal sizes to a geometric deviation of 1.2; deep = "off": ' + off.text,
     )
@@ -123,9 +123,10 @@ def share(level: float, ratio: Array, laws: tuple[Deep, str] = ("table", "zmc"))
 def _roughness() -> Band:
     """σ/x at which the particles' share falls most with ln σ."""
     others = [
-        f'deep = "{laws[0]}" with {laws[1]}: {Band.of(_steepest(laws)).text}' for laws in OTHERS
+        f'deep = "{laws[0]}" with {laws[1]}: {Band.from_values(_steepest(laws)).text}'
+        for laws in OTHERS
     ]
-    return Band.of(_steepest(("table", "zmc")), "; ".join(["F* of 1e-6 to 1e-4", *others]))
+    return Band.from_values(_steepest(("table", "zmc")), "; ".join(["F* of 1e-6 to 1e-4", *others]))
 
 
 def _steepest(laws: tuple[Deep, str]) -> list[float]:
@@ -161,7 +162,9 @@ ROW = row_of(
     {
         "threshold": _sharpest,
         "roughness": _roughness,
-        "manner": lambda: Band.of([-np.log(closing(N).probability(0.0)) / N for N in NUMBERS]),
+        "manner": lambda: Band.from_values(
+            [-np.log(closing(N).probability(0.0)) / N for N in NUMBERS]
+        ),
     },
     panels=(_panel,),
 )

@@ -195,7 +195,7 @@ def _ends() -> tuple[tuple[str, Any, str], ...]:
 def _ends_of_input(data: Propagation, label: str) -> list[str]:
     """The 5th and the 95th percentile of an input in words."""
     unit = _unit_of(data, label)
-    return [value_of(data.inputs[label].at(p), unit) for p in (0.05, 0.95)]
+    return [value_of(data.inputs[label].quantile(p), unit) for p in (0.05, 0.95)]
 
 
 def _bar(
