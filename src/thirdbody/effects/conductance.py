@@ -447,8 +447,8 @@ class ElectricalConductance(AbstractOutput):
     '21.8 µΩ on 1 mm²'
     """
 
-    particles: str = choice(
-        "what particles do", "insulate", "conduct", BY_MATERIAL, default="insulate"
+    particles: Literal["insulate", "conduct", "by material"] = choice(
+        "what particles do", default="insulate"
     )
     film: float = quantity("σ_f", "ohm*m^2", "resistance of a film", default=0.0, ge=0)
     mean_free_path: float = quantity("l", "m", "mean free path", default=0.0, ge=0)

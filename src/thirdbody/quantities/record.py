@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field, fields
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
-__all__ = ["Column", "Record", "StateRecord", "column", "declared_columns"]
+__all__ = ["Column", "MappedRecord", "Record", "StateRecord", "column", "declared_columns"]
 
 MOST_SHOWN = 6
 """States that a notebook shows; of more the first and the last."""
@@ -70,6 +71,23 @@ class Record:
         names = (item.name for item in fields(self))  # type: ignore[arg-type]
         kept = (name for name in names if name not in self.not_in_dict)
         return {name: plain_data(getattr(self, name)) for name in kept}
+
+
+class MappedRecord(Record, Mapping[str, Any]):
+    """A record that is read by attribute, and indexed as its plain data."""
+
+    @cached_property
+    def _data(self) -> dict[str, Any]:
+        return self.to_dict()
+
+    def __getitem__(self, key: str) -> Any:
+        return self._data[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
 
 
 class StateRecord(Record):

@@ -241,7 +241,8 @@ class Oil(Value):
     Examples
     --------
     >>> oil = Oil(eta=0.04, alpha=2e-8, eyring_stress=5e6)
-    >>> float(oil.at_pressure(0.0)), bool(oil.at_pressure(1e9) < oil.replace(viscosity="barus").at_pressure(1e9))
+    >>> barus = oil.replace(viscosity="barus")
+    >>> float(oil.at_pressure(0.0)), bool(oil.at_pressure(1e9) < barus.at_pressure(1e9))
     (0.04, True)
     """
 
