@@ -20,7 +20,7 @@ from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import varied
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import Stages, counted, solving
 from ..quantities.say import percent, value_of
@@ -321,7 +321,7 @@ def _own_state(contact: Contact, load: str, value: float) -> _Own | NoEquilibriu
             state = solve(contact, **as_load(load, value))
         except NoEquilibrium as error:
             return error
-    told = dict.fromkeys(str(item.message) for item in heard)
+    told = dict.fromkeys(note_of(item.message) for item in heard)
     notes = [f"Warning: {text}." for text in told]
     return _Own(str(state.mode), notes + about_fragments(contact, as_load(load, value)))
 

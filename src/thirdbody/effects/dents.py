@@ -465,12 +465,13 @@ class Dents(AbstractOutput):
             told = f"are not harder than {where} and are flattened there"
             if self.debris == "ductile":
                 told = "flatten, as debris = 'ductile' says"
+            name = each.name or each.material.name or "particles"
             what = (
-                f"outputs.dents: {each.name or each.material.name or 'particles'} {told}: "
+                f"outputs.dents: {name} {told}: "
                 "their marks are counted, with the widths "
                 "of their footprints; depth and volume are not known (NaN)"
             )
-            out.append(Note(what, effect=math.inf))
+            out.append(Note(what, code=f"{self.name}.flat.{name}", effect=math.inf))
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:

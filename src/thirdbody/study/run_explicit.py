@@ -17,7 +17,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, RangeWarning, tell_of_range
+from ..errors import InvalidValue, RangeWarning, note_of, tell_of_range
 from ..explicit.blocks import BLOCKS
 from ..explicit.ensemble import (
     COMPARED,
@@ -136,7 +136,7 @@ def run_explicit(
     for each in heard:
         if each not in about:  # about the folder, not the answer
             tell_of_range(each.message, each.category)
-    sentences = [*notes, *made.data.pop("warnings"), *(str(each.message) for each in about)]
+    sentences = [*notes, *made.data.pop("warnings"), *(note_of(each.message) for each in about)]
     data = {
         "title": study.title,
         "version": __version__,

@@ -29,7 +29,7 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, tell_of_range
+from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, note_of, tell_of_range
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
 from ..quantities.record import StateRecord, column, declared_columns
@@ -438,7 +438,9 @@ def _solve_heard(contact: Contact, d: float | Array) -> tuple[Equilibrium, list[
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, d=d)
-    return state, [str(each.message) for each in heard if issubclass(each.category, RangeWarning)]
+    return state, [
+        note_of(each.message) for each in heard if issubclass(each.category, RangeWarning)
+    ]
 
 
 def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, bool]:

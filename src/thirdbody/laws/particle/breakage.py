@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
 
+from ...errors import Note
 from ...quantities.say import span, value_of
 from .tension import Tension, tension
 
@@ -114,25 +115,28 @@ def about_strength(particles: Grains, surfaces: MaterialPair) -> list[str]:
     out = []
     name = getattr(particles, "name", "") or material.name or "the particles"
     if strength.x_c is None and material.K_c is None:
-        out.append(
+        what = (
             f"the strength of {name}: without x_c, and without K_c of the material, x_c is 0 and "
             "the smallest pieces break as the large ones do"
         )
+        out.append(Note(what, code=f"strength.smallest.{name}"))
     low, high = particles.diameter.support
     low = max(low, strength.least(material), 1e-3 * high)
     p, q = strength.tested
     if high >= low and (low < p or high > q):
         tested = value_of(p, "m", 3) if p == q else span(p, q, "m")
         factor = max((p / low) ** strength.b, (high / q) ** strength.b)
-        out.append(
+        what = (
             f"the strength of {name}: x from {span(low, high, 'm')} lies outside the sizes "
             f"of the strength data ({tested}): strengths are extrapolated by a factor "
             f"{factor:.2g}"
         )
+        out.append(Note(what, code=f"strength.sizes.{name}"))
     softer = material.H < max(surfaces.first.H, surfaces.second.H)
     if softer and material.K_c is not None:
-        out.append(
+        what = (
             f"{name}: the particle is softer than a surface: it is squashed there; strength is "
             "used all the same"
         )
+        out.append(Note(what, code=f"strength.soft.{name}"))
     return out
