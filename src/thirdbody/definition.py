@@ -157,7 +157,7 @@ def particles(contact: Any, some: Particles, d: float) -> Array:
 
 
 class Side(Tip):
-    """A particle of size 1 on one surface: its contact ends at its great circle, or ``full``."""
+    """Contact of a particle of size 1 with one surface; the end is the great circle or ``full``."""
 
     def __init__(
         self,
@@ -221,7 +221,7 @@ class Faced(Side):
 
 
 def half_of(law: Any, E_star: float, surface: Material, particle: Material, shape: Shape) -> Side:
-    """What a particle does on one surface: squashed where it is round and the softer of the two."""
+    """Contact on one surface: squashed if the particle is round and the softer body."""
     softer = min(surface, particle, key=lambda each: each.H)
     body = E_star, softer.H, softer.nu
     if isinstance(shape, Angular):
@@ -239,7 +239,7 @@ def half_of(law: Any, E_star: float, surface: Material, particle: Material, shap
 
 
 class Squashed(Side):
-    r"""Half of a particle of size 1 that keeps its volume, on a surface that is harder.
+    r"""Half of a soft particle of size 1 that keeps its volume on a harder surface.
 
     .. math:: A = \frac{\min(A_L, \pi/6)}{1-2\delta}, \qquad p = p_L\left\{1 -
         \tfrac{0.92}{2.84}[1-\cos\pi q] + \tfrac{2m}{3\sqrt3\cdot2.84}\tfrac{a}{1-2\delta}\right\}
@@ -636,7 +636,7 @@ def integral(f: Callable[..., Array], *edges: Sequence[float]) -> Array:
 
 
 def at_distinct(f: Formula) -> Formula:
-    """f of one variable, asked once for the coordinate that rows of points of a box share."""
+    """Values of f at the distinct coordinates only, for rows of points that share them."""
     values: dict[bytes, Array] = {}
 
     def values_at(v: Array) -> Array:

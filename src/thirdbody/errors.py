@@ -32,7 +32,7 @@ class ThirdBodyError(Exception):
 
 
 class Advice(str):
-    """Words of Python, and what is said in their place to who writes a study file.
+    """Advice in words of Python, with the same advice for the reader of a study file.
 
     Sentences put together with ``+`` keep both.
 
@@ -146,7 +146,7 @@ class Problem(str):
 
 
 class Note(str):
-    """What an answer leaves open: its sentence, its effect on the answer, and what to do.
+    """A doubt about an answer: its sentence, its effect on the answer, and what to do.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ NUMBERS = re.compile(r"\d+(\.\d+)?(?= %)|\d+\.\d+(e[+-]\d+)?|\d+e[+-]\d+")
 
 
 def code_of(note: str) -> str:
-    """What a note is about; of a sentence that does not say, the sentence without its numbers.
+    """Code of a note; for a plain sentence, the sentence without its numbers.
 
     >>> code_of(Note("A_t reaches 0.3", code="area")), code_of("12 % of the load")
     ('area', ' % of the load')
@@ -250,7 +250,7 @@ class NoTransition(ThirdBodyError, RuntimeError):
 
 
 class WrongKind(InvalidValue):
-    """Arguments that are not what a signature says; an outer function may know them better."""
+    """Error for arguments that a signature refuses; an outer function may know better names."""
 
 
 class NotCompiled(Exception):
@@ -284,7 +284,7 @@ def tell_of_range(message: str | Warning, kind: type[Warning] = RangeWarning) ->
 
 
 def _is_inside(frame: FrameType) -> bool:
-    """Whether code is this library's, or what Python writes for its classes."""
+    """Whether a frame runs code of this library, or code generated for its dataclasses."""
     code = frame.f_code
     of_dataclass = code.co_filename == "<string>" and code.co_name == "__init__"
     return of_dataclass or code.co_filename.startswith(_HERE) or _DATACLASSES in code.co_filename

@@ -162,7 +162,7 @@ class Seat:
         return columns, moments
 
     def shares(self, h: Array, u: Array, nodes: Array) -> Array:
-        """How many particles lie in each of these gaps over σ, increasing: (N, M).
+        """Number of particles in each of these gaps over σ, which increase: (N, M).
 
         Those between two gaps count to both, by their distances: sums over what is linear in
         between are exact.
@@ -261,7 +261,7 @@ class Ground:
         return found
 
     def _solved(self) -> tuple[Array, Array]:
-        """All separations at once; those not found so from the ones above, one by one."""
+        """Solve all separations at once; those that fail, one by one from the ones above."""
         count = len(self.h)
         u, w, kept = (np.zeros((count, more)) for more in (MOMENTS + 1, 1, MOMENTS + 2))
         rest = self._iterated(np.arange(count), u, w, kept)
@@ -362,7 +362,7 @@ class GroundedPart(Part):
 
     @cached_property
     def _spline(self) -> tuple[BSpline, float]:
-        """ln of the load and the other columns over it, and where they end."""
+        """Splines of ln load and of the other columns over the load, with their ends."""
         h = self.ground.h
         values, _ = self.seat.sums(h, self.ground.u)
         some = values[:, 0] > TINY

@@ -124,7 +124,7 @@ class FieldSpots(AsperitySpots):
 
     @classmethod
     def scaled_from(cls, spots: AsperitySpots, count: Array, size: Array) -> Self:
-        """Those spots, so many times as many and so many times as large: (N,) each."""
+        """Field spots from asperity spots, their number and size multiplied by (N,) factors."""
         share = spots.share
         number = spots.number.T if share is None else share * spots.number[:, 0]
         if share is None:

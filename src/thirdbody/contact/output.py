@@ -71,23 +71,23 @@ class AbstractOutput(Law):
         return ()
 
     def problems(self, contact: Any) -> list[str]:
-        """Why this contact cannot have this output, one sentence each."""
+        """Reasons why this contact cannot have this output, one sentence each."""
         return []
 
     def one_by_one(self, contact: Any) -> bool:
-        """Whether it asks what single asperities do, which a law of the whole surface cannot say.
+        """Whether the output needs single asperities, which a law of the whole surface has not.
 
         Such a law answers with summits scaled to its load and area, and says so.
         """
         return True
 
     def warnings(self, state: Any, values: Mapping[str, Array]) -> list[str]:
-        """Where these states leave the range of the output, one sentence each."""
+        """Notes on states outside the range of the output, one sentence each."""
         return []
 
 
 def missing(output: AbstractOutput, bodies: Mapping[str, Material], *names: str) -> list[str]:
-    """One sentence for each property of a body that an output needs and that is not known."""
+    """Problems of an output: a sentence for each body property that it needs and lacks."""
     return [
         f"outputs.{output.name} needs {name} of {label}"
         + (f" ({body.name})" if body.name else "")

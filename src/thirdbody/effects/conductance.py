@@ -129,7 +129,7 @@ def _conducting(state: Solved, particles: str) -> Array:
 
 
 def _conducts(particles: str, dust: Particles | None) -> bool:
-    """Whether these particles conduct; by material do those whose resistivity is known."""
+    """Whether these particles conduct; "by material" asks for a known resistivity."""
     if particles == BY_MATERIAL and dust is not None:
         return dust.material.resistivity is not None
     return particles == "conduct"
@@ -163,7 +163,7 @@ def _closing(
 
 
 def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> list[str]:
-    """Where the area holds so few particles that contacts with and without them differ."""
+    """Notes on areas with so few particles that contacts with and without them differ."""
     say = f"outputs.{output.name}: A_n = {number(output.A_n)} m²"
     out: list[str] = []
     unknown = found.concerned & np.isnan(found.values[closed])
@@ -192,7 +192,7 @@ def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> l
 def _about_open(
     output: _Conductance, state: Solved, numbers: str, which: Any = slice(None)
 ) -> list[str]:
-    """Where fewer than one contact conducts, in the states that are asked about."""
+    """Notes on states in which fewer than one contact conducts."""
     n = _conducting(state, output.particles)[which]
     if not len(n):
         return []
@@ -224,7 +224,7 @@ def _about_open(
 
 
 def about_wide(name: str, share: float) -> Note:
-    """What is known of the resistance of particles that touch on more than half their radius."""
+    """Note on particles that touch on more than half their radius: how sure their resistance is."""
     what = (
         f"outputs.{name}: particles with {percent(share, digits=2)} of the particle load touch on "
         "more than half their radius, where their resistance is overestimated by 7 % and more"

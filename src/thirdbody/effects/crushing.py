@@ -28,7 +28,7 @@ __all__ = ["Crushing"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Crushing(AbstractOutput):
-    r"""Which particles have broken, and what bears after it.
+    r"""Share of particles that have broken, and what bears the load after that.
 
     .. math:: \text{broken} = \frac{\int_g\varphi_a(1-P_s)\,dx}{\int_g\varphi_a\,dx}, \qquad
               x^* = x_0\left(\frac{\hat\sigma_{max}}{\sigma_0}\right)^{-1/b}

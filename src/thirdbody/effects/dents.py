@@ -270,7 +270,7 @@ class Dents(AbstractOutput):
     def _values(
         self, spots: ParticleSpots, values: Array, name: str, side: int, contact: Contact
     ) -> Values:
-        """One group of dents, those of whole particles with what one of them leaves."""
+        """Values of one group of dents; of whole particles, with those of one particle."""
         population = spots.population
         assert population is not None
         if spots.layout is None:
@@ -285,7 +285,7 @@ class Dents(AbstractOutput):
         return Values(spots, values, curve=curve, least=least)
 
     def _groups(self, state: Solved) -> list[ParticleSpots]:
-        """The particles that leave dents, or what they break into."""
+        """Groups that leave dents: whole particles, or their fragments."""
         if self.debris != "brittle":
             return list(state.particles)
         return [self._broken(spots, state.contact) for spots in state.particles]
@@ -440,7 +440,7 @@ class Dents(AbstractOutput):
         return [Note(what, code=code, effect=effect, action="a larger A_n has more")]
 
     def _about_unknown(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        """Particles that are flattened, whose depth is not known."""
+        """Notes on flattened particles, whose dents have no known depth."""
         out: list[str] = []
         pair = (state.contact.surfaces.first, state.contact.surfaces.second)
         for each in state.contact.populations:
@@ -518,7 +518,7 @@ def _squashed(
 def _widest(
     law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material, side: int
 ) -> float:
-    """Largest mark of a flattened particle over its size; infinite where its law bounds it."""
+    """Largest mark of a flattened particle over its size; infinite where the law bounds it."""
     if _squashed(law, surfaces, particle)[side]:
         return math.inf
     friction = (law if isinstance(law, Series) else Series()).friction_factor

@@ -46,7 +46,7 @@ TIE = 1e-12
 
 
 class Motion(NamedTuple):
-    """How particles move, and what that costs each of them: arrays (M, n).
+    """Motion of particles and its cost for each: arrays (M, n).
 
     A particle takes the cheapest of three motions; see `Friction`.
 
@@ -346,7 +346,7 @@ class Friction(AbstractOutput):
         return np.maximum(1.0, np.divide(load, reached, out=np.ones_like(load), where=reached > 0))
 
     def _support(self, depth: Array, yielding: Any) -> Any:
-        """κ of a contact; ``yielding`` is its depth at first yield [m]."""
+        """Support κ of a contact; ``yielding`` is its depth at first yield [m]."""
         if self.rear == "recovery":
             return rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
         return 0.0 if self.rear == "rigid" else self.rear

@@ -107,7 +107,7 @@ def full_stick(load_over_critical: ArrayLike) -> Array:
 
 
 def _first_yield(spots: AsperitySpots) -> float:
-    """ω_1 of the asperities [m]."""
+    """Interference of first yield ω_1 of the asperities [m]."""
     law = spots.law.bound(R=spots.R, E_star=spots.E_star, H=spots.H)
     return float(law.yield_interference(R=spots.R, E_star=spots.E_star, H=spots.H))
 

@@ -207,7 +207,7 @@ class FlashTemperature(AbstractOutput):
 
     # ------------------------------------------------------------------ one contact
     def _takes(self, body: Body, b: Array, speed: float) -> Array:
-        """G of one body [W/K] for contacts of radius b that move over it."""
+        """Heat conductance G of one body [W/K] under moving contacts of radius b."""
         return body_conductance(  # type: ignore[return-value]
             b, k=body.k, D=body.D, v=speed, kind=self.kind, flux=self.flux
         )
@@ -363,7 +363,7 @@ def _pressing(spots: Any) -> Array:
 
 
 def _area(spots: Any) -> Array:
-    """Of a particle: the smaller end, which is the hotter one of equal bodies."""
+    """Smaller contact area of a particle, the hotter one between equal bodies."""
     return spots.area if hasattr(spots, "area") else np.minimum(*spots.areas)
 
 

@@ -115,12 +115,12 @@ class Equilibrium(_ContactRecord):
         return {"E_ss": self.contact.E_ss, "sigma": self.contact.roughness.sigma}
 
     def attributes(self) -> dict[str, str]:
-        """What a data set says of all its states."""
+        """Attributes of a data set that hold for all its states."""
         said = {"engine": self.engine, "warnings": "\n".join(self.warnings)}
         return said | provenance(self.contact)
 
     def more_variables(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """What each of several populations carries, along the dimension ``population`` too."""
+        """Variables of several populations, along the dimension ``population`` too."""
         parts, dims = self.populations, ("state", "population")
         if not parts:
             return {}, {}
@@ -160,7 +160,7 @@ class Equilibrium(_ContactRecord):
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class PopulationShare(_ContactRecord):
-    """What one of several populations of particles carries: floats for one load, else arrays.
+    """Load and area on one of several populations of particles: floats for one load, else arrays.
 
     Part of `Equilibrium.populations`; the shares of all populations add up to
     ``particle_load_share`` and ``particle_area_share``.
@@ -222,7 +222,7 @@ def labels_of(contact: Contact, name: str) -> dict[str, Any]:
 
 
 def provenance(contact: Contact) -> dict[str, str]:
-    """What a data set says of where its states come from."""
+    """Attributes of a data set that say where its states come from."""
     return {
         "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
         "version": __version__,
@@ -236,7 +236,7 @@ def dataset(
     inputs: Mapping[str, NDArray[Any]],
     attrs: Mapping[str, str],
 ) -> xarray.Dataset:
-    """States (N,) as labelled data; ``inputs``, which they were given, are coordinates."""
+    """States (N,) as labelled data, with their ``inputs`` as coordinates."""
     import xarray
 
     data = {

@@ -256,7 +256,7 @@ def _crossings(
     column: NDArray[np.intp],
     level: Array,
 ) -> Array:
-    """F* of contacts ``which`` at which a share has its level between nodes ``cell`` and the next.
+    """Loads F* of contacts ``which`` at which a share passes its level in the interval ``cell``.
 
     From the root of a cubic spline through what the share misses its level by at all nodes, by
     Chandrupatla's method, all side by side; the load by a parabola through the last three points.
@@ -338,5 +338,5 @@ def _peak(
 
 
 def carrying(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:
-    """The contact without outputs, and of what varies that which decides how it carries load."""
+    """The contact without outputs, and the varied inputs that affect how it carries load."""
     return contact.replace(outputs=()), {name: v for name, v in vary.items() if carries(name)}

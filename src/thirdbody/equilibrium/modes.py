@@ -25,7 +25,7 @@ FAINT = 1e-12
 
 
 class CriticalStatus(StrEnum):
-    """What became of a critical load; each member is the text that results and JSON hold.
+    """Status of a critical load; each member is the text that results and JSON hold.
 
     Examples
     --------

@@ -47,13 +47,13 @@ def given_load(
     F_star: ArrayLike | None,
     d: ArrayLike | None,
 ) -> tuple[str, Array, bool]:
-    """Which quantity is given, its values (F in Pa or d in m), and whether it was one number."""
+    """Name of the given load, its values (F in Pa or d in m), and whether it was one number."""
     name, flat, one = given_numbers(pressure=pressure, F_star=F_star, d=d)
     return name, flat * contact.E_ss if name == "F_star" else flat, one
 
 
 def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
-    """The one quantity that is given, its values, and whether it was one number.
+    """Name of the one given quantity, its values, and whether it was one number.
 
     Loads must be > 0; separations, d and h, may be any number.
     """
@@ -169,7 +169,7 @@ def solve(
 
 
 def solve_untold(contact: Contact, load: str, loads: Array) -> Equilibrium:
-    """As `solve` at loads (N,), without a look at whether the model is valid there."""
+    """Solve at loads (N,) without the notes on the model's validity."""
     name, values, _ = given_load(
         contact, **{"pressure": None, "F_star": None, "d": None, load: loads}
     )
@@ -459,7 +459,7 @@ def _state(
 def _only_carried(
     bound: Interface, d: Array, status: Statuses, target: Array | None, raw: dict[str, Array]
 ) -> tuple[Array, Statuses, dict[str, Array]]:
-    """The states without those whose load is not carried: no state is "ok" whose balance is not.
+    """Columns with NaN where the load is not carried: no state is "ok" without a balance.
 
     One whose contacts would have grown together keeps its numbers, and is not "ok".
     """
@@ -500,7 +500,7 @@ def _population_shares(
     scalar: bool,
     outputs: Sequence[dict[str, Array]],
 ) -> tuple[PopulationShare, ...]:
-    """What each of several populations carries at separations d."""
+    """Load and area of each of several populations at separations d."""
     if len(bound.populations) < 2:
         return ()
     out = []
@@ -547,7 +547,7 @@ def _branches(bound: Interface, target: Array | None, d: Array, branch: str) -> 
 def _warnings(
     contact: Contact, bound: Interface, full: dict[str, Array], d: Array
 ) -> tuple[str, ...]:
-    """One sentence for each way in which these states leave the model's validity."""
+    """Notes on states outside the model's validity, one sentence each."""
     out: list[str] = [*about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))]
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
     if not bound.one_field and np.any(height < DEEPEST):

@@ -100,7 +100,7 @@ class Transitions(Record):
     F_tpca: TurningPoint
 
     def entries(self) -> dict[str, Critical]:
-        """Every critical load by its name, those of the turning point as ``F_tpca.A``."""
+        """Critical loads by name, those of the turning point as ``F_tpca.A``."""
         turning = {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
         return {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2} | turning
 

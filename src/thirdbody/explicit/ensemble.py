@@ -331,7 +331,7 @@ def _tell(sentence: str) -> None:
 def _surfaces_and_count(
     surfaces: int | Sequence[Topography],
 ) -> tuple[Sequence[Topography] | None, int]:
-    """The surfaces that are given, None for synthetic ones, and how many there are."""
+    """Surfaces as given (None for synthetic ones) and their number."""
     if isinstance(surfaces, int):
         if isinstance(surfaces, bool) or not 1 <= surfaces <= 10**6:
             raise InvalidValue(
@@ -345,7 +345,7 @@ def _surfaces_and_count(
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class _Task:
-    """The work on one surface: make it, press it; anywhere, any number of times."""
+    """Task for one surface: make it and press it; it can run anywhere, any number of times."""
 
     contact: Contact
     surface: Topography | None
@@ -369,7 +369,7 @@ class _Task:
         return map_of(own, None)
 
     def __call__(self) -> dict[str, Any]:
-        """What `one_surface` says of it."""
+        """Record of one surface, as `one_surface` makes it."""
         need_version(self.version, "ensemble")
         return one_surface(
             self.contact, self.map(), self.rule, self.grid, self.seed, cap=self.cap,

@@ -61,7 +61,7 @@ class AtLoads:
         return np.isnan(self.values["h"])
 
     def doubts(self, loads: Array, *, columns: str = "") -> list[str]:
-        """Where shares are not known, since too little was drawn: what is known, and what to do.
+        """Notes on shares that too small a sample leaves open, with their bounds and what to do.
 
         ``columns`` says whose separations these are, where other columns have others.
         """
@@ -115,7 +115,7 @@ class Pool:
 
     @classmethod
     def from_records(cls, records: list[dict[str, Any]], h: Array) -> Pool:
-        """Of what `one_surface` tells of each."""
+        """Pool of the records that `one_surface` makes."""
         return cls(
             h=h,
             nominal=np.array([each["nominal"] for each in records]),

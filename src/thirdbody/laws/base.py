@@ -102,7 +102,7 @@ class Branch(NamedTuple):
 
 
 class Jump(NamedTuple):
-    """What the published formulas step by at a breakpoint: upper over lower branch, less one [1].
+    """Steps of the published formulas at a breakpoint: upper over lower branch, less one [1].
 
     Examples
     --------
@@ -192,7 +192,7 @@ class AbstractAsperityLaw(Law):
     def problems(
         self, roughness: Roughness, particle_laws: Sequence[AbstractParticleLaw]
     ) -> list[str]:
-        """Why this law does not know such a surface, or such particles on it, one sentence each."""
+        """Reasons why this law does not know such a surface, or such particles on it."""
         return []
 
     def bound(self, *, R: Number, E_star: Number, H: Number, nu: float | None = None) -> Self:
@@ -467,7 +467,7 @@ class AbstractParticleLaw(Law):
         """One particle of unit size of this material between these surfaces."""
 
     def of_shape(self, shape: Shape) -> AbstractParticleLaw:
-        """This law for particles of a shape; those of a `Sphere` are what it is written for."""
+        """This law for particles of a shape; most laws are written for a `Sphere`."""
         if isinstance(shape, Sphere):
             return self
         raise InvalidValue(
@@ -508,13 +508,13 @@ class AbstractParticleLaw(Law):
         }
 
     def probe(self, eps: Array, *, surfaces: MaterialPair, particle: Material) -> ParticleSpots:
-        """Particles of unit size squeezed by ε, one a row (N, 1): what one particle does."""
+        """Spots of particles of unit size squeezed by ε, one a row (N, 1)."""
         each = np.ones((len(eps), 1))
         one = self.one(surfaces=surfaces, particle=particle)
         return one.spots(each, eps[:, None], share=None, number=each)
 
     def jammed(self, coverage: float) -> str:
-        """What to say of particles that would cover this part of the area, 1 or more."""
+        """Note on particles that would cover this part of the area, 1 or more."""
         return (
             f"particles of the law {self.name} would cover {coverage:.3g} of the nominal area and "
             "it must stay below 1"
@@ -523,13 +523,13 @@ class AbstractParticleLaw(Law):
     def warnings(
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> list[str]:
-        """Where this interface leaves the law's range, one sentence each."""
+        """Notes on interfaces outside the law's range, one sentence each."""
         return []
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeatedLaw(AbstractParticleLaw):
-    """A law whose particles rest somewhere: what one particle does, and the options of its seat.
+    """Base of laws whose particles rest on a seat: the response of one particle, and seat options.
 
     Parameters
     ----------

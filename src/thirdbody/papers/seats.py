@@ -63,7 +63,7 @@ def explicit_particles() -> dict[str, Any]:
 
 @cache
 def comparison() -> list[dict[str, Any]]:
-    """What ``thirdbody reproduce explicit`` gave: every state as its columns.
+    """States of the shipped comparison of seats, as columns.
 
     Returns
     -------

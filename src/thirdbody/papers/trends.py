@@ -213,7 +213,7 @@ def recovery(reading: Reading, ratio: float) -> Measurement:
 def factor_without_loss(
     reading: Reading, of: str, pressure: float, low: float, high: float
 ) -> Measurement:
-    """Factor on one input at which the area with particles reaches that without."""
+    """Factor on one input at which the area with particles equals that without."""
 
     def is_lower(factor: float) -> bool:
         return bool(reading.trend(pressure, **{of: factor}).ratio[0] < 1 - 1e-9)

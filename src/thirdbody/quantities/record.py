@@ -119,7 +119,7 @@ class StateRecord(Record):
         return plain_data(self.columns())
 
     def attributes(self) -> dict[str, str]:
-        """What a data set says of all its states."""
+        """Attributes of a data set that hold for all its states."""
         return {"warnings": "\n".join(self.warnings)}
 
     def more_variables(self) -> tuple[dict[str, object], dict[str, object]]:

@@ -185,7 +185,7 @@ _told: ContextVar[bool] = ContextVar("_told", default=False)
 
 @contextmanager
 def slips_are_told() -> Iterator[None]:
-    """No warning of numbers that look like a slip: who reads them tells of them himself."""
+    """Context without warnings of unit slips; the caller reports them."""
     token = _told.set(True)
     try:
         yield
@@ -225,7 +225,7 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
 def _declarations(
     kind: type,
 ) -> tuple[tuple[str, dict[str, Any] | None, dict[str, Any] | None], ...]:
-    """Every field of a class, with what is declared of it as a quantity or a choice."""
+    """Fields of a class, each with its declared quantity or choice."""
     return tuple(
         (item.name, item.metadata.get("quantity"), item.metadata.get("choice"))
         for item in dataclasses.fields(kind)
@@ -356,7 +356,7 @@ class Value:
 
     @names_arguments
     def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
-        """A stand-in that holds an array (N,) in some of its quantities, one value a state.
+        """A copy that holds an array (N,) in some of its quantities, one value a state.
 
         Properties that are plain formulas then give arrays. It is no value: it has no hash and
         equals itself alone, so that no cache takes it. Values are checked against the range
@@ -532,7 +532,7 @@ def sequences(value: Value, *names: str) -> None:
 
 
 def _rows(value: Value) -> Iterator[Row]:
-    """Fields of a value, those of the values in it below a heading each."""
+    """Rows of the fields of a value, with a heading for each value inside."""
     from .notebook import Row, words_of
 
     inner: list[tuple[str, Value]] = []
@@ -557,7 +557,7 @@ def _rows(value: Value) -> Iterator[Row]:
 
 @cache
 def _stand_in(kind: type[Value]) -> type[Any]:
-    """The class of stand-ins of a class: all of it but its equality and its hash."""
+    """A subclass whose fields may hold arrays, without equality or hash: no cache takes it."""
     body = {"__slots__": (), "__eq__": object.__eq__, "__hash__": None}
     name = f"{kind.__name__}OfArrays"
     return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))

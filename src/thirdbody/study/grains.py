@@ -64,7 +64,7 @@ def _of_material(reader: Reader, path: str, value: Any) -> dict[str, Any]:
 
 
 def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[str, Any]:
-    """A strength of one's own, or what is said of that of the material."""
+    """A strength with its numbers, or changes to that of the material."""
     given = data if isinstance(data, dict) else {}
     keys = dict(keys_of(WeibullStrength))
     keys["at"] = keys["x_0"]._replace(required=False)

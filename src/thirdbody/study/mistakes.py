@@ -23,7 +23,7 @@ class Missing(NamedTuple):
 
 
 class Unknown(NamedTuple):
-    """A key that no table, or another one, holds."""
+    """A key that is not known in its table."""
 
     path: str
     key: str
@@ -61,7 +61,7 @@ class Known:
         return Problem(_join(path, key), "is missing" + (f": {about}" if about else ""))
 
     def unknown(self, path: str, key: str, value: Any) -> tuple[Problem, str | None]:
-        """A key that is not known, and the key that was probably meant."""
+        """Problem of an unknown key, and the key that was probably meant."""
         known = self.keys.get(path, {})
         place, shown = _join(path, key), say(value)
         if why := self.refused.get(path, {}).get(key):
@@ -105,7 +105,7 @@ def clash(path: str, data: Mapping[str, Any], keys: Sequence[str], rule: str) ->
 
 
 def in_file(error: InvalidValue, kind: type, path: str, values: Mapping[str, Any]) -> InvalidValue:
-    """Mistakes of a value class at the keys of its table, with the value where it is not said."""
+    """Problems of a value class at the keys of its table, each with its value."""
     out = []
     for each in error.problems:
         value, entry = each.value, values.get(each.path)

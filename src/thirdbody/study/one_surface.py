@@ -53,7 +53,7 @@ class OneSurface:
 
 
 def one_surface(study: Study, F_star: Any, *, points: int = POINTS) -> OneSurface:
-    """Press one small surface of a study: a window of the map it measured, or a synthetic one.
+    """Press one small surface of a study: a window of its measured map, or a synthetic one.
 
     Parameters
     ----------

@@ -140,7 +140,7 @@ class Table:
 
 
 def rivals(path: str, key: str) -> tuple[str, ...]:
-    """The other keys of a table that cannot stand beside this one."""
+    """Keys of a table that cannot stand beside this one."""
     for name, keys in ONE_OF.items():
         if name.partition(".")[0] == path and key in keys:
             return tuple(other for other in keys if other != key)
@@ -148,7 +148,7 @@ def rivals(path: str, key: str) -> tuple[str, ...]:
 
 
 class Reader:
-    """What reads the tables of one file, and keeps what is wrong with them.
+    """Reader of the tables of one file, which collects all mistakes.
 
     Parameters
     ----------
@@ -182,7 +182,7 @@ class Reader:
         keys: Mapping[str, Key],
         build: Callable[[dict[str, Any]], Any] = dict,
     ) -> Any:
-        """What is built from the values of a table with these keys and no others.
+        """Object built from a table with these keys and no others.
 
         Its mistakes are kept, and an empty `InvalidValue` says that there are some.
         """
@@ -308,7 +308,7 @@ def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
 def variants(
     tag: str, kinds: Mapping[str, type], about: str = "", *, required: bool = False
 ) -> Key:
-    """The key of a table that stands for one of several classes, which a word in it names."""
+    """Key of a table for one of several classes, chosen by a word in it."""
 
     def read(reader: Reader, path: str, data: Any) -> Any:
         return reader.variant(path, data, tag, kinds)
@@ -318,7 +318,7 @@ def variants(
 
 # -------------------------------------------------------------------------- keys of one value
 class Notes(Protocol):
-    """Who keeps what is to be said of a file."""
+    """Protocol of objects that collect notes on a file."""
 
     notes: list[str]
 
@@ -469,7 +469,7 @@ def refused(why: str) -> Key:
 
 
 def _read_word_or_number(reader: Reader, path: str, value: Any) -> str | float:
-    """A word or a pure number; which ones, the object it is for knows."""
+    """A word or a pure number; the object checks which words it takes."""
     if isinstance(value, str) or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
     raise wrong(path, "must be a word in quotes or a number", value)

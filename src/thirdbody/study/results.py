@@ -37,7 +37,7 @@ Columns = dict[str, list[Any]]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Result(MappedRecord):
-    """A study and what was found; indexed, it is the plain data of `to_dict`."""
+    """A study and its results; indexed, it is the plain data of `to_dict`."""
 
     study: Study
     run_warnings: tuple[str, ...]
@@ -45,12 +45,12 @@ class _Result(MappedRecord):
 
     @property
     def title(self) -> str:
-        """Of the study, where it has none "Study"."""
+        """Title of the study, "Study" if it has none."""
         return self.study.title or "Study"
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What reading and computing the study warn of, one sentence each."""
+        """Notes of reading and of solving the study, one sentence each."""
         return tuple(dict.fromkeys((*self.study.notes, *self.run_warnings)))
 
     @property
@@ -134,7 +134,7 @@ class StudyResult(_Result):
         return math.inf if held is None else float(held)
 
     def body_sentence(self) -> str:
-        """What holds of the bodies themselves, where it is not what the states say; else empty.
+        """Sentence on the bodies where it differs from that of the states, else "".
 
         States are of a surface under one pressure, which shares its load among all its particles.
         """
@@ -198,7 +198,7 @@ class StudyResult(_Result):
 
 @dataclass(frozen=True, eq=False)
 class Passing(Record):
-    """Of one population the share, by number, that is narrower than the separation."""
+    """Share by number of one population that is narrower than the separation."""
 
     name: str
     share: np.ndarray

@@ -75,7 +75,7 @@ def is_drawn(data: Any) -> bool:
 
 
 def _read_drawing(reader: Reader, path: str, data: dict[str, Any]) -> Any:
-    """A height for the pair or one for each face, the process, and what is known better."""
+    """Heights of the pair or of each face, the process, and numbers that replace its ranges."""
     keys = {name: key._replace(required=False) for name, key in keys_of(Roughness).items()}
     keys |= _height_keys() | dict.fromkeys(SIDES, FACE)
     before = len(reader.mistakes)
@@ -117,7 +117,7 @@ def _refuse(values: dict[str, Any]) -> None:
 
 
 def _problems_of_drawing(path: str, data: dict[str, Any]) -> list[Problem]:
-    """What is wrong with the heights that a drawing gives together."""
+    """Problems of the heights of a drawing taken together."""
     pair = [key for key in ("sigma", *STATED) if key in data]
     sides = [key for key in SIDES if key in data]
     if pair and sides:

@@ -53,7 +53,7 @@ def load_connector(path: str | os.PathLike[str], overrides: Iterable[str] = ()) 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConnectorResult(AskedResult):
-    """What `run_connector` finds; indexed, it is the plain data of `to_dict`.
+    """Results of `run_connector`; indexed, they are the plain data of `to_dict`.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ def run_connector(asked: AskedConnector) -> ConnectorResult:
 
 
 def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
-    """What the answer hangs on, each varied alone."""
+    """Effect of each uncertain input, varied alone."""
 
     def failures(*plugs: Connector) -> tuple[float, ...]:
         return tuple(each.failure_of_all(force) for each in plugs)

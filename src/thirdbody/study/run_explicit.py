@@ -196,7 +196,7 @@ def claim_results(out: str | os.PathLike[str], study: Study, *, maps: str = "las
 
 
 def _unmarked_study(folder: Path) -> dict[str, Any] | None:
-    """The study whose results lie in a folder, as these say it."""
+    """Study whose results lie in a folder without a mark, as read from these."""
     found = read_json(folder / "explicit.json")
     if found is not None and {"version", "inputs", "table"} <= set(found):
         told = {name: found.get(name) for name in ("version", "inputs", "surfaces")}
@@ -216,7 +216,7 @@ def _run_measured(
     maps: Maps,
     workers: int,
 ) -> ExplicitResult:
-    """One map: the numbers are its own, and the model beside it has its seats."""
+    """Results of one measured map, beside the model with the seats of this map."""
     (face,) = study.faces
     how: dict[str, Any] = {"maps": maps, "workers": workers, "blocks": BLOCKS}
     state = solve(contact, face, F_star=loads, **how, **asked)

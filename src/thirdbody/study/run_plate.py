@@ -53,7 +53,7 @@ def load_plate(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> A
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PlateResult(AskedResult):
-    """What `run_plate` finds; indexed, it is the plain data of `to_dict`.
+    """Results of `run_plate`; indexed, they are the plain data of `to_dict`.
 
     Attributes
     ----------
@@ -88,12 +88,12 @@ class PlateResult(AskedResult):
         return {"plate": self.asked.chuck.to_dict()}
 
     def numbers(self) -> dict[str, Any]:
-        """How many bumps are too high, and which particles make them so."""
+        """Number of bumps above the limit, and the particles that lift the plate to it."""
         return {"bumps": self.bumps, "none": self.none, "lifting": list(self.lifting)}
 
 
 def run_plate(asked: AskedPlate) -> PlateResult:
-    """How high a plate stands over particles of its study, and how often above its limit.
+    """Heights of a plate over particles of its study, and how often they exceed the limit.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def run_plate(asked: AskedPlate) -> PlateResult:
 
 
 def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> tuple[WhatIf, ...]:
-    """What the number of bumps, or else the height, hangs on, each varied alone."""
+    """Effect of each input on the number of bumps, or else on the height, varied alone."""
 
     def heights(*chucks: Chuck, sizes: tuple[float, ...] = (1.0,)) -> tuple[float, ...]:
         if counted:

@@ -19,7 +19,7 @@ HARDNESS = 1.2
 
 @dataclass(frozen=True, kw_only=True)
 class WhatIf(Record):
-    """What the answer would be if one input were otherwise."""
+    """Answer if one input were otherwise."""
 
     what: str
     """What is uncertain, in words."""
@@ -50,7 +50,7 @@ class WhatIf(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class AskedResult(MappedRecord):
-    """What a study found; indexed, it is the plain data of `to_dict`.
+    """Results of a study without a solved contact; indexed, the plain data of `to_dict`.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class AskedResult(MappedRecord):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What reading and computing warn of, one sentence each."""
+        """Notes of reading and of computing, one sentence each."""
         return tuple(dict.fromkeys((*self.asked.notes, *self.run_warnings)))
 
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:

@@ -24,7 +24,7 @@ def _diameter(meaning: str, **options: Any) -> Any:
 
 
 class Body(Value, ABC):
-    """One of the pairs of bodies that a study can name under [body]; `BODIES` lists them."""
+    """Base of the pairs of bodies of a table [body]; `BODIES` lists them."""
 
     __slots__ = ()
     bodies: float

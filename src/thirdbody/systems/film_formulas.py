@@ -131,7 +131,7 @@ class AbstractFilm(Law):
         """
 
     def warnings(self, regimes: Any, ratio: float) -> list[str]:
-        """Where films of these regimes leave the range of the formula, one sentence each."""
+        """Notes on films outside the range of the formula, one sentence each."""
         out: list[str] = []
         for name, (low, high) in self.limits.items():
             if not low <= ratio <= high:

@@ -44,7 +44,7 @@ STEEL_E_STAR = 2.07e11 / 2 / (1 - 0.3**2)
 
 
 class RadialBearing(Body):
-    """What ball and roller bearings have in common: how they share a radial load and turn."""
+    """Base of ball and roller bearings: shared radial load and rotation."""
 
     __slots__ = ()
     bore: float
@@ -85,7 +85,7 @@ class RadialBearing(Body):
 
     @property
     def pitch_diameter(self) -> float:
-        """Of the circle of the rolling bodies d_m [m]."""
+        """Diameter of the circle of the rolling bodies d_m [m]."""
         return 0.5 * (self.bore + self.outer_diameter)
 
     @property
@@ -137,12 +137,12 @@ class RadialBearing(Body):
         return self.bodies * self.shaft_speed / (4 * math.pi) * (1 + sign * self.gamma)
 
     def swept_area(self, share: RadialShare, ring: Ring, E_star: float) -> float:
-        """Track that all together roll over while each goes by one length of rolling [m²/m]."""
+        """Area that all rolling bodies sweep while each rolls by unit length [m²/m]."""
         loads: NDArray[np.float64] = share.loads[share.loads > 0]
         return float(np.sum(self.widths(loads, ring, E_star)))
 
     def track_area(self, share: RadialShare, ring: Ring, E_star: float) -> float:
-        """Of the track below the most loaded rolling body, all around the ring [m²]."""
+        """Area of the track below the most loaded rolling body, all around the ring [m²]."""
         sign = -1 if ring == "inner" else 1
         around = math.pi * self.pitch_diameter * (1 + sign * self.gamma)
         return float(self.widths(share.largest, ring, E_star) * around)
@@ -229,7 +229,7 @@ class BallBearing(RadialBearing):
 
     @property
     def rolling_diameter(self) -> float:  # type: ignore[override]
-        """Of a ball D_w [m]."""
+        """Diameter of a ball D_w [m]."""
         return self.ball_diameter
 
     def on_ring(self, ring: Ring) -> Point:
@@ -352,7 +352,7 @@ class RollerBearing(RadialBearing):
 
     @property
     def rolling_diameter(self) -> float:  # type: ignore[override]
-        """Of a roller D_w [m]."""
+        """Diameter of a roller D_w [m]."""
         return self.roller_diameter
 
     def on_ring(self, ring: Ring) -> Line:
@@ -563,7 +563,7 @@ class BallScrew(Body):
 
     @property
     def lead_angle(self) -> float:
-        """Of the circle of balls φ [rad]."""
+        """Lead angle of the circle of balls φ [rad]."""
         return math.atan(self.lead / (math.pi * self.pitch_diameter))
 
     @property
@@ -754,7 +754,7 @@ class Gear(Body):
 
     @property
     def pitch_diameters(self) -> tuple[float, float]:
-        """Of pinion and wheel, d_1 and d_2 [m]."""
+        """Diameters of pinion and wheel, d_1 and d_2 [m]."""
         size = self.module / math.cos(self.helix_angle)
         return size * self.pinion_teeth, size * self.wheel_teeth
 

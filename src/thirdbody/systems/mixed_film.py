@@ -534,7 +534,7 @@ def _root(excess: Callable[[Array], Array], count: int, speed: Array) -> Array:
 
 
 def _ranges(bodies: Lubricated, u: Array, ratio: Array) -> list[str]:
-    """Where the model is extrapolated, one sentence each; the ratio is that of film and σ."""
+    """Notes on extrapolations, one sentence each; the ratio is that of film and σ."""
     conjunction, heights = bodies.conjunction, bodies.contact.roughness.heights
     at = full_range(conjunction.shape).asymptotes(**bodies.operation(u))
     out = bodies.film.warnings(at.regime, conjunction.ratio)

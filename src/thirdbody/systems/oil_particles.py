@@ -302,7 +302,7 @@ class FilmParticles(Value):
         return self._share(x, 0, size) + self._share(size, 3) / size**3
 
     def _size(self, count: float, lowest: float) -> float:
-        """The size that so many pressed ones per particle of the oil exceed."""
+        """Size that a given number of pressed particles per particle of the oil exceeds."""
         from scipy.optimize import brentq
 
         top = self.diameter.support[1]
@@ -404,7 +404,7 @@ class FilmParticles(Value):
         return self._sunk(side, float(particle.sides[side].delta_1))
 
     def _sunk(self, side: int, depth: float) -> float:
-        """Smallest size that sits so deep in a side, over its size; infinite for none."""
+        """Smallest size that sinks this deep into a side, over its size; infinite for none."""
         from scipy.optimize import brentq
 
         particle = self._particle()

@@ -22,7 +22,7 @@ This page is made from the classes: `thirdbody outputs --markdown > docs/outputs
 
 
 def entries() -> list[dict[str, Any]]:
-    """Every output with its source, its numbers and its columns, ready for JSON.
+    """Every output with its source, numbers and columns, ready for JSON.
 
     Examples
     --------

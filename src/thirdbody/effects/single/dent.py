@@ -122,7 +122,7 @@ def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
 
 @takes_units
 def fragments(x: ArrayLike, *, size: float) -> Array:
-    r"""Fragments of one size that a brittle particle of size x breaks into, its volume kept.
+    r"""Number of equal fragments of a brittle particle of size x, its volume kept.
 
     .. math:: N = \max\left[(x/x_f)^3,\,1\right]
 
@@ -180,7 +180,7 @@ def dents_after(rate: ArrayLike, *, overrollings: ArrayLike, area: ArrayLike) ->
 
 
 class Dent(NamedTuple):
-    """What particles leave in one surface: arrays (M, n), made by `dent_of`.
+    """Dents of particles in one surface: arrays (M, n), made by `dent_of`.
 
     Examples
     --------
@@ -206,7 +206,7 @@ class Dent(NamedTuple):
 def sink(
     particle: Material, *, hardness: float, debris: Debris = "by_hardness", computed: bool = False
 ) -> float:
-    """The part of its sink into a surface that stays a dent: what a particle does, decided here.
+    """Share of a particle's sink into a surface that stays as a dent.
 
     Where its law says how deep it sinks (``computed``), all of that does, at any hardness. Where
     none does, a particle harder than the surface sinks in whole; one that is not is flattened, and

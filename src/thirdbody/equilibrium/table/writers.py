@@ -150,7 +150,7 @@ class ContactTable:
 
     # ------------------------------------------------------------------ what files say
     def about(self) -> list[str]:
-        """What every exported file says at its top, one sentence each."""
+        """Sentences at the top of every exported file."""
         from ...version import __version__
 
         e, name = self.error, self.coordinate
@@ -455,7 +455,7 @@ def _units(word: str) -> tuple[str, str, float, float]:
 
 
 def _flat(data: dict[str, Any], path: str = "") -> Iterator[tuple[str, str]]:
-    """Every input as ``surfaces.first.E`` and its value; the kind of a part is its own line."""
+    """Pairs of dotted name and value of every input; the kind of a part is a pair too."""
     for key, value in data.items():
         if isinstance(value, dict):
             yield f"{path}{key}", value["type"]
@@ -474,7 +474,7 @@ _LETTERS = str.maketrans(
 
 
 def _ascii(text: str) -> str:
-    """Text that any of the programs reads: ASCII, one line, nothing that ends a C comment."""
+    """Text for every program: ASCII, one line, nothing that ends a C comment."""
     plain = unicodedata.normalize("NFKD", text.translate(_LETTERS))
     plain = "".join(c for c in plain if not unicodedata.combining(c))
     plain = plain.encode("ascii", "replace").decode()

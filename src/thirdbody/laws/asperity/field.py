@@ -161,7 +161,7 @@ class Field(AbstractAsperityLaw):
 
     # ------------------------------------------------------------ where one tip is asked for
     def yield_interference(self, *, R, E_star, H):
-        """That of `ZMC` [m]."""
+        """Interference of first yield of `ZMC` [m]."""
         return TIP.yield_interference(R=R, E_star=E_star, H=H)
 
     @property

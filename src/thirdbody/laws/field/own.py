@@ -161,7 +161,7 @@ class OwnSpectrum(Value):
 
     @classmethod
     def of_both(cls, first: Topography, second: Topography) -> OwnSpectrum:
-        """The waves of two faces together, whose heights have nothing to do with each other."""
+        """Waves of two faces together, whose heights are independent."""
         faces = [
             (cls._gaussian(face), float(np.nanstd(np.array(face.filtered(None), dtype=float))))
             for face in (first, second)
@@ -231,7 +231,7 @@ class RollOff(Value):
 
 
 def _ranked(z: Array, skewness: float, excess: float) -> tuple[Array, tuple[float, ...]]:
-    """The Gaussian field in the order of these heights, and G_n with which it gives them.
+    """Gaussian field that has the order of these heights, and the G_n that map it back to them.
 
     As many terms as leave z(t) rising wherever points lie.
     """

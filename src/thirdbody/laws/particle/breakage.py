@@ -55,7 +55,7 @@ class Breakage:
 
     @classmethod
     def of_material(cls, strength: WeibullStrength, material: Material, scale: float) -> Self:
-        """Of particles of a material, in units of ``scale`` [m]."""
+        """Breakage of particles of a material, in units of ``scale`` [m]."""
         return cls(
             sigma=float(strength.of_size(scale)),
             m=strength.m,
@@ -100,7 +100,7 @@ class Grains(Protocol):
 
     @property
     def material(self) -> Material:
-        """What they are made of."""
+        """Material of the particles."""
 
     @property
     def diameter(self) -> Distribution:
@@ -108,7 +108,7 @@ class Grains(Protocol):
 
 
 def about_strength(particles: Grains, surfaces: MaterialPair) -> list[str]:
-    """Where the strength of these particles leaves its range, one sentence each."""
+    """Notes on particles whose strength leaves its range, one sentence each."""
     strength, material = particles.strength, particles.material
     if strength is None:
         return []

@@ -30,7 +30,7 @@ Deep = Literal["table", "off"]
 
 @dataclass(frozen=True, kw_only=True)
 class _OfTips(AbstractParticleLaw):
-    """Particles whose tips follow a law of one contact: its field stands before those of a seat."""
+    """Base of particles whose tips follow a law of one contact: its field precedes the seat's."""
 
     __slots__ = ()
     law: AbstractAsperityLaw
@@ -208,7 +208,7 @@ class Series(SeatedLaw, _OfTips):
     def forms(
         self, surfaces: MaterialPair, particle: Material
     ) -> tuple[SideForm | None, SideForm | None]:
-        """What each side of the particle does that is no sphere's of constant hardness."""
+        """Forms of the sides of the particle that are no sphere of constant hardness."""
 
         def form(surface: Material) -> SideForm | None:
             if self.follows_table:

@@ -110,7 +110,7 @@ def confined(s: Array, nu: float) -> Array:
 
 @lru_cache(maxsize=32)
 def _bends(nu: float) -> tuple[float, ...]:
-    """Values of s at which G changes its formula: T_c = T_e, and where it becomes 0."""
+    """Values of s at which G changes its formula: T_c = T_e, and the zero of G."""
     from scipy.optimize import brentq
 
     s = np.linspace(1e-3, 1 - 1e-6, 1000)
@@ -126,14 +126,14 @@ def _bends(nu: float) -> tuple[float, ...]:
 
 
 class Held(NamedTuple):
-    """From one squeeze to another the tension stays below what it was."""
+    """Range of squeeze in which the tension stays below its maximum so far."""
 
     begin: float
     end: float
 
 
 class Tension:
-    r"""The largest tension that one particle has met, as a function of its squeeze ε.
+    r"""Largest tension that one particle has met, as a function of its squeeze ε.
 
     .. math:: \sigma_t = \frac{f}{x^2}\,\tfrac12[G(s_1)+G(s_2)], \qquad
               \hat\sigma(\varepsilon) = \max_{\varepsilon'\le\varepsilon}\sigma_t(\varepsilon')

@@ -31,7 +31,7 @@ from .readings import RANGE, Curve, Curves
 
 # ------------------------------------------------------------------ real area
 def _distance_from_bare(c: Curve, bare: Curve, load: float) -> float | Measurement:
-    """How far the area is from that without particles, where it grows throughout."""
+    """Difference of the area to that without particles, where it grows throughout."""
     if np.any(np.diff(c.A_t[inside(c)]) <= 0):
         return Measurement.absent("the area does not grow throughout")
     return abs(c.value_at(load, c.A_t) / bare.value_at(load, bare.A_t) - 1)

@@ -154,7 +154,7 @@ def ends(values: ArrayLike) -> tuple[float, float]:
 
 
 def _measurement(found: Any) -> Measurement:
-    """Numbers as a measurement; one that is known to be absent stays so."""
+    """Measurement of these numbers; one that is known to be absent stays so."""
     return found if isinstance(found, Measurement) else Measurement.from_values(*np.ravel(found))
 
 

@@ -488,7 +488,7 @@ class Topography:
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
-        """What a user of these numbers should know, one sentence each."""
+        """Notes for the user of these numbers, one sentence each."""
         out = list(self.notes)
         if unsure := [*self._bandwidth(), *self._few()]:
             out.append("; ".join(unsure))
