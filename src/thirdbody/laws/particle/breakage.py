@@ -112,7 +112,7 @@ def about_strength(particles: Grains, surfaces: MaterialPair) -> list[str]:
     strength, material = particles.strength, particles.material
     if strength is None:
         return []
-    out = []
+    out: list[str] = []
     name = getattr(particles, "name", "") or material.name or "the particles"
     if strength.x_c is None and material.K_c is None:
         what = (
