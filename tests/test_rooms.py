@@ -82,11 +82,15 @@ BARE = (
 """Words that say nothing of what a function does or returns."""
 LEFT = {
     "of": 12,
-    "at": 5,
-    "held": 2,
+    "at": 4,
     "part": 2,
-    "put": 2,
+    "held": 1,
     "met": 1,
+    "told": 1,
+    "own": 1,
+    "said": 1,
+    "kept": 1,
+    "made": 1,
 }
 """How often each is left."""
 

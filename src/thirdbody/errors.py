@@ -15,7 +15,6 @@ from types import FrameType
 from typing import Self
 
 __all__ = [
-    "Advice",
     "InvalidValue",
     "NoEquilibrium",
     "NoTransition",

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache, wraps
 from numbers import Real
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar, get_origin
 
 import numpy as np
 
@@ -372,8 +372,15 @@ def _fits_one(node: ast.expr, value: Any, space: Mapping[str, object]) -> bool:
                 for key, each in value.items()
             )
         )
+    if _are_words(name, space):
+        return isinstance(value, str)
     kind = _kind(name, space)
     return kind is None or isinstance(value, kind)
+
+
+def _are_words(name: str, space: Mapping[str, object]) -> bool:
+    """Whether an annotation names a `Literal`."""
+    return get_origin(space.get(name)) is Literal
 
 
 def _kind(name: str, space: Mapping[str, object]) -> type | None:
@@ -407,6 +414,8 @@ def _words(node: ast.expr, space: Mapping[str, object]) -> Iterator[str]:
                 yield f"a list of {_many(inner, space)}" if inner else "a list"
         elif name in MAPPINGS:
             yield "a mapping (dict) of names" if _inside(each) else "a mapping (dict)"
+        elif _are_words(name, space):
+            yield "text"
         elif name:
             article = "an" if name[0] in "AEIOU" else "a"
             yield f"{article} {name}"
