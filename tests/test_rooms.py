@@ -86,11 +86,6 @@ LEFT = {
     "part": 2,
     "held": 1,
     "met": 1,
-    "told": 1,
-    "own": 1,
-    "said": 1,
-    "kept": 1,
-    "made": 1,
 }
 """How often each is left."""
 

@@ -139,7 +139,7 @@ def with_oil(study: dict[str, object], word: str) -> dict[str, object]:
     return rest | {"particles": copy.deepcopy(PARTICLES[word])}
 
 
-def told(answer: Answer) -> str:
+def answer_so_far(answer: Answer) -> str:
     """The answer so far: that of the oil, else of the force, else of the pressure."""
     if answer.study.film is not None and (oil := oil_of_film(answer, "")) is not None:
         return oil.sentences[0]
@@ -324,7 +324,9 @@ class NewStudy:
         draft = self.draft
         try:
             await draft.settle()
-            said = await draft.ask(told) if draft.current and draft.answer is not None else ""
+            said = (
+                await draft.ask(answer_so_far) if draft.current and draft.answer is not None else ""
+            )
         except Died as error:
             said = "; ".join(error.problems)
         except ThirdBodyError as error:

@@ -73,11 +73,11 @@ def changes(before: dict[str, object], after: dict[str, object]) -> list[str]:
     """
     old, new = dict(flat(before)), dict(flat(after))
 
-    def said(table: dict[str, object], name: str) -> str:
+    def shown_text(table: dict[str, object], name: str) -> str:
         return text_of(table[name]) if name in table else "none"
 
     return [
-        f"{name}: {said(old, name)} → {said(new, name)}"
+        f"{name}: {shown_text(old, name)} → {shown_text(new, name)}"
         for name in dict.fromkeys([*old, *new])
         if name != "title" and old.get(name) != new.get(name)
     ]
@@ -110,7 +110,7 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
     forces press."""
     forced = before.forced or after.forced
     same = before.load == after.load and not forced
-    points = (before.solve(at if same else _own(before, after, at)), after.solve(at))
+    points = (before.solve(at if same else _load_before(before, after, at)), after.solve(at))
     told = [
         dict(facts_of(each, answer.particles_held))
         for each, answer in zip(points, (before, after), strict=True)
@@ -124,7 +124,7 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
     return Beside(_sentence(points), rows, _figures(before, after))
 
 
-def _own(before: Answer, after: Answer, at: float) -> float:
+def _load_before(before: Answer, after: Answer, at: float) -> float:
     """The load of the study before that is compared: its own, or the same load in its words."""
     if before.forced or after.forced:
         return before.default_at()
@@ -213,7 +213,7 @@ class BeforeAfter:
             set_attributes(
                 self.which.props("dense options-dense").classes("wide"), {"data-path": "before"}
             )
-            keep = ui.button("Keep as it is now", icon="push_pin", on_click=self._kept)
+            keep = ui.button("Keep as it is now", icon="push_pin", on_click=self._keep_study)
             set_attributes(keep.props("no-caps outline"), {"data-path": "before.keep"})
             back = ui.button("Go back to before", icon="history", on_click=self._back)
             set_attributes(back.props("no-caps flat"), {"data-path": "before.back"})
@@ -233,7 +233,7 @@ class BeforeAfter:
             return self.state.kept
         return self.state.opened if name in (OPENED, KEPT) else example(name)
 
-    def _kept(self) -> None:
+    def _keep_study(self) -> None:
         self.state.kept = self.state.study
         self.which.set_options(self._options(), value=KEPT)
         self.state.tell()
