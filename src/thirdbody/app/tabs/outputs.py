@@ -47,7 +47,7 @@ START = (
     "The study asks for no output: these need no number of their own. Switch on what is to stay "
     "in the study."
 )
-BEGUN: tuple[AbstractOutput, ...] = (tb.outputs.Counts(), tb.outputs.ThermalConductance())
+BEGUN = (tb.outputs.Counts(), tb.outputs.ThermalConductance())
 """Outputs that are shown where the study asks for none."""
 WIDE_FROM = 30
 """Largest value over smallest from which an axis is logarithmic."""
@@ -199,7 +199,7 @@ class Outputs:
         if names_of_outputs(state) != self.asked:  # undone, or another study
             self._renewed()
         self.inputs.tell()
-        made, rows = await state.ask(_figures_and_rows, state.at)
+        made, rows = await state.ask(_figures_and_rows, state.operating_load)
         for name in [name for name in self.plots if name not in made]:
             self.plots.pop(name).widget.delete()
         groups = {name: group_of(name.split(" [")[0]) for name in made}
