@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from ..quantities.tables import Table
 from ..version import __version__
 from .show import ALL, MOST_ROWS, some, terminal
-from .streams import STDOUT, TableFiles, remark, warn_of
+from .streams import STDOUT, TableFiles, remark, tell_written, warn_of
 
 __all__ = ["give_answer", "read_question"]
 
@@ -48,8 +48,7 @@ def give_answer(
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end."""
     files.write(*found.table(), data=found.to_dict)
-    for path in files.paths:
-        print(f"written: {path}", file=sys.stderr)
+    tell_written(*files.paths)
     if files.json != STDOUT:
         console = terminal()
         console.print(f"{found.title} (thirdbody {__version__})\n")
@@ -65,5 +64,5 @@ def give_answer(
             console.print(sentence)
         sys.stdout.flush()
     for sentence in found.asked.assumed:
-        remark(sentence)
+        remark(sentence, counts=True)
     warn_of(found.warnings)

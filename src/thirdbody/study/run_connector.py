@@ -19,9 +19,10 @@ from ..version import __version__
 from .connector import AskedConnector, connector_of
 from .overrides import override
 from .toml import read
+from .what_ifs import WhatIf
 from .whole import read_tables
 
-__all__ = ["ConnectorResult", "WhatIf", "load_connector", "run_connector"]
+__all__ = ["ConnectorResult", "load_connector", "run_connector"]
 
 NEEDED = frozenset({"surfaces", "particles", "connector"})
 AROUND = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -53,37 +54,6 @@ def load_connector(path: str | os.PathLike[str], overrides: Iterable[str] = ()) 
     """
     data = override(read(Path(path)), list(overrides))
     return read_tables(data, Path(path).parent, connector_of, lambda t: t.name in NEEDED)
-
-
-@dataclass(frozen=True, kw_only=True)
-class WhatIf(Record):
-    """What the failure of the connector would be if something were otherwise."""
-
-    what: str
-    """What is uncertain, in words."""
-    values: tuple[float, ...]
-    """What the answer is at the ends."""
-    between: str
-    """From what to what it is changed."""
-    action: str
-    """What to do about it."""
-    code: str = ""
-    """What it is about, where others look for it."""
-
-    @property
-    def low(self) -> float:
-        """The least of the answers."""
-        return min(self.values)
-
-    @property
-    def high(self) -> float:
-        """The largest."""
-        return max(self.values)
-
-    @property
-    def ratio(self) -> float:
-        """The largest over the least."""
-        return self.high / self.low if self.low > 0 else np.inf if self.high > 0 else 1.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -22,8 +22,9 @@ from ..systems.plate_over_particle import THIN, Bump
 from ..version import __version__
 from .overrides import override
 from .plate import AskedPlate, plate_of
-from .run_connector import HARDNESS, WhatIf
+from .run_connector import HARDNESS
 from .toml import read
+from .what_ifs import WhatIf
 from .whole import read_tables
 
 __all__ = ["PlateResult", "load_plate", "run_plate"]

@@ -28,6 +28,7 @@ from .report.figures import first_figure
 from .report.found import Found, some_of
 from .report.make import USUAL, curve_over
 from .report.sources import Row, alike, laws_of, rows_of, sources_of, value_rows
+from .state_words import answer, details, uncertainty
 from .workbook import Grid, Sheet, cell_of, cell_of_words, sheet_of_table
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from ..contact.contact import Contact
     from ..study import FilmResult, StudyResult
 
-__all__ = ["film_sheets", "grid_of", "state_sheets"]
+__all__ = ["film_sheets", "grid_of", "grid_of_words", "state_sheets"]
 
 CHART_DPI = 150
 MOST_ROWS = 100
@@ -46,32 +47,33 @@ MOST_LOADS = 6
 
 
 # -------------------------------------------------------------------------- the answer
-def state_sheets(result: StudyResult, sentences: Sequence[str]) -> list[Sheet]:
-    """Sheets of what `run_study` found.
-
-    Parameters
-    ----------
-    result : StudyResult
-    sentences : sequence of str
-        The answer in words, as the command prints it.
-    """
+def state_sheets(result: StudyResult) -> list[Sheet]:
+    """Sheets of what `run_study` found."""
     states, contact = result.states, result.study.contact
     columns = state_columns(contact)
     table = grid_of(columns, {each.name: getattr(states, each.name) for each in columns})
     if not contact.two_body:
         table = _with_column(table, "mode", modes_of(result))
-    found: list[str | Grid | bytes] = [*result.force_sentences, *sentences, *_some_rows(table)]
+    found: list[str | Grid | bytes] = [*answer(result), *_some_rows(table), *uncertainty(result)]
     if not contact.two_body:
         found.append(_critical_grid(result))
     if contact.outputs:
         found.append(_output_grid(result))
+    found += details(result)
     found.append(_png(_figure_of_states(result)))
     meanings = _meanings_of_states(result)
     return _sheets(result, found, _rows_of_study(result), meanings)
 
 
-def film_sheets(result: FilmResult, sentences: Sequence[str]) -> list[Sheet]:
-    """Sheets of what `run_film` found; arguments as of `state_sheets`."""
+def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[Sheet]:
+    """Sheets of what `run_film` found.
+
+    Parameters
+    ----------
+    result : FilmResult
+    sentences : sequence of str or Grid
+        The answer in words and tables, as the command prints it.
+    """
     from ..systems.mixed_film import COLUMNS
     from .plot.film import stribeck
 
@@ -107,6 +109,11 @@ def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
     """A table for a reader: each column in the unit in which most of its values are read."""
     drawn = [each.column(np.atleast_1d(values[each.name]).tolist()) for each in columns]
     return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))
+
+
+def grid_of_words(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Grid:
+    """A table of the screen as it is printed: words, and numbers with their units."""
+    return Grid(list(heads), [tuple(row) for row in rows])
 
 
 def _with_column(grid: Grid, head: str, words: Sequence[Any]) -> Grid:

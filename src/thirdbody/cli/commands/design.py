@@ -41,7 +41,9 @@ def command(options: Options) -> None:
     from ...study.analyses import design_study
 
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
+    asked = read_study(
+        options.study, options.settings, writes=[*files.paths, options.figure], long=True
+    )
     files.need(options.figure, force=options.force)
     if options.figure is not None:
         figure_format(options.figure)  # refused before long work
