@@ -170,9 +170,8 @@ def read_study(
     settings: list[str] | None,
     *,
     writes: Sequence[Path | None] = (),
-    long: bool = False,
 ) -> Study:
-    """The study with the keys set by --set; what looks like a slip is told before ``long`` work.
+    """The study with the keys set by --set; what looks like a slip is told at once.
 
     Files that are to be written must be none of those that are read.
     """
@@ -185,21 +184,20 @@ def read_study(
     asked = load_study(file, settings or ())
     if any(writes):
         refuse_clashes(writes, files_of(file, settings or ()))
-    tell_notes(asked, long=long)
+    tell_notes(asked)
     return asked
 
 
-def tell_notes(asked: Study, *, long: bool = False) -> None:
-    """Say what was taken for what a drawing says, and warn of what looks like a slip.
+def tell_notes(asked: Study) -> None:
+    """Warn of what looks like a slip at once; with the answer, say what was taken for a drawing."""
+    from ..study.reader import SLIP
 
-    The latter is told at once where ``long`` work follows, else with the answer.
-    """
     for sentence in asked.notes:
-        if sentence in asked.assumed:
-            remark(sentence, counts=True)
-        elif long:
+        if getattr(sentence, "code", "").startswith(SLIP):
             with at_once():
                 warn(sentence)
+        elif sentence in asked.assumed:
+            remark(sentence, counts=True)
         else:
             warn(sentence)
 

@@ -172,11 +172,17 @@ def without_output(error: OSError) -> int:
 
 @contextlib.contextmanager
 def answer_first() -> Iterator[None]:
-    """Notes, warnings and names of files wait until the answer stands; an error follows them."""
+    """Notes, warnings and names of files wait until the answer stands; an error follows them.
+
+    Of an answer that is interrupted nobody waits for notes.
+    """
     waiting: list[str] = []
     before = HELD.set(waiting)
     try:
         yield
+    except (KeyboardInterrupt, SystemError):
+        waiting.clear()
+        raise
     finally:
         HELD.reset(before)
         with contextlib.suppress(OSError):

@@ -32,7 +32,7 @@ def command(options: Options) -> None:
     from ...views.assess_page import page
     from ..own_files import need_places
 
-    asked = read_study(options.study, options.settings, writes=[options.html], long=True)
+    asked = read_study(options.study, options.settings, writes=[options.html])
     need_places([(options.html, "page")], force=options.force)
     answer = assess_study(asked, progress=True)
     if options.html is not None:

@@ -61,7 +61,7 @@ def command(options: Options) -> None:
     own = [
         f"explicit.{name}={json.dumps(value)}" for name, value in short.items() if value is not None
     ]
-    asked = read_study(options.study, [*(options.settings or ()), *own], long=True)
+    asked = read_study(options.study, [*(options.settings or ()), *own])
     if options.out is not None:
         claim_results(options.out, asked, maps=options.maps)
     kept = None if options.out is None else options.out / "surfaces"

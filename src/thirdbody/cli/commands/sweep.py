@@ -183,7 +183,7 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
         problems += error.problems
     if problems:
         raise InvalidValue(*problems)
-    tell_notes(asked, long=True)
+    tell_notes(asked)
     assert asked.sweep is not None
     return asked.sweep
 
