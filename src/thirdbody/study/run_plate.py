@@ -98,6 +98,11 @@ class PlateResult(Record, Mapping[str, Any]):
         """What reading and computing warn of, one sentence each."""
         return tuple(dict.fromkeys((*self.asked.notes, *self.run_warnings)))
 
+    @property
+    def citations(self) -> tuple[str, ...]:
+        """The works behind the numbers."""
+        return CITATIONS
+
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
         """Columns, a row a particle, and their units."""
         told = declared_columns(type(self))

@@ -37,7 +37,14 @@ if TYPE_CHECKING:
     from ..contact.contact import Contact
     from ..study import FilmResult, StudyResult
 
-__all__ = ["film_sheets", "grid_of", "grid_of_words", "state_sheets"]
+__all__ = [
+    "amount_cells",
+    "film_sheets",
+    "grid_of",
+    "grid_of_words",
+    "note_line",
+    "state_sheets",
+]
 
 CHART_DPI = 150
 MOST_ROWS = 100
@@ -217,14 +224,20 @@ def _rows_of_study(result: StudyResult) -> list[Row]:
 def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
     """A row an input: its number in the unit in which it is read."""
     lines = [
-        (row.meaning, row.symbol, *_amount(row), "default" if row.default else "study", row.name)
+        (
+            row.meaning,
+            row.symbol,
+            *amount_cells(row),
+            "default" if row.default else "study",
+            row.name,
+        )
         for row in rows
     ]
     for label, body in alike(bodies_of(contact)):
         for key, about in NUMBERS.items():
             if (value := getattr(body, key)) is not None:
                 row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])
-                said = (f"{label}: {row.meaning}", row.symbol, *_amount(row))
+                said = (f"{label}: {row.meaning}", row.symbol, *amount_cells(row))
                 lines.append((*said, body.name, key))
     return Grid(("input", "symbol", "value", "unit", "from", "name"), lines)
 
@@ -248,7 +261,7 @@ def _source_grid(contact: Contact) -> Grid:
     return Grid(("of", "name", "", "", "source"), rows)
 
 
-def _amount(row: Row) -> tuple[Cell | str, str]:
+def amount_cells(row: Row) -> tuple[Cell | str, str]:
     """A number in the unit in which it is read, and the unit; or words and none."""
     if row.amount is None:
         return row.value, ""
@@ -263,7 +276,7 @@ def _notes(
     meanings: Mapping[str, str],
 ) -> tuple[Grid, ...]:
     """Warnings with what to do, the columns of the states, and what is to be cited."""
-    notes = [_note_line(each) for each in ranked(result.warnings)] or [("none", None, "")]
+    notes = [note_line(each) for each in ranked(result.warnings)] or [("none", None, "")]
     told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
     cited = [(line, None, "") for line in (*result.citations, f"thirdbody {__version__}")]
     return (
@@ -273,7 +286,8 @@ def _notes(
     )
 
 
-def _note_line(note: str) -> tuple[str, Cell | None, str]:
+def note_line(note: str) -> tuple[str, Cell | None, str]:
+    """A note, its effect on the answer, and what to do about it."""
     if not isinstance(note, Note):
         return note, None, ""
     what = note.removesuffix(f"; {note.action}") if note.action else note

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..options import FilterText, Force, Settings, StudyFile, read_study
+from ..show import terminal
 from ..streams import tell_written, warn_of, write_together
 
 __all__ = ["command"]
@@ -63,4 +64,7 @@ def command(
         written[pdf_file] = pdf_of(page)
     warn_of(found.result.run_warnings)
     write_together({path: partial(Path.write_bytes, data=held) for path, held in written.items()})
+    console = terminal()
+    for sentence in found.lead:
+        console.print(sentence)
     tell_written(*written)
