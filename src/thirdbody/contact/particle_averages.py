@@ -283,7 +283,7 @@ class SizeAverage:
         weight: Array | float,
     ) -> ParticleSpots:
         """Every particle in gaps (M, 1), each gap as often as its weight says."""
-        x, delta, number = self.of_sizes(gap, rise, splits, SIZE_NODES)
+        x, delta, number = _counted(*self.of_sizes(gap, rise, splits, SIZE_NODES))
         return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
 
     @property
@@ -291,6 +291,22 @@ class SizeAverage:
         """Ends of the panels of the tables, as gaps."""
         below = self.lower.edges if self.lower is not None else np.empty(0)
         return np.concatenate([below, self.top - self.upper.edges**2])
+
+
+def _counted(x: Array, delta: Array, number: Array) -> tuple[Array, Array, Array]:
+    """The same without nodes that stand for nothing, on panels that have no room in their row.
+
+    Rows with fewer nodes than others repeat their last one, for nothing.
+    """
+    used = number > 0
+    count = used.sum(axis=1, keepdims=True)
+    if (most := int(count.max(initial=0))) == number.shape[1]:
+        return x, delta, number
+    place = np.arange(most)
+    order = np.argsort(~used, axis=1, kind="stable")
+    order = np.take_along_axis(order, np.clip(count - 1, 0, place), axis=1)
+    x, delta, number = (np.take_along_axis(each, order, axis=1) for each in (x, delta, number))
+    return x, delta, np.where(place < count, number, 0.0)
 
 
 def _seat_rule(
