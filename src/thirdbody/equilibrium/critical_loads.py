@@ -172,14 +172,12 @@ class Shares:
 
     def columns_at(self, t: Array, which: NDArray[np.intp]) -> list[Array]:
         """Areas, loads and F* of contacts ``which`` (M,) at t (M,)."""
-        others = np.setdiff1d(np.arange(self.count), which)
-        others = others[: max(FEWEST - len(np.unique(which)), 0)]  # the engine takes no fewer
-        t, which = np.append(t, np.full(len(others), 0.5)), np.append(which, others)
         order = np.argsort(which, kind="stable")  # states of one contact are solved side by side
-        t, which, back = t[order], which[order], np.argsort(order)[: len(t) - len(others)]
+        t, which, back = t[order], which[order], np.argsort(order)
         d = self.top[which] + t * (self.bottom[which] - self.top[which])
         vary = {name: values[which] for name, values in self.vary.items()}
-        states = state_columns(self.contact, d=d, vary=vary or None)
+        fewest = 1 if self.count >= FEWEST else None  # the engine is at work by then
+        states = state_columns(self.contact, d=d, vary=vary or None, fewest=fewest)
         return [states[name][back] for name in ("A_sa", "A_ss", "F_sa_star", "F_ss_star", "F_star")]
 
     def load(self, t: Array, which: NDArray[np.intp]) -> Array:
