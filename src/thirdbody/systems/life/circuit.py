@@ -390,7 +390,7 @@ class OilCircuit(Value):
         return self.size_classes().iso4406(self.steady(full=full).sum(axis=1))
 
     def notes(self) -> list[Note]:
-        """What is to be said of the circuit: filters beyond their data sheets, sizes not counted."""
+        """What is to be said of the circuit: filters beyond their data sheets."""
         out = []
         for name, each in zip(self.filter_names(), self.filters, strict=True):
             if each.clipped_to is not None:

@@ -10,9 +10,9 @@ course.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,7 +38,7 @@ POINTS = 120
 """Times of a history, evenly and in the logarithm each."""
 SOUGHT = 400
 """Times between two events at which a code is looked for."""
-MOST_EVENTS = 10_000
+MOST_EVENTS = 1000
 """Events after which a history is given up."""
 
 
@@ -157,14 +157,17 @@ class _Course:
             if each.capacity is None or name in self.full:
                 continue
             left = each.capacity - self.held[name]
-            excess = lambda t, name=name, left=left: self.now.taken(name, t) - left  # noqa: E731
+
+            def excess(t: float, name: str = name, left: float = left) -> float:
+                return self.now.taken(name, t) - left
+
             if excess(end) > 0:
                 end = float(brentq(excess, 0.0, end, xtol=1e-9 * max(end, 1e-300), rtol=1e-12))
-                does = lambda name=name: self._fill(name)  # noqa: E731
+                does = partial(self._fill, name)
         for code in self.waiting:
             when = self._time_of(code, end)
             if when is not None and when < end:
-                end, does = when, lambda code=code: self._reach(code)  # type: ignore[misc]
+                end, does = when, partial(self._reach, code)
         return end, does
 
     def _time_of(self, code: CodeReached, end: float) -> float | None:
@@ -240,16 +243,17 @@ class _Course:
             begin = self.now.begin
             inside = times[(times >= begin) & (times < begin + end)] - begin
             keep(inside)
-            if end > 0:
-                # the oil just before what happens
+            if does == self._change:
+                # the oil just before it is drained
                 keep(np.array([np.nextafter(begin + end, 0.0) - begin]))
             self._go_on(end)
             does()
             if self.stopped:
                 break
         else:
-            rule = f"holds more than {MOST_EVENTS} events"
-            raise InvalidValue(Problem("duration", rule, hint="is a filter far too small?"))
+            rule = f"holds {MOST_EVENTS} events and more: {self.events[-1].sentence}"
+            hint = "is the capacity of the filter far too small?"
+            raise InvalidValue(Problem("duration", rule, hint=hint))
         keep(np.array([0.0]))
         order = np.array(kept)
         last = np.append(np.diff(order) > 0, True)

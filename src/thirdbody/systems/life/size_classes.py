@@ -86,9 +86,7 @@ class SizeClasses(Value):
         places = range(first, max(last, first + 1) + 1)
         within = [ORIGIN * 2.0 ** (i / per_octave) for i in range(per_octave)]
         # times a power of two is exact, so that halves are edges
-        return cls(
-            edges=tuple(math.ldexp(within[j % per_octave], j // per_octave) for j in places)
-        )
+        return cls(edges=tuple(math.ldexp(within[j % per_octave], j // per_octave) for j in places))
 
     @property
     def count(self) -> int:

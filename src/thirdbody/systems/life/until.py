@@ -76,7 +76,7 @@ class CodeReached(Until):
         return f"the oil reaches {self.code}"
 
     def _ranges(self) -> Array:
-        """Counts of each size above one and up to another [1/m³], (3, 2); infinite where left out."""
+        """Counts of each size, above and up to [1/m³], (3, 2); infinite where left out."""
         ends = [
             (np.inf, np.inf) if each is None else iso4406_range(each)
             for each in read_iso4406(self.code)
