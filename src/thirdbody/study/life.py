@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue, Problem
@@ -16,6 +17,7 @@ from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.ingress import Ingress
 from ..systems.life.oil_dirt import OilDirt
+from ..systems.life.reports import oil_reports, read_reports
 from ..systems.oil_filter import Filter
 from .mistakes import clash
 from .reader import (
@@ -80,7 +82,7 @@ class AskedLife:
 
 # -------------------------------------------------------------------------- particles
 DIRT_SOURCES = ("iso4406", "test_dust")
-INGRESS_SOURCES = ("test_dust", "counts", "iso4406")
+INGRESS_SOURCES = ("test_dust", "counts", "iso4406", "reports")
 
 
 def _code(reader: Reader, path: str, value: Any) -> str:
@@ -141,10 +143,7 @@ def _sized_numbers(about: dict[str, Any], what: str) -> Key:
         pairs = {f"{path}.{say(size)}": (size, value) for size, value in data.items()}
         return tuple(sorted(reader.read_each(pairs, one)))
 
-    def table(reader: Reader, path: str, data: Any) -> Any:
-        return {"type": "object"} if reader.every_way else read(reader, path, data)
-
-    return Key(read, about=f"by size, e.g. {what}", schema=NOTHING, table=table)
+    return Key(read, about=f"by size, e.g. {what}", schema={"type": "object"})
 
 
 def _dirt_table(reader: Reader, path: str, data: Any) -> Any:
@@ -174,11 +173,23 @@ def _ingress_table(reader: Reader, path: str, data: Any) -> Any:
         "rate": number(RATE)._replace(about='mass of test dust per time, "125 mg/h"'),
         "counts": _sized_numbers(COUNT, counts),
         "iso4406": CODE._replace(about="the code that the oil has when it no longer changes"),
+        "reports": Key(_reports, about='reports of the oil, "oil.csv"', schema={"type": "string"}),
         "level": LEVEL,
         **ENDS,
     }
     _one_source(reader, path, data, INGRESS_SOURCES)
     return reader.table(path, data, keys, lambda values: [(path, values)])
+
+
+def _reports(reader: Reader, path: str, value: Any) -> Any:
+    """Reports of the oil, from a file."""
+    if not isinstance(value, str):
+        raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value)
+    beside = reader.folder / value
+    try:
+        return read_reports(beside if beside.exists() else Path(value))
+    except InvalidValue as error:
+        raise InvalidValue(Problem(path, f": {error}")) from None
 
 
 def _one_source(reader: Reader, path: str, data: Any, sources: tuple[str, ...]) -> None:
@@ -285,9 +296,9 @@ def _filter(reader: Reader, path: str, data: Any) -> Any:
 
 
 def _filters(reader: Reader, path: str, data: Any) -> Any:
-    """One filter, or a list of them."""
+    """A list of filters."""
     if not isinstance(data, list):
-        return (_filter(reader, path, data),)
+        raise wrong(path, "must be a table, headed [[life.filters]]", data)
     return reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, _filter)
 
 
@@ -296,7 +307,7 @@ FILTERS = Key(
     about='filters, each headed [[life.filters]], with flow = "60 L/min" and '
     'beta = { "4 um" = 10, "10 um" = 75 }',
     schema=NOTHING,
-    table=_filters,
+    table=_filter,
     items=_filter,
 )
 
@@ -340,7 +351,7 @@ def _life(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- the circuit
-def _made(
+def _dirts_of(
     given: list[tuple[str, dict[str, Any]]] | None, material: Material | None, ingress: bool
 ) -> tuple[Any, ...] | None:
     """Particles of an oil, or that enter it, from what their tables say."""
@@ -366,6 +377,7 @@ OPTIONS: Mapping[str, tuple[str, ...]] = {
     "iso4406": ("level", "smallest", "largest"),
     "test_dust": ("limit", "rate", "concentration"),
     "counts": ("largest",),
+    "reports": (),
 }
 """What goes with each way of saying how many particles there are."""
 
@@ -395,16 +407,41 @@ def _ingress_from(values: dict[str, Any], material: Material) -> Ingress:
     return Ingress.keeping_iso4406(values.pop("iso4406"), material=material, **values)
 
 
+def _with_reports(
+    reader: Reader, path: str, entry: Mapping[str, Any], circuit: OilCircuit, own: Material | None
+) -> OilCircuit:
+    """The circuit with the ingress that reports of its oil say."""
+    times, reports, sizes = entry["reports"]
+    material = entry.get("material", own)
+    try:
+        found = oil_reports(times, reports, sizes=sizes, circuit=circuit, material=material)
+    except InvalidValue as error:
+        raise error.under(path) from None
+    low, high = (3.6e9 * each for each in (found.mass_low, found.mass_high))
+    reader.assumed.append(
+        f"{path}: from its reports {3.6e9 * found.mass_rate:.3g} mg/h enter the oil, {low:.3g} to "
+        f"{high:.3g} mg/h"
+    )
+    return circuit.replace(ingress=(found.ingress,))
+
+
 def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     """The life that a study asks for, from the objects that its tables stand for."""
     given = values["life"]
     oil = dict(given["oil"])
     material = oil.pop("material", None)
+    reported = [each for each in oil["ingress"] if "reports" in each[1]]
+    if reported and len(oil["ingress"]) > 1:
+        rule = "from reports is all that enters; leave the others out"
+        raise InvalidValue(Problem("life.oil.ingress", rule))
+    oil["ingress"] = [] if reported else oil["ingress"]
     for name in ("start", "ingress", "fresh_oil"):
         if name in oil:
-            oil[name] = _made(oil[name], material, name == "ingress")
+            oil[name] = _dirts_of(oil[name], material, name == "ingress")
     oil["filters"] = given.get("filters", ())
     circuit = reader.make(OilCircuit, "life.oil", oil)
+    for path, entry in reported:
+        circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
     return AskedLife(
         title=values.get("title", ""),

@@ -84,7 +84,7 @@ class _Stretch:
         per_volume = self.after(time).numbers.sum(axis=-1) / self.volume_after(time)[..., None]
         return self.terms.classes.counted(per_volume)
 
-    def taken(self, name: str, time: float) -> float:
+    def mass_removed(self, name: str, time: float) -> float:
         """Mass that one of its ways out has taken [kg]."""
         return float(np.sum(self.terms.removal[name] * self.after(time).passed * self.terms.masses))
 
@@ -159,7 +159,7 @@ class _Course:
             left = each.capacity - self.held[name]
 
             def excess(t: float, name: str = name, left: float = left) -> float:
-                return self.now.taken(name, t) - left
+                return self.now.mass_removed(name, t) - left
 
             if excess(end) > 0:
                 end = float(brentq(excess, 0.0, end, xtol=1e-9 * max(end, 1e-300), rtol=1e-12))
@@ -281,7 +281,7 @@ class _Course:
         now = self.now
         self.accounts.close(now, time)
         for name in self.held:
-            self.held[name] += now.taken(name, time)
+            self.held[name] += now.mass_removed(name, time)
         numbers, volume = now.after(time).numbers, float(now.volume_after(time))
         self.now = _Stretch(now.terms, now.begin + time, volume, numbers)
 

@@ -181,7 +181,7 @@ class _Grid(NamedTuple):
     """Of the intervals [m], (S + 1,)."""
 
     @classmethod
-    def of(cls, sizes: Array) -> _Grid:
+    def from_sizes(cls, sizes: Array) -> _Grid:
         ends = np.append(sizes, LARGEST["iso4406"])
         parts = [np.geomspace(a, b, WITHIN + 1)[:-1] for a, b in zip(ends, ends[1:], strict=False)]
         return cls(SizeClasses(edges=(*np.concatenate(parts), ends[-1])), ends)
@@ -406,7 +406,7 @@ def oil_reports(
     if not (math.isfinite(width) and width > 1):
         raise InvalidValue(Problem("width", "must be above 1", repr(width)))
     of = _material_of(circuit, material)
-    grid = _Grid.of(at)
+    grid = _Grid.from_sizes(at)
     model = _Model(grid, _responses(circuit, of, grid.classes, t), len(at))
     fit = model.fit(counts)
     for _ in range(SHAPES):
