@@ -84,11 +84,13 @@ if TYPE_CHECKING:
     from .study.whole import load_study
     from .systems import (
         film_formulas as films,
+        feedback,
         fractal as fractal,
         interaction as interaction,
         rough_body as rough_body,
         waviness as waviness,
     )
+    from .systems.coupled import coupled
     from .systems.life import until as until
     from .systems.life.circuit import OilCircuit
     from .systems.life.history import LifeHistory as LifeHistory
@@ -134,6 +136,7 @@ __all__ = [
     "assess",
     "cite",
     "compare",
+    "coupled",
     "critical_loads",
     "design",
     "distributions",
@@ -141,6 +144,7 @@ __all__ = [
     "equal_share_size",
     "errors",
     "explicit",
+    "feedback",
     "films",
     "heights",
     "life",
@@ -176,6 +180,7 @@ _MODULES = {
     "dust": "populations.measured.cleanliness",
     "errors": "errors",
     "explicit": "explicit",
+    "feedback": "systems.feedback",
     "films": "systems.film_formulas",
     "fractal": "systems.fractal",
     "heights": "populations.heights",
@@ -248,6 +253,7 @@ _HOMES = {
     "assess": "analysis.assess",
     "cite": "contact.citations",
     "compare": "analysis.compare",
+    "coupled": "systems.coupled",
     "critical_loads": "equilibrium.critical_loads",
     "design": "analysis.design.design",
     "equal_share_size": "analysis.design.equal_share",

@@ -157,9 +157,11 @@ def test_a_map_contains_its_study(study, tmp_path):
     ratio = contact.populations[0].diameter.mean_diameter / contact.roughness.sigma
     here = float(ratio), float(state.point().F_star)
     sizes, loads = mode_map.reach(here)
-    found = {"sizes": sizes.tolist(), "loads": loads.tolist()}
-    assert mode_map.inside(found, here)
-    assert not mode_map.inside(found, (here[0], 1.01 * loads[-1]))
+    sigma, E_ss = contact.roughness.sigma, contact.E_ss
+    found = {"sizes": sizes.tolist(), "loads": loads.tolist(), "sigma": sigma, "E_ss": E_ss}
+    point = here[0] * sigma, here[1] * E_ss  # a size [m] and a pressure [Pa]
+    assert mode_map.inside(found, point)
+    assert not mode_map.inside(found, (point[0], 1.01 * loads[-1] * E_ss))
     assert sizes[0] * 2 < here[0] < sizes[-1] / 2
     assert loads[0] * 2 < here[1] < loads[-1] / 2
 

@@ -278,17 +278,25 @@ class Inputs(ParticleInputs):
         for each in fields_of(BODIES[kind]) if kind in BODIES else ():
             self.field(("body",), each)
 
-    def outputs(self) -> None:
-        """Every output of the library: a switch, then its numbers."""
+    def output_switches(self) -> None:
+        """A switch for every output of the library."""
         for name, kind in VARIANTS["outputs"].items():
             place: Place = ("outputs", name)
-            on = self.state.get(*place) is not None
-            box = ui.switch(str(getattr(kind, "title", name)), value=on)
+            box = ui.switch(
+                str(getattr(kind, "title", name)), value=self.state.get(*place) is not None
+            )
             put(box, {"data-path": dotted(place)})
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
-            if on:
-                with ui.column().classes("w-full pl-4 gap-1"):
-                    self._of_output(place, fields_of(kind))
+
+    def output_numbers(self) -> None:
+        """The numbers of every output that is on."""
+        for name, kind in VARIANTS["outputs"].items():
+            place: Place = ("outputs", name)
+            if self.state.get(*place) is None:
+                continue
+            with ui.column().classes("w-full gap-1"):
+                ui.label(str(getattr(kind, "title", name))).classes("subhead")
+                self._of_output(place, fields_of(kind))
 
     def _of_output(self, place: Place, every: list[Field]) -> None:
         """The numbers of an output; what has a default and is not given is folded."""

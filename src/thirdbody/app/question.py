@@ -17,6 +17,10 @@ from .widgets import facts, put, table
 __all__ = ["Question", "QuestionTab", "Shown"]
 
 
+NOTE = "Note: "
+"""How a sentence begins that the badge tells."""
+
+
 class Shown(NamedTuple):
     """What is shown of an answer: plain words, numbers and a figure."""
 
@@ -62,24 +66,24 @@ class QuestionTab:
     """One question, its answer first."""
 
     def __init__(self, state: State, question: Question) -> None:
-        self.state, self.question = state, question
+        self.state, self.question, self.tab = state, question, state.tab
         self.inputs = Inputs(state, self._renewed)
         self.there: Any = None
         """Whether there were entries."""
         self.answer: Answer | None = None
         name = question.table
-        ui.label(question.about).classes("hint")
-        self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
         self.words = ui.column().classes("w-full gap-1")
+        self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
+        ui.label(question.about).classes("hint")
         with ui.element("div").classes("figures w-full"):
-            with ui.column().classes("w-full"):
-                self._form()
             self.beside = ui.column().classes("w-full gap-1")
             with self.beside:
                 self.facts = ui.row().classes("facts w-full")
                 self.plot = put(ui.plotly(empty(360)).classes("w-full"), {"data-figure": name})
                 self.rows = ui.column().classes("w-full")
                 self.notes = ui.column().classes("w-full gap-0")
+            with ui.column().classes("w-full"):
+                self._form()
 
     def _renewed(self) -> None:
         self._form.refresh()
@@ -144,4 +148,7 @@ class QuestionTab:
         self.notes.clear()
         with self.notes:
             for text in shown.notes:
-                ui.label(with_micro(text)).classes("hint")
+                if not text.startswith(NOTE):
+                    ui.label(with_micro(text)).classes("hint")
+        noted = [text.removeprefix(NOTE) for text in shown.notes if text.startswith(NOTE)]
+        self.state.note(self.tab, noted)

@@ -9,7 +9,7 @@ import json
 import math
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypedDict, TypeVar, TypeVarTuple
@@ -298,6 +298,12 @@ class State:
         self.wanted = at
         self.tab = ""
         """The tab in sight."""
+        self.noted: dict[str, list[str]] = {}
+        """What the answers of single tabs leave open."""
+        self.opened = study
+        """The study as it was opened."""
+        self.kept: Tables | None = None
+        """A study that was kept, to lay this one beside it."""
         self.past: list[tuple[Tables, float | None]] = []
         """Study and operating load before each step."""
         self.steps = 0
@@ -349,6 +355,7 @@ class State:
     def open(self, study: Tables) -> None:
         """A study that begins anew, with an operating load of its own."""
         self._step(None)
+        self.opened = study
         self._set_study(study, None)
 
     def _step(self, kind: str | None) -> None:
@@ -465,6 +472,12 @@ class State:
         """Nobody looks at the page any more."""
         if self.reading is not None:
             self.reading.cancel()
+
+    def note(self, tab: str, notes: Iterable[str]) -> None:
+        """What the answer of a tab leaves open; the badge tells it."""
+        if (every := list(notes)) != self.noted.get(tab, []):
+            self.noted[tab] = every
+            self.tell()
 
     def tell(self) -> None:
         """The study or the operating load is another one."""

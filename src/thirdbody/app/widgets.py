@@ -12,7 +12,17 @@ from nicegui.json import dumps
 
 from .figures import CONFIG, Figure, Part, empty
 
-__all__ = ["Facts", "Plot", "facts", "plot_place", "put", "show_figures", "table", "upload"]
+__all__ = [
+    "Facts",
+    "Plot",
+    "facts",
+    "plot_place",
+    "put",
+    "show_figures",
+    "skeleton",
+    "table",
+    "upload",
+]
 
 
 Made = TypeVar("Made", bound=ui.element)
@@ -28,6 +38,14 @@ def put(element: Made, props: Mapping[str, object]) -> Made:
     return element
 
 
+def skeleton() -> ui.element:
+    """What stands in the place of a tab until its answer is there: its outline, in grey."""
+    with put(ui.element("div").classes("waiting"), {"aria-hidden": "true"}) as made:
+        for part in ("line", "line short", "block", "row"):
+            ui.element("div").classes(f"bone {part}")
+    return made
+
+
 def facts(pairs: Iterable[tuple[str, str]], kind: str = "") -> None:
     """Named numbers side by side."""
     for name, value in pairs:
@@ -39,8 +57,11 @@ def facts(pairs: Iterable[tuple[str, str]], kind: str = "") -> None:
 class Facts:
     """Named numbers side by side that change in place."""
 
-    def __init__(self, abouts: Mapping[str, str] = MappingProxyType({})) -> None:
-        self.abouts = abouts
+    def __init__(
+        self, abouts: Mapping[str, str] = MappingProxyType({}), said: Iterable[str] = ()
+    ) -> None:
+        self.abouts, self.said = abouts, tuple(said)
+        """What names mean, and names that a sentence above says to those who see it."""
         self.row = ui.row().classes("facts w-full")
         self.labels: dict[str, ui.label] = {}
 
@@ -56,6 +77,8 @@ class Facts:
                         ui.label(name).classes("hint")
                         label = put(ui.label().classes("value"), {"data-fact": name})
                     self.labels[name] = label
+                    if name in self.said:
+                        both.classes("said")
                     if name in self.abouts:
                         put(both, {"title": self.abouts[name]})
         for name, value in told.items():

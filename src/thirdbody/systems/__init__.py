@@ -5,6 +5,8 @@ from . import bearing_sizes as bearing_sizes
 from . import chuck as chuck
 from . import connector as connector
 from . import contact_probability as contact_probability
+from . import coupled as coupled
+from . import feedback as feedback
 from . import film_conditions as film_conditions
 from . import fractal as fractal
 from . import interaction as interaction
@@ -23,6 +25,8 @@ __all__ = [
     "chuck",
     "connector",
     "contact_probability",
+    "coupled",
+    "feedback",
     "film_conditions",
     "fractal",
     "interaction",

@@ -18,7 +18,7 @@ from ..worker import Laws, compared
 
 __all__ = ["TITLE", "build", "law_figure"]
 
-TITLE = "Compare"
+TITLE = "Laws"
 LOADS = 40
 LITTLE = 5
 """A preview has every fifth of them."""
@@ -88,7 +88,6 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     what.props('dense options-dense aria-label="what is compared"')
     plot = plot_place("compare", 460)
     table = ui.column().classes("w-full scroll-x")
-    plot.set_visibility(False)
 
     async def draw() -> None:
         if shown is None:
@@ -99,6 +98,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     async def tell() -> None:
         await work.tell(state)
+        plot.set_visibility(shown is not None or work.trying)
         await draw()
 
     what.on_value_change(state.tell)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Awaitable, Callable
 from functools import partial
 
@@ -37,6 +38,10 @@ __all__ = ["TITLE", "build", "figures"]
 
 TITLE = "Curves"
 TAB = "curves"
+RESTS = 0.4
+"""Seconds after which the slider counts as at rest."""
+TICK = 0.01
+"""Seconds by which a timer may be early."""
 LOOKS = 0.05
 """Seconds after which it is looked whether the tab is still in sight."""
 FIGURES = ("area", "shares", "regimes", "separation")
@@ -173,6 +178,8 @@ class Curves:
         self.table = ui.column().classes("w-full scroll-x")
         self.later: ui.timer | None = None
         """The timer after which critical loads follow."""
+        self.drawn = 0.0
+        """When the figures were drawn last."""
         self.shown: tuple[Answer, str, bool] | None = None
         """What the figures show."""
         self.told: Answer | None = None
@@ -185,12 +192,16 @@ class Curves:
         known = "critical" in answer.__dict__
         await self._place(answer)
         await self._show(answer, critical=known)
+        self.drawn = time.perf_counter()
         if known:
             self._tell(answer)
         elif self.later is None:
             # critical loads are many states: they follow when the slider rests
-            with self.grid:
-                self.later = ui.timer(0.25, self._finish, once=True)
+            self._wait(RESTS)
+
+    def _wait(self, seconds: float) -> None:
+        with self.grid:
+            self.later = ui.timer(seconds, self._finish, once=True)
 
     async def _place(self, answer: Answer) -> None:
         """Where the line of the operating load is."""
@@ -229,6 +240,10 @@ class Curves:
 
     async def _finish(self) -> None:
         self.later = None
+        moved = time.perf_counter() - self.drawn
+        if moved < RESTS:  # the slider moves
+            self._wait(RESTS - moved + TICK)
+            return
         answer = self.state.answer
         assert answer is not None
         try:
