@@ -13,6 +13,7 @@ from .equilibrium.transitions import Critical, Transitions, TurningPoint
 from .explicit.ensemble import Ensemble
 from .explicit.state import ExplicitState
 from .study.results import FilmResult, StudyResult
+from .systems.life.history import LifeHistory
 from .systems.mixed_film import MixedFilm
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "Equilibrium",
     "ExplicitState",
     "FilmResult",
+    "LifeHistory",
     "MixedFilm",
     "Propagation",
     "Sensitivity",

@@ -126,7 +126,7 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .body--dark [data-figure="map"] .legendlines path { stroke: #dddddd !important; }
 .body--dark [data-figure="bands"] :is(.fills, .legendfill) { filter: brightness(1.9); }
 .body--dark .layer-below .shapelayer { opacity: 0.5; }
-.q-tab { padding: 0 8px; }
+.q-tab { padding: 0 5px; }
 .whole .q-field { max-width: 100%; }
 .q-field__messages { line-height: 1.2; }
 .q-field--with-bottom { padding-bottom: 0; }

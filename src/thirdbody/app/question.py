@@ -92,16 +92,14 @@ class QuestionTab:
             if not isinstance(self.state.get(name), dict):
                 values = ", ".join(f"{key} {value}" for key, value in question.start.items())
                 ui.label(with_micro(f"Shown for {values}.")).classes("hint")
-                ui.button("Change these", icon="edit", on_click=self._begun).props(
-                    f'no-caps data-path="{name}.add"'
-                )
+                change = ui.button("Change these", icon="edit", on_click=self._begun)
+                put(change.props("no-caps"), {"data-path": f"{name}.add"})
                 return
             for field in (*question.own, *fields_of(question.kind)):
                 if field.name not in question.left_out:
                     self.inputs.field((name,), field)
-            ui.button("Remove", icon="delete", on_click=self._removed).props(
-                f'flat dense no-caps data-path="{name}.remove"'
-            )
+            remove = ui.button("Remove", icon="delete", on_click=self._removed)
+            put(remove.props("flat dense no-caps"), {"data-path": f"{name}.remove"})
             self.inputs.rest = ui.column().classes("w-full")
 
     def _begun(self) -> None:

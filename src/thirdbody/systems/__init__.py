@@ -8,6 +8,7 @@ from . import contact_probability as contact_probability
 from . import film_conditions as film_conditions
 from . import fractal as fractal
 from . import interaction as interaction
+from . import life as life
 from . import load_sharing as load_sharing
 from . import mixed_film as mixed_film
 from . import oil_filter as oil_filter
@@ -25,6 +26,7 @@ __all__ = [
     "film_conditions",
     "fractal",
     "interaction",
+    "life",
     "load_sharing",
     "mixed_film",
     "oil_filter",

@@ -256,7 +256,7 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
     return out
 
 
-def _known(given: Any) -> Uncertain:
+def as_uncertain(given: Any) -> Uncertain:
     """What is known of an input: as it is told, by two ends, or as a ufloat."""
     if isinstance(given, Uncertain):
         return given
@@ -332,7 +332,7 @@ def drawn_inputs(
             elif np.ndim(loads):
                 problems.append(f"{place}: give one load where the load is uncertain")
                 continue
-            one = _known(given)
+            one = as_uncertain(given)
         except InvalidValue as error:
             said = [why if why.place and not why.owner else Problem(place, f": {why}")
                     for why in error.problems]  # fmt: skip

@@ -235,14 +235,14 @@ def summary(result: StudyResult) -> str:
         where = " of a wide surface" * is_rare(mode, held)
         return f"{how}, and {share}{where}; {gap}, {area}"
 
-    def at(i: int) -> str:
+    def answer_at(i: int) -> str:
         return f"At {load_of(states.pressure[i], states.F_star[i])} {state(i)}."
 
     known = sorted(result.solved_states, key=lambda i: states.pressure[i])
     first, last = known[0], known[-1]
     whole = f" {told}" if (told := result.body_sentence()) else ""
     if first == last:
-        return at(first) + whole
+        return answer_at(first) + whole
     if not three_body or whole:
-        return f"{at(first)} {at(last)}{whole}"
-    return f"{at(first)} {at(last)} {mode_path(states.mode[i] for i in known)}."
+        return f"{answer_at(first)} {answer_at(last)}{whole}"
+    return f"{answer_at(first)} {answer_at(last)} {mode_path(states.mode[i] for i in known)}."

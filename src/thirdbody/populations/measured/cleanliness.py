@@ -324,7 +324,7 @@ def iso4406_of_counts(counts: ArrayLike) -> str:
     Returns
     -------
     str
-        As from `iso4406_of`.
+        As from `iso4406_of`; "-" for a count that is not known.
 
     Examples
     --------
@@ -335,6 +335,9 @@ def iso4406_of_counts(counts: ArrayLike) -> str:
     most = np.array(scale["most"]) * (1 + 1e-9)
     out = []
     for count in np.asarray(counts, float) * scale["volume"]:
+        if math.isnan(count):
+            out.append("-")
+            continue
         number = int(np.searchsorted(most, count))
         out.append(str(number) if number < len(most) else f">{number - 1}")
     return "/".join(out)

@@ -84,7 +84,9 @@ class SizeClasses(Value):
         low, high = (per_octave * math.log2(x / ORIGIN) for x in (smallest, largest))
         first, last = math.floor(low + 1e-9), math.ceil(high - 1e-9)
         places = range(first, max(last, first + 1) + 1)
-        return cls(edges=tuple(ORIGIN * 2.0 ** (j / per_octave) for j in places))
+        within = [ORIGIN * 2.0 ** (i / per_octave) for i in range(per_octave)]
+        # times a power of two is exact, so that halves are edges
+        return cls(edges=tuple(math.ldexp(within[j % per_octave], j // per_octave) for j in places))
 
     @property
     def count(self) -> int:
@@ -136,7 +138,9 @@ class SizeClasses(Value):
         numbers : array (..., K)
             Particles of each class per volume [1/m³].
         """
-        return np.asarray(numbers, float) @ self.above(counted_sizes()).T
+        some, above = np.asarray(numbers, float), self.above(counted_sizes()).T
+        unknown = np.isnan(some)
+        return np.where(unknown @ (above > 0), math.nan, np.where(unknown, 0.0, some) @ above)
 
     def iso4406(self, numbers: ArrayLike) -> str:
         """The ISO 4406 code of particles of each class.
