@@ -23,7 +23,14 @@ from ...contact.field_sums import FieldSum
 from ...errors import InvalidValue, NoEquilibrium
 from ...laws.base import SeatedLaw
 from ...numerics.chebyshev import chebyshev_transform
-from .particle_curves import POWERS, ParticleCurve, SurvivalCurve, local_gaps, particle_curve
+from .particle_curves import (
+    POWERS,
+    REACH,
+    ParticleCurve,
+    SurvivalCurve,
+    local_gaps,
+    particle_curve,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,8 +45,10 @@ if TYPE_CHECKING:
 
 __all__ = ["ContactTables", "Kind", "Pressed", "scale_roughness"]
 
-NODES, SIGMA_NODES = 16, 14
+NODES, SIGMA_NODES = 16, 12
 """Chebyshev nodes of a panel over the gap, and over ln σ."""
+PANEL = 4.0
+"""Width of a panel over the mean gap, in the smallest σ: nothing changes faster."""
 DECLARED = 1e-5
 """Relative error that tables may have, of the largest value of a quantity on a panel."""
 DEEPEST_HALVING = 3
@@ -99,7 +108,7 @@ class PanelTable:
     Parameters
     ----------
     function : callable
-        Maps places (N,) and σ [m] to (N, C).
+        Maps places (N,) and several σ [m] (S,) to (N, S, C).
     edges : array
         Increasing; the panels before any is halved.
     span : (float, float)
@@ -110,7 +119,7 @@ class PanelTable:
 
     def __init__(
         self,
-        function: Callable[[Array, float], Array],
+        function: Callable[[Array, Array], Array],
         edges: Array,
         span: tuple[float, float],
         largest: Array,
@@ -179,8 +188,10 @@ class PanelTable:
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         self.built += 1
         places = middle + half * self.nodes
-        values = np.stack([self.function(places, sigma) for sigma in self.sigmas], axis=1)
-        made = np.einsum("ij,kl,jlc->ikc", self.transform, self.sigma_transform, values)
+        values = self.function(places, self.sigmas)
+        made = np.tensordot(self.transform, values, 1)
+        if len(self.sigmas) > 1:
+            made = np.matmul(self.sigma_transform, made)
         size = np.maximum(np.max(np.abs(values), axis=(0, 1)), NOTHING * self.largest)
         # the same places in every process
         rng = np.random.default_rng(len(self.sigmas))
@@ -188,7 +199,7 @@ class PanelTable:
         for t, s in rng.uniform(-1, 1, (2, 2)):
             at, spread = self._log_span
             sigma = math.exp(at + spread * s) if len(self.sigmas) > 1 else float(self.sigmas[0])
-            exact = self.function(np.array([middle + half * t]), sigma)[0]
+            exact = self.function(np.array([middle + half * t]), np.array([sigma]))[0, 0]
             over = _chebyshev_and_slope(s, len(self.sigmas))[0]
             near = np.einsum("i,k,ikc->c", _chebyshev_and_slope(t, NODES)[0], over, made)
             relative = np.abs(near - exact)[size > 0] / size[size > 0]
@@ -249,7 +260,7 @@ class ContactTables:
         self.law = law
         self.rough_seat = law.seat == "rough"
         width = law.zeta_std * self.span[1] if self.rough_seat else 0.0
-        lowest = -(8 * width + 4 * self.span[1]) / self.tops[0]
+        lowest = -(REACH * width + 4 * self.span[1]) / self.tops[0]
         ratio = float(f"{edges[0] / edges[1]:.12g}")
         self.curves = [
             particle_curve(self.contact, kind.material, ratio, lowest) for kind in self.kinds
@@ -260,13 +271,12 @@ class ContactTables:
         self.place = [self._place(i) for i in range(len(self.kinds))]
         """Which of the distinct kinds each is."""
         top = float(self.tops[-1]) + 9 * width
-        step = self.span[1]
-        panels = [step * i for i in range(-12, 9)]
-        while panels[-1] < top + 9 * step:
-            panels.append(panels[-1] * 1.125)
+        step = PANEL * self.span[0]
+        first = math.floor(-8 * self.span[1] / step)
+        panels = step * np.arange(first, math.ceil((top + 9 * self.span[1]) / step) + 1)
         most = np.stack([self._largest(i) for i, _ in self._distinct]).ravel()
-        self.particles = PanelTable(self._of_particles, np.array(panels), self.span, most)
-        most = self._of_asperities(np.zeros(1), self.span[1])[0]
+        self.particles = PanelTable(self._of_particles, panels, self.span, most)
+        most = self._of_asperities(np.zeros(1), np.array(self.span[1:]))[0, 0]
         self.spots = PanelTable(self._of_asperities, np.linspace(-5.0, 20.0, 26), self.span, most)
         self._first = [NAMES.index(name) for name in FIRST]
 
@@ -320,63 +330,67 @@ class ContactTables:
             )
         return self._sums[sigma]
 
-    def _of_particles(self, gap: Array, sigma: float) -> Array:
-        """Every quantity of the distinct kinds at mean gaps (N,): (N, kinds·classes·columns)."""
-        blocks = []
-        for (first, _), _place in self._distinct.items():
-            blocks.append(self._of_kind(first, gap, sigma))
-        return np.stack(blocks, axis=1).reshape(len(gap), -1)
+    def _of_particles(self, gap: Array, sigmas: Array) -> Array:
+        """Every quantity of the distinct kinds at mean gaps (N,): (N, S, kinds·classes·columns)."""
+        blocks = [self._of_kind(first, gap, sigmas) for first, _ in self._distinct]
+        return np.stack(blocks, axis=2).reshape(len(gap), len(sigmas), -1)
 
-    def _of_kind(self, i: int, gap: Array, sigma: float) -> Array:
-        """Quantities and the broken part of one kind at mean gaps (N,): (N, K, Q + 1)."""
+    def _of_kind(self, i: int, gap: Array, sigmas: Array) -> Array:
+        """Quantities and the broken part of one kind at mean gaps (N,): (N, S, K, Q + 1)."""
         curve, survival = self.curves[i], self.survival[i]
-        out = np.zeros((len(gap), len(self.tops), len(NAMES) + 1))
+        out = np.zeros((len(gap), len(sigmas), len(self.tops), len(NAMES) + 1))
         for k, top in enumerate(self.tops):
             own = None if survival is None else survival[k]
-            values = self._of_class(curve, own, gap / top, sigma / top)
-            out[:, k, :-1] = values[:, :-1] * top**curve.powers
-            out[:, k, -1] = values[:, -1]
+            out[:, :, k] = self._of_class(curve, own, gap / top, sigmas / top)
+        out[..., :-1] *= self.tops[:, None] ** curve.powers
         if self.law.shadow == "covered":
             covered = math.pi / 4 * curve.one.breadth * self.classes.mean_power(2)
-            out[:, :, NAMES.index("shadow")] = covered
+            out[..., NAMES.index("shadow")] = covered
         return out
 
     def _of_class(
-        self, curve: ParticleCurve, survival: SurvivalCurve | None, gap: Array, sigma: float
+        self, curve: ParticleCurve, survival: SurvivalCurve | None, gap: Array, sigmas: Array
     ) -> Array:
-        """Quantities of a class with upper edge 1, averaged over its seats."""
-        count = len(NAMES) + 1
+        """Quantities of a class with upper edge 1, averaged over its seats: (N, S, Q + 1)."""
 
         def values(local: Array) -> Array:
             broken = np.zeros(len(local)) if survival is None else survival(local)
             return np.column_stack([curve(local), broken])
 
         if not self.rough_seat:
-            return values(gap)
-        width = self.law.zeta_std * sigma
-        kinks = curve.gaps if survival is None else np.union1d(curve.gaps, survival.gaps)
-        local, weight = local_gaps(gap, width=width, kinks=kinks, top=1.0)
+            return np.repeat(values(gap)[:, None], len(sigmas), axis=1)
+        out = np.zeros((len(gap), len(sigmas), len(NAMES) + 1))
+        widths = self.law.zeta_std * sigmas
+        kinks = curve.panels if survival is None else np.union1d(curve.panels, survival.panels)
+        local, weight = local_gaps(gap, widths=widths, kinks=kinks, top=1.0)
         if not len(local):
-            return np.zeros((len(gap), count))
-        z = (gap[:, None] - local) / width
-        density = np.exp(-0.5 * z * z) / (width * math.sqrt(2 * math.pi))
-        return density @ (weight[:, None] * values(local))
+            return out
+        weighted = weight[:, None] * values(local)
+        for j, width in enumerate(widths):
+            near = np.searchsorted(
+                local, [gap.min() - REACH * width, gap.max() + REACH * width]
+            )
+            mine = slice(*near)
+            z = (gap[:, None] - local[mine]) / width
+            density = np.exp(-0.5 * z * z) / (width * math.sqrt(2 * math.pi))
+            out[:, j] = density @ weighted[mine]
+        return out
 
-    def _of_asperities(self, y: Array, sigma: float) -> Array:
-        """`SPOTS` at d/σ (N,): (N, 7)."""
-        rough = self._asperity_sum(sigma)
-        d = y * sigma
-        out = np.zeros((len(y), len(SPOTS)))
-        out[:, :4] = rough.fields(d)
+    def _of_asperities(self, y: Array, sigmas: Array) -> Array:
+        """`SPOTS` at d/σ (N,): (N, S, 7)."""
+        out = np.zeros((len(y), len(sigmas), len(SPOTS)))
         outputs: dict[str, Any] = {each.name: each for each in self.contact.outputs}
         friction, wear = outputs["friction"], outputs["wear"]
         ratio = friction.ratio(self.contact)
-        with np.errstate(all="ignore"):
-            for spots in rough.spots(d):
-                out[:, 4] += spots.total(wear._archard("ss", spots.regime, spots.area))
-                forces = friction.of_asperities(spots, ratio)
-                out[:, 5] += spots.total(forces["ss_shear"])
-                out[:, 6] += spots.total(forces["ss_plough"])
+        for j, sigma in enumerate(sigmas):
+            rough, d = self._asperity_sum(float(sigma)), y * sigma
+            out[:, j, :4] = rough.fields(d)
+            with np.errstate(all="ignore"):
+                for spots in rough.spots(d):
+                    out[:, j, 4] += spots.total(wear._archard("ss", spots.regime, spots.area))
+                    forces = friction.of_asperities(spots, ratio)
+                    out[:, j, 5] += spots.total(forces["ss_shear"])
+                    out[:, j, 6] += spots.total(forces["ss_plough"])
         return out
 
     @property
@@ -391,7 +405,7 @@ class ContactTables:
         if self.rough_seat:
             flat = self.particles(gap, sigma)
         else:
-            flat = self._of_particles(np.array([gap]), sigma)[0]
+            flat = self._of_particles(np.array([gap]), np.array([sigma]))[0, 0]
         blocks = flat.reshape(len(self._distinct), len(self.tops), -1)
         return blocks[self.place]
 
@@ -409,7 +423,8 @@ class ContactTables:
             both = (np.stack([values, slopes]) @ part).reshape(2, *shape[1:3], 2)
         else:
             step = 1e-7 * sigma
-            three = self._of_particles(gap + step * np.array([-1.0, 0.0, 1.0]), sigma)
+            places = gap + step * np.array([-1.0, 0.0, 1.0])
+            three = self._of_particles(places, np.array([sigma]))
             three = three.reshape(3, len(self._distinct), len(self.tops), columns)
             three = three[..., self._first]
             both = np.stack([three[1], (three[2] - three[0]) / (2 * step)])

@@ -13,7 +13,7 @@ loads, areas and volumes per sliding length, 3 of volumes.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from ...contact.particle_averages import size_average
 from ...effects.dents import Dents
 from ...effects.friction import changes
 from ...effects.single.dent import sunk
+from ...effects.single.ploughing import groove_of
 from ...errors import InvalidValue
 from ...laws.base import COLUMNS as OF_LAW
 from ...laws.base import SeatedLaw
@@ -56,6 +57,7 @@ POWERS: dict[str, int] = {
     **dict.fromkeys(("shear", "plough", "roll", "rolling_load"), 2),
     **dict.fromkeys(("area_1", "area_2", "elastic", "elastoplastic", "plastic"), 2),
     **dict.fromkeys(("cut_1", "cut_2"), 1),
+    **dict.fromkeys(("fixed_1", "fixed_2"), 2),
 }
 """Every quantity that is tabulated, with its power of size.
 
@@ -63,7 +65,8 @@ Load [N], share of the area out of reach of asperities [m²]; worn from each sur
 length, of which grooves and tracks of rolling ones [m²]; counts of loaded particles, of those that
 roll, that are held in a surface, that sit deeper than half their radius; dents by count, area [m²]
 and volume [m³]; forces by cause, load of rolling ones [N]; contact areas on each surface, and by
-regime on the first [m²]; widths of grooves [m].
+regime on the first [m²]; widths of grooves [m]; worn from each surface per sliding length by a
+particle that is held fast in the other.
 """
 RATIOS = 14
 """Digits in which two ratios of edges are one."""
@@ -122,8 +125,10 @@ class ParticleCurve:
         edges = np.sqrt(1.0 - self.gaps[::-1])
         edges = np.concatenate([edges[:1], edges[1:][np.diff(edges) > 1e-9]])
         self.series = PiecewiseChebyshev(
-            self._by_root, edges, degree=13, tolerance=BELOW, max_depth=4, kinds=KINDS
+            self._by_root, edges, degree=13, tolerance=BELOW, max_depth=7, kinds=KINDS
         )
+        self.panels = 1.0 - self.series.edges[::-1] ** 2
+        """Ends of its panels: between them it is a polynomial in the root of the gap."""
         self.powers = np.array([POWERS[name] for name in self.names])
 
     def _probe(self, eps: Array) -> ParticleSpots:
@@ -131,14 +136,24 @@ class ParticleCurve:
         return replace(found, material=self.material, population=self.population)
 
     def _dent_kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """Which surfaces have a dent that stays, and whether it has a shaft, as a number."""
-        dents = self.contact.outputs[-1]
+        """Which surfaces have a dent that stays, whether it has a shaft, and its end, as a number."""
         out = np.zeros(spots.x.shape, np.intp)
-        for side in (0, 1):
-            with np.errstate(all="ignore"):
-                depth = dents._dent_left(spots, side, self.contact).depth
-            out = 3 * out + (depth > 0) + (depth > spots.impression_radius(side))
+        for side, ends in zip((0, 1), self._deepest, strict=True):
+            depth = self._depth_left(spots, side)
+            out = 4 * out + (depth > 0) + (depth > spots.impression_radius(side))
+            out += depth >= ends * (1 - 1e-9)
         return out
+
+    def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
+        dents = self.contact.outputs[-1]
+        with np.errstate(all="ignore"):
+            return dents._dent_left(spots, side, self.contact).depth
+
+    @cached_property
+    def _deepest(self) -> list[float]:
+        """Depth of the deepest dents in either surface, over the size."""
+        spots = self._probe(np.array([4.0]))
+        return [float(self._depth_left(spots, side)[0, 0]) for side in (0, 1)]
 
     def _by_root(self, u: Array) -> Array:
         out = np.empty((len(u), len(self.names)))
@@ -181,6 +196,9 @@ class ParticleCurve:
             out[f"groove_{side + 1}"], out[f"roll_{side + 1}"] = parts["groove"], parts["roll"]
             out[f"cut_{side + 1}"] = spots.total(worn["cut"][side])
             out |= self._dents(spots, dents, side)
+            groove = friction.indents(spots)[side] * groove_of(spots, side=side)
+            touch = wear._archard("sa", spots.regimes[side], spots.areas[side])
+            out[f"fixed_{side + 1}"] = spots.total(touch + (wear.f_ab or 0.0) * groove)
         for name, force in friction.of_particles(spots).items():
             out[name.removeprefix("sa_")] = spots.total(force)
         out["rolling_load"] = spots.total(rolls * spots.load)
@@ -261,6 +279,11 @@ class SurvivalCurve:
             max_depth=8,
         )
 
+    @property
+    def panels(self) -> Array:
+        """Ends of its panels: between them it is a polynomial in the root of the gap."""
+        return 1.0 - self.series.edges[::-1] ** 2
+
     def by_quadrature(self, gap: Array) -> Array:
         """b at gaps over the upper edge (N,)."""
         gap = np.maximum(gap, self.lowest)[:, None]
@@ -280,13 +303,14 @@ class SurvivalCurve:
 
 
 def local_gaps(
-    mean_gap: Array, *, width: float, kinks: Array, top: float
+    mean_gap: Array, *, widths: Array, kinks: Array, top: float
 ) -> tuple[Array, Array]:
-    """Gauss nodes in the local gap for seats of a width about mean gaps, and their weights.
+    """Gauss nodes in the local gap for seats of some widths about mean gaps, and their weights.
 
-    Panels end at the kinks and are at most 1.5 widths wide; all lengths in one unit.
+    Panels end at the kinks and are at most 1.5 of the smallest width; all lengths in one unit.
     """
-    low, high = mean_gap.min() - REACH * width, min(mean_gap.max() + REACH * width, top)
+    width, reach = widths.min(), REACH * widths.max()
+    low, high = mean_gap.min() - reach, min(mean_gap.max() + reach, top)
     if high <= low:
         return np.empty(0), np.empty(0)
     inner = kinks[(kinks > low) & (kinks < high)]
@@ -303,5 +327,5 @@ def local_gaps(
     )
 
 
-REACH, WIDEST, NODES = 7.0, 1.5, 10
+REACH, WIDEST, NODES = 8.5, 1.5, 7
 """Widths of the seat beyond which nothing is counted, of a panel at most, and its nodes."""

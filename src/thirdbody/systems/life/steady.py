@@ -1,13 +1,9 @@
-r"""Whether debris feeds itself: next-generation matrix, steady numbers, and every steady state.
+r"""Steady states: of a stock that protects itself, of one unknown, and what R_0 means in words.
 
-Numbers n of particles by class follow :math:`\dot n = r + g_0 + (\mathcal G - \mathcal L)\,n`:
-ingress, debris without particles, births per particle, losses per particle. One particle of class
-j breeds column j of :math:`\mathcal G\mathcal L^{-1}` before it is removed, and
-
-.. math:: R_0 = \rho(\mathcal G\mathcal L^{-1}), \qquad
-          n^* = (\mathcal L-\mathcal G)^{-1}(r + g_0)
-
-below R_0 = 1 there is one steady state, and it is stable.
+Numbers n of particles by class follow :math:`\dot n = r + g_0 + (\mathcal G - \mathcal L)\,n`;
+`thirdbody.systems.life.linear_flow` has the next-generation matrix
+:math:`\mathcal G\mathcal L^{-1}` and its spectral radius R_0. Below R_0 = 1 there is one steady
+state, and it is stable.
 """
 
 from __future__ import annotations
@@ -15,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -23,123 +19,41 @@ from ...errors import InvalidValue
 from ...quantities.record import Record
 from ...quantities.say import number
 
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    Array = NDArray[np.float64]
-
 __all__ = [
     "ContactStock",
-    "Generations",
     "SteadyPoint",
     "contact_stock",
+    "describe_reproduction",
     "find_steady_points",
-    "next_generation",
 ]
 
 MATTERS = 0.3
 """R_0 above which hardness and sizes of debris decide the answer."""
-NONE = 1e-300
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Generations(Record):
-    """Who breeds whom before it is removed; made by `next_generation`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> found = next_generation(np.array([[0, 0], [3e-5, 1e-4]]), losses=np.diag([1e-3, 5e-4]),
-    ...                         sources=np.array([1e5, 0.0]))
-    >>> round(found.R0, 12), found.numbers.round(3).tolist()
-    (0.2, [100000000.0, 7500000.0])
-    """
-
-    matrix: Array
-    """𝒢𝓛⁻¹, daughters by parents [1]: (n, n)."""
-    R0: float
-    """Its spectral radius [1]."""
-    numbers: Array
-    """n* of the sources [their unit times s]: (n,); NaN from R_0 = 1 on."""
-    without: Array
-    """n* of the sources without births: (n,)."""
-
-    @property
-    def dirt_gain(self) -> float:
-        """|n*| over |n*| without births, by number [1]; infinite from R_0 = 1 on."""
-        if self.R0 >= 1:
-            return math.inf
-        alone = float(np.sum(self.without))
-        return float(np.sum(self.numbers)) / alone if alone > 0 else math.nan
-
-    @property
-    def sentence(self) -> str:
-        """What R_0 means, in words."""
-        if self.R0 == 0:
-            return "no particle breeds another: the debris does not wear the surfaces"
-        breeds = f"one particle of debris breeds {number(self.R0, 2)} others before it is removed"
-        if self.R0 >= 1:
-            return f"{breeds}: at these rates wear feeds itself without end"
-        if self.R0 > MATTERS:
-            return f"{breeds}: debris matters; give its hardness and sizes, which decide it"
-        return f"{breeds}: wear does not feed itself"
-
-
-def next_generation(
-    births: ArrayLike, *, losses: ArrayLike, sources: ArrayLike | None = None
-) -> Generations:
-    r"""Next-generation matrix, its spectral radius, and the steady numbers of given sources.
-
-    .. math:: R_0 = \rho(\mathcal G\mathcal L^{-1})
+def describe_reproduction(R0: float) -> str:
+    """What a reproduction number means, in words.
 
     Parameters
     ----------
-    births : array (n, n)
-        𝒢, particles of class i born per time and particle of class j [1/s].
-    losses : array (n, n) or (n,)
-        𝓛, or its diagonal [1/s]: removal, and passage to other classes, which breaking is.
-    sources : array (n,), optional
-        r + g_0, what enters per time in any unit.
-
-    Returns
-    -------
-    Generations
-
-    Raises
-    ------
-    InvalidValue
-        Shapes that do not fit, births below 0, or losses that leave a class for ever.
-
-    References
-    ----------
-    Diekmann, Heesterbeek, Metz 1990, J. Math. Biol. 28, 365, doi:10.1007/BF00178324 (from memory:
-    not confirmed in a source); the closed cases of the tests do not need it.
+    R0 : float
+        Particles bred by one particle before it is removed [1].
 
     Examples
     --------
-    >>> round(next_generation([[0.3]], losses=[0.5], sources=[1.0]).dirt_gain, 12)
-    2.5
+    >>> describe_reproduction(7e-5)
+    'one particle of debris breeds 7×10⁻⁵ others before it is removed: wear does not feed itself'
     """
-    G = np.asarray(births, float)
-    L = np.asarray(losses, float)
-    L = np.diag(L) if L.ndim == 1 else L
-    if G.ndim != 2 or G.shape[0] != G.shape[1] or L.shape != G.shape:
-        raise InvalidValue(f"births {G.shape} and losses {L.shape} must be square and alike")
-    if np.any(G < 0) or not np.all(np.isfinite(G)):
-        raise InvalidValue("births must be finite and >= 0 [1/s]")
-    r = np.zeros(len(G)) if sources is None else np.asarray(sources, float)
-    try:
-        matrix = np.linalg.solve(L.T, G.T).T
-        without = np.linalg.solve(L, r)
-    except np.linalg.LinAlgError:
-        raise InvalidValue(
-            "losses leave some particles in the oil for ever: without a filter, settling or a "
-            "drain there is no steady state"
-        ) from None
-    R0 = float(np.max(np.abs(np.linalg.eigvals(matrix)))) if len(G) else 0.0
-    R0 = 0.0 if R0 < NONE else R0
-    numbers = np.linalg.solve(L - G, r) if R0 < 1 else np.full(len(G), np.nan)
-    return Generations(matrix=matrix, R0=R0, numbers=numbers, without=without)
+    if math.isnan(R0):
+        return "some debris is never removed: it is not known how many others it breeds"
+    if R0 == 0:
+        return "no particle breeds another: the debris does not wear the surfaces"
+    breeds = f"one particle of debris breeds {number(R0, 2)} others before it is removed"
+    if R0 >= 1:
+        return f"{breeds}: at these rates wear feeds itself without end"
+    if R0 > MATTERS:
+        return f"{breeds}: debris matters; give its hardness and sizes, which decide it"
+    return f"{breeds}: wear does not feed itself"
 
 
 # ------------------------------------------------------------------ a stock in the contact
