@@ -305,8 +305,8 @@ class OilCircuit(Value):
             for dirt in several_dirts:
                 numbers = some.numbers_of(dirt.number, dirt.diameter)
                 out[:, place[dirt.material]] += numbers
-        removal = self._removal(some, every, full)
-        never_full = sum(self._removal(some, every, ()).values(), np.zeros(shape))
+        removal = self.removal(some, every, full=full)
+        never_full = sum(self.removal(some, every).values(), np.zeros(shape))
         for each in self.ingress:
             column = place[each.material]
             count = some.numbers_of if each.kept == "number" else some.numbers_by_volume
@@ -332,10 +332,23 @@ class OilCircuit(Value):
             masses=some.volumes[:, None] * np.array(masses),
         )
 
-    def _removal(
-        self, classes: SizeClasses, materials: Mapping[str, Material], full: Collection[str]
+    def removal(
+        self,
+        classes: SizeClasses,
+        materials: Mapping[str, Material],
+        *,
+        full: Collection[str] = (),
     ) -> dict[str, Array]:
-        """Oil per time from which particles are taken, by what takes them [m³/s], (K, M)."""
+        """Oil per time from which particles are taken, by what takes them [m³/s], (K, M).
+
+        Parameters
+        ----------
+        classes : SizeClasses
+        materials : mapping of str to Material
+            Of the particles.
+        full : collection of str, optional
+            Names of filters that are full and bypassed.
+        """
         out: dict[str, Array] = {}
         flat = np.ones((1, len(materials)))
         passing = {name: np.ones(classes.count) for name, _ in self._lines()}
