@@ -16,7 +16,6 @@ linear invariant, which the integrator keeps to rounding.
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -137,6 +136,8 @@ class Loop(ABC):
 
     pool: str
     """The block of the numbers that move: "oil" or "contact"."""
+    last: float = 0.0
+    """Where the root of the gap was last, in its own unknown."""
 
     def __init__(self, tables: ContactTables, setting: Setting, flows: tuple[str, ...]):
         self.tables, self.setting = tables, setting
@@ -153,7 +154,6 @@ class Loop(ABC):
         self.volumes = np.tile(tables.classes.volumes, self.kinds)
         """Of one particle of each number [m³]: (J,)."""
         self.sizes = np.tile(tables.classes.mean_power(1), self.kinds)
-        self.start_d = math.nan
 
     # ------------------------------------------------------------------ what kinds of loops say
     @abstractmethod
