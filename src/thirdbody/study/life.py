@@ -34,7 +34,7 @@ from .reader import (
 )
 from .surfaces import MATERIAL
 
-__all__ = ["LIFE", "AskedLife", "life_of"]
+__all__ = ["CLEAN", "LIFE", "AskedLife", "life_of"]
 
 DURATION = quantity("t", "s", "how long at most", gt=0, hint="hours are '1000 h'").metadata[
     "quantity"

@@ -15,14 +15,15 @@ from ..errors import RangeWarning
 from ..quantities.plain_data import plain_data
 from ..quantities.record import Record
 from ..systems.life.history import LifeHistory
+from ..systems.life.reports import OilReports, oil_reports, read_reports
 from ..systems.life.run import life
 from ..version import __version__
-from .life import AskedLife, life_of
+from .life import CLEAN, AskedLife, life_of
 from .overrides import override
 from .toml import read
 from .whole import read_tables
 
-__all__ = ["LifeResult", "load_life", "run_life"]
+__all__ = ["LifeResult", "ReportsResult", "load_circuit", "load_life", "reports_of", "run_life"]
 
 NEEDED = frozenset({"life"})
 CITATIONS = (
@@ -48,6 +49,95 @@ def load_life(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> As
     """
     data = override(read(Path(path)), list(overrides))
     return read_tables(data, Path(path).parent, life_of, lambda t: t.name in NEEDED)
+
+
+def load_circuit(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
+    """The circuit of a study file whose ingress nobody needs to know.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file with a table [life].
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+
+    Raises
+    ------
+    InvalidValue
+        Every mistake of the file.
+    """
+    data = override(read(Path(path)), list(overrides))
+    given = data.get("life")
+    if isinstance(given, dict) and isinstance(given.get("oil"), dict):
+        given["oil"]["ingress"] = CLEAN
+    return read_tables(data, Path(path).parent, life_of, lambda t: t.name in NEEDED)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ReportsResult(Record, Mapping[str, Any]):
+    """What `reports_of` finds; indexed, it is the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedLife
+    reports : OilReports
+    """
+
+    asked: AskedLife
+    reports: OilReports
+
+    @property
+    def title(self) -> str:
+        """Of the study, where it has none "Reports of an oil"."""
+        return self.asked.title or "Reports of an oil"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What reading and computing warn of, one sentence each."""
+        return tuple(dict.fromkeys((*self.asked.notes, *self.asked.circuit.notes())))
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row a size, and their units."""
+        found = self.reports
+        columns = {name: getattr(found, name) for name in ("rate", "low", "high")}
+        data = {"size": plain_data(found.sizes)} | {k: plain_data(v) for k, v in columns.items()}
+        return data, {"size": "m"} | dict.fromkeys(columns, "1/s")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {
+            "title": self.asked.title,
+            "version": __version__,
+            "inputs": {"oil": self.asked.circuit.to_dict()},
+            **self.reports.to_dict(),
+            "is_constant": self.reports.is_constant,
+            "warnings": list(self.warnings),
+            "citations": list(CITATIONS),
+        }
+
+    def __getitem__(self, key: str) -> Any:
+        return self.to_dict()[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.to_dict())
+
+    def __len__(self) -> int:
+        return len(self.to_dict())
+
+
+def reports_of(asked: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
+    """What reports of an oil say of the dirt that enters the circuit of a study.
+
+    Parameters
+    ----------
+    asked : AskedLife
+        As `load_circuit` reads it.
+    file : path-like
+        As `thirdbody.systems.life.reports.read_reports` reads it.
+    """
+    times, reports, sizes = read_reports(Path(file))
+    found = oil_reports(times, reports, sizes=sizes, circuit=asked.circuit)
+    return ReportsResult(asked=asked, reports=found)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

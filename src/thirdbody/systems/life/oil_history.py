@@ -36,8 +36,8 @@ __all__ = ["run_oil_history", "usual_times"]
 
 POINTS = 120
 """Times of a history, evenly and in the logarithm each."""
-SOUGHT = 400
-"""Times between two events at which a code is looked for."""
+AFTER = 8
+"""Of the times after an event every so-manyth is kept."""
 MOST_EVENTS = 1000
 """Events after which a history is given up."""
 
@@ -224,8 +224,8 @@ class _Course:
         self._tell("oil change", "the oil is changed")
 
     # ---------------------------------------------------------------------- the whole
-    def run(self, times: Array) -> LifeHistory:
-        """The history at these times, and at its events."""
+    def run(self, times: Array, *, shortest: float, after_events: bool) -> LifeHistory:
+        """The history at these times, at its events, and, if asked, closely after them."""
         kept: list[float] = []
         volumes: list[Array] = []
         numbers: list[Array] = []
@@ -242,6 +242,9 @@ class _Course:
             end, does = self.next_event()
             begin = self.now.begin
             inside = times[(times >= begin) & (times < begin + end)] - begin
+            if after_events and begin > 0:
+                more = usual_times(end, shortest=shortest)[1:-1:AFTER]
+                inside = np.unique(np.concatenate([inside, more[more < end]]))
             keep(inside)
             if does == self._change:
                 # the oil just before it is drained
@@ -335,4 +338,5 @@ def run_oil_history(
         some = np.unique(np.asarray(times, float))
         if not len(some) or some[0] < 0 or some[-1] > duration or not np.all(np.isfinite(some)):
             raise InvalidValue(Problem("times", f"must lie from 0 to {duration:g} [s]"))
-    return _Course(circuit, duration, tuple(until)).run(some)
+    course = _Course(circuit, duration, tuple(until))
+    return course.run(some, shortest=shortest, after_events=times is None)
