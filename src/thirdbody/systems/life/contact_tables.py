@@ -209,14 +209,13 @@ class PanelTable:
 
 def _chebyshev_and_slope(t: float, count: int) -> tuple[Array, Array]:
     """T_0 … T_{count−1} at t in [−1, 1], and their slopes."""
-    values, slopes = np.zeros(count), np.zeros(count)
-    values[0] = 1.0
-    if count > 1:
-        values[1], slopes[1] = t, 1.0
-    for i in range(2, count):
-        values[i] = 2 * t * values[i - 1] - values[i - 2]
-        slopes[i] = 2 * values[i - 1] + 2 * t * slopes[i - 1] - slopes[i - 2]
-    return values, slopes
+    order = np.arange(count)
+    angle = math.acos(t)
+    sine = math.sin(angle)
+    values = np.cos(order * angle)
+    if sine < 1e-6:  # at the ends T_k' is ±k²
+        return values, order**2 * (1.0 if t > 0 else (-1.0) ** (order + 1))
+    return values, order * np.sin(order * angle) / sine
 
 
 class ContactTables:

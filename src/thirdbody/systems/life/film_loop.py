@@ -35,7 +35,7 @@ __all__ = ["FilmLoop"]
 INGRESS, FRESH = "ingress", "fresh oil"
 LONGEST = 60.0
 """Largest ln γ of the tables."""
-CLOSE = 1e-3
+CLOSE = 1e-5
 """Half the bracket that is tried first about the ln γ of the state before."""
 
 
@@ -99,6 +99,10 @@ class FilmLoop(Loop):
         self.last = 0.0
         self.now = 0.0
 
+    @property
+    def one_area(self) -> float:
+        return self.setting.area / self.contacts
+
     # ------------------------------------------------------------------ film
     def volume_at(self, time: float) -> float:
         """Volume of the oil [m³]."""
@@ -145,7 +149,9 @@ class FilmLoop(Loop):
         assert callable(f)
         low, high = max(self.last - CLOSE, 0.0), self.last + CLOSE
         if f(low) < 0:
-            low, high = 0.0, low
+            low, high = max(low - 1e-2, 0.0), low
+        if f(low) < 0:
+            low = 0.0
             if f(0.0) <= 0:
                 return 0.0
         while f(high) > 0:
@@ -154,7 +160,7 @@ class FilmLoop(Loop):
                     f"no equilibrium at speed = {self.speed:g} m/s: at every gap that this film "
                     "leaves, asperities and particles carry more than the load"
                 )
-            low, high = high, min(2 * high + CLOSE, LONGEST)
+            low, high = high, min(high + 100 * (high - low), LONGEST)
         return float(brentq(f, low, high, xtol=1e-15, rtol=1e-14))
 
     # ------------------------------------------------------------------ particles

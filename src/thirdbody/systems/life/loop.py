@@ -173,6 +173,11 @@ class Loop(ABC):
         """Times per second that each place of a surface meets the particles [1/s]; 0 of a dry one.
         """
 
+    @property
+    def one_area(self) -> float:
+        """Nominal area of one contact [m²]."""
+        return self.setting.area
+
     # ------------------------------------------------------------------ one state
     def sigma_of(self, y: Array) -> float:
         """σ of a state, kept in the range of the tables [m]."""
