@@ -290,9 +290,18 @@ def _filter(reader: Reader, path: str, data: Any) -> Any:
 
     def build(values: dict[str, Any]) -> Filter:
         sizes, betas = zip(*values.pop("beta"), strict=True)
-        return reader.make(Filter, path, values | {"sizes": sizes, "betas": betas})  # type: ignore[no-any-return]
+        try:
+            return Filter(sizes=sizes, betas=betas, **values)
+        except InvalidValue as error:
+            named = (each.changed(path=_in_beta(each.path)) for each in error.problems)
+            raise InvalidValue(*named).under(path) from None
 
     return reader.table(path, data, keys, build)
+
+
+def _in_beta(name: str) -> str:
+    """The key of a file that says a field of a filter."""
+    return "beta" if name in ("sizes", "betas") else name
 
 
 def _filters(reader: Reader, path: str, data: Any) -> Any:
@@ -369,7 +378,7 @@ def _dirts_of(
         except InvalidValue as error:
             raise error.under(path) from None
         except TypeError:
-            raise InvalidValue(Problem(path, _misfit(values))) from None
+            raise InvalidValue(Problem(path, _misfit(entry))) from None
     return tuple(out)
 
 

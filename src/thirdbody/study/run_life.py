@@ -170,7 +170,7 @@ class LifeResult(Record, Mapping[str, Any]):
             "time": plain_data(history.times),
             "code": list(history.codes),
         }
-        units = {"time": "s", "code": "1"}
+        units = {"time": "s", "code": ""}
         for name, values in zip(("n_4", "n_6", "n_14"), history.counts.T, strict=True):
             columns[name], units[name] = plain_data(values), "1/m^3"
         columns["volume"], units["volume"] = plain_data(history.volume), "m^3"
