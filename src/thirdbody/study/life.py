@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from ..analysis.uncertainty.inputs import Uncertain
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
 from ..populations.measured import cleanliness
@@ -35,6 +36,7 @@ from .reader import (
     wrong,
 )
 from .surfaces import MATERIAL
+from .uncertainty import read_uncertain
 
 __all__ = ["CLEAN", "LIFE", "AskedLife", "life_of"]
 
@@ -48,6 +50,8 @@ BETA = quantity("β", "1", "particles before over particles behind", ge=1).metad
 TIME = quantity("t", "s", "time", gt=0, hint="'500 h'").metadata["quantity"]
 LARGEST = quantity("x_max", "m", "largest size", gt=0).metadata["quantity"]
 SMALLEST = quantity("x_min", "m", "smallest size", gt=0).metadata["quantity"]
+FACTOR = quantity("f", "1", "factor on all that enters", gt=0).metadata["quantity"]
+INGRESS_FACTOR = "ingress"
 CLEAN = "clean"
 """The word for oil without particles, and for no ingress."""
 
@@ -66,6 +70,8 @@ class AskedLife:
         How long at most [s].
     until : tuple of Until
         What is waited for.
+    uncertainty : dict of str to Uncertain
+        What is known of the numbers of the circuit.
     notes : tuple of str
         What is allowed but looks like a slip.
     assumed : tuple of str
@@ -76,6 +82,7 @@ class AskedLife:
     circuit: OilCircuit
     duration: float
     until: tuple[until.Until, ...] = ()
+    uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
 
@@ -340,6 +347,45 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys, build)
 
 
+def _kept(reader: Reader, path: str, value: Any) -> Any:
+    """A table of which the circuit says what its keys mean."""
+    if not isinstance(value, dict) or not value:
+        raise wrong(path, 'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }', value)
+    return value
+
+
+def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
+    """What a number of a circuit is, by its dotted name; None where it is none."""
+    if name == INGRESS_FACTOR:
+        return FACTOR
+    parent, _, last = name.rpartition(".")
+    try:
+        owner, number_of_it = circuit.part(parent), circuit.part(name)
+    except InvalidValue:
+        return None
+    fields = getattr(owner, "__dataclass_fields__", {})
+    if last not in fields or not isinstance(number_of_it, float):
+        return None
+    return fields[last].metadata.get("quantity")  # type: ignore[no-any-return]
+
+
+def _uncertainty(
+    reader: Reader, given: Mapping[str, Any], circuit: OilCircuit
+) -> dict[str, Uncertain]:
+    """What is known of the numbers of a circuit, by their names in it."""
+
+    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, Uncertain]:
+        label, entry = pair
+        name = label.removeprefix("oil.")
+        if (about := _about(circuit, name)) is None:
+            some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
+            raise InvalidValue(Problem(where, f"is not a number of the circuit; it has {some}"))
+        return name, read_uncertain(reader, where, about, entry)
+
+    pairs = {f"life.uncertainty.{say(name)}": (name, entry) for name, entry in given.items()}
+    return dict(reader.read_each(pairs, one))
+
+
 @cache
 def _keys() -> dict[str, Key]:
     """Keys of [life]."""
@@ -348,6 +394,12 @@ def _keys() -> dict[str, Key]:
         "duration": duration._replace(required=True),
         "oil": Key(None, True, 'the oil, with volume = "200 L", start and ingress', NOTHING, _oil),
         "filters": FILTERS,
+        "uncertainty": Key(
+            _kept,
+            about='what is known of its numbers, e.g. "ingress" = { median = 1, gsd = 2 } (a '
+            'factor), "filters.0.service" = { low = 0.5, high = 1 }',
+            schema={"type": "object"},
+        ),
         "until": Key(
             None, False, 'what ends it earlier, e.g. iso4406 = "21/19/16"', NOTHING, _until
         ),
@@ -452,11 +504,13 @@ def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     for path, entry in reported:
         circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
+    known = _uncertainty(reader, given.get("uncertainty", {}), circuit)
     return AskedLife(
         title=values.get("title", ""),
         circuit=circuit,
         duration=given["duration"],
         until=given.get("until", ()),
+        uncertainty=known,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
     )

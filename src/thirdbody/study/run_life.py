@@ -19,6 +19,7 @@ from ..systems.life.reports import OilReports, oil_reports, read_reports
 from ..systems.life.run import life
 from ..version import __version__
 from .life import CLEAN, AskedLife, life_of
+from .life_bands import LifeBands, propagate_life
 from .overrides import override
 from .toml import read
 from .whole import read_tables
@@ -148,10 +149,13 @@ class LifeResult(Record, Mapping[str, Any]):
     ----------
     asked : AskedLife
     history : LifeHistory
+    bands : LifeBands, optional
+        Where the study says what is known of its numbers.
     """
 
     asked: AskedLife
     history: LifeHistory
+    bands: LifeBands | None = None
 
     @property
     def title(self) -> str:
@@ -194,6 +198,7 @@ class LifeResult(Record, Mapping[str, Any]):
             "flows": [
                 {"from": start, "to": end, "kg": mass} for start, end, mass in self.history.flows()
             ],
+            "bands": None if self.bands is None else self.bands.to_dict(),
             "warnings": list(self.warnings),
             "citations": list(CITATIONS),
         }
@@ -227,4 +232,9 @@ def run_life(asked: AskedLife) -> LifeResult:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
         history = life(oil=asked.circuit, duration=asked.duration, until=asked.until)
-    return LifeResult(asked=asked, history=history)
+    bands = None
+    if asked.uncertainty:
+        bands = propagate_life(
+            asked.circuit, vary=asked.uncertainty, duration=asked.duration, until=asked.until
+        )
+    return LifeResult(asked=asked, history=history, bands=bands)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..quantities.say import join_words, number, value_of
+from ..quantities.say import join_words, number, percent, value_of
+from ..systems.life.sizing import least_flow
 
 if TYPE_CHECKING:
     from ..study.run_life import LifeResult
@@ -13,9 +14,10 @@ if TYPE_CHECKING:
     from ..systems.life.reports import OilReports
 
 __all__ = [
-    "HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS", "answer", "breeding", "duration_of", "events",
-    "facts", "flow_of", "last_words", "mass_of", "report_answer", "report_rows", "rows",
-]  # fmt: skip
+    *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
+    *("answer", "band_words", "breeding", "duration_of", "events", "facts", "flow_of"),
+    *("last_words", "least_flow_words", "mass_of", "report_answer", "report_rows", "rows"),
+]
 
 HEADS = ("time", "ISO 4406", "from 4 µm", "from 6 µm", "from 14 µm", "dirt")
 MEANS = {
@@ -163,11 +165,57 @@ def rows(found: LifeResult) -> list[list[str]]:
     return out
 
 
+def band_words(found: LifeResult) -> list[str]:
+    """Bands of code and times, and what moves the oil most."""
+    bands = found.bands
+    if bands is None:
+        return []
+    low, high = bands.codes[0], bands.codes[-1]
+    part = percent(max(bands.probabilities) - min(bands.probabilities))
+    end = duration_of(found.asked.duration)
+    out = [f"With what is known of its numbers the oil is at {low} to {high} after {end} ({part})."]
+    for name, times in bands.times.items():
+        first, last = (_time_or_censored(float(t), found) for t in (times[0], times[-1]))
+        came = percent(bands.reached[name])
+        out.append(f"{name[0].upper()}{name[1:]}: after {first} to {last}; it comes in {came}.")
+    most = bands.swings[0]
+    out.append(
+        f"Most uncertain: {most.name}, which alone moves the count from 6 µm by a factor of "
+        f"{number(most.factor, 3)}."
+    )
+    return out
+
+
+def _time_or_censored(seconds: float, found: LifeResult) -> str:
+    """A time, or how long nobody saw it come."""
+    if math.isfinite(seconds):
+        return duration_of(seconds)
+    return f"more than {duration_of(found.asked.duration)}"
+
+
+def least_flow_words(found: LifeResult, code: str) -> list[str]:
+    """How much flow each filter needs for a code, a sentence each."""
+    circuit = found.asked.circuit
+    out = []
+    for i, name in enumerate(circuit.filter_names()):
+        if circuit.filters[i].line:
+            continue
+        flow = least_flow(circuit, code=code, which=i)
+        if math.isnan(flow):
+            out.append(f"No flow through {name} is enough for {code}: it holds too few of them.")
+        elif flow == 0:
+            out.append(f"The oil comes to {code} without {name} too.")
+        else:
+            enough = f"{number(6e4 * flow, 3)} L/min"
+            out.append(f"A flow of {enough} through {name} is enough for {code}.")
+    return out or [f"No filter of its own line can be sized for {code}."]
+
+
 def last_words(found: LifeResult) -> list[str]:
     """Events, time scales, and what was not known."""
     history = found.history
     scales = [f"{name} {duration_of(time)}" for name, time in history.time_scales.items()]
-    out = events(history)
+    out = [*band_words(found), *events(history)]
     if scales:
         out.append(f"Time scales: {', '.join(scales)}.")
     unknown = ["the ingress"]

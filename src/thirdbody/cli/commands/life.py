@@ -25,6 +25,9 @@ class Options:
         "Reports of the oil, time [h] and ISO 4406 code a line: print what enters it.",
         "OIL.csv",
     )
+    flow_for: str | None = option(
+        "--flow-for", "The least flow of each filter with which the oil comes to a code.", "CODE"
+    )
     json: JsonFile = None
     csv: Path | None = option("--csv", "Write one row per time.", "FILE")
     xlsx: XlsxFile = None
@@ -44,9 +47,12 @@ def command(options: Options) -> None:
 
 def _tell_history(options: Options) -> None:
     """The history of the oil."""
+    from ...populations.measured.cleanliness import read_iso4406
     from ...study.run_life import load_life, run_life
-    from ...views.life_words import HEADS, MEANS, answer, last_words, rows
+    from ...views.life_words import HEADS, MEANS, answer, last_words, least_flow_words, rows
 
+    if options.flow_for is not None:
+        read_iso4406(options.flow_for)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     asked = read_question(load_life, options.study, options.settings, files, force=options.force)
     if options.figure is not None:
@@ -59,10 +65,11 @@ def _tell_history(options: Options) -> None:
         from ...views.plot.life import life
 
         drawn = life(found.history)
+    sized = [] if options.flow_for is None else least_flow_words(found, options.flow_for)
     give_answer(
         found,
         files,
-        answer=answer(found),
+        answer=[*answer(found), *sized],
         heads=HEADS,
         rows=rows(found),
         means=MEANS,
