@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 import thirdbody as tb
 from thirdbody import cli
 from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
+from thirdbody.systems.life.sizing import least_flow
 
 HOUR = 3600.0
 
@@ -227,3 +228,49 @@ def test_a_study_is_loaded_with_its_oil():
     study = tb.load_study("oil-circuit.toml")
     assert study.life.circuit.volume == pytest.approx(0.2)
     assert study.life.circuit.filters[0].beta(4e-6) == pytest.approx(5, rel=1e-12)
+
+
+# ------------------------------------------------------------------------------ bands, sizes
+def test_what_is_known_of_the_numbers_becomes_bands():
+    Path("known.toml").write_text(
+        Path("oil-circuit.toml").read_text("utf-8")
+        + """
+[life.until]
+iso4406 = "13/11/7"
+[life.uncertainty]
+ingress = { median = 1, gsd = 2 }
+"oil.volume" = { low = "180 L", high = "220 L" }
+""",
+        "utf-8",
+    )
+    asked = load_life("known.toml", ['life.duration="2 h"', "life.oil.oil_changes=[]"])
+    assert asked.uncertainty["volume"].first == pytest.approx(0.18)
+    bands = run_life(asked).bands
+    assert 0 < bands.reached["code 13/11/7"] < 1  # censored where much enters
+    assert np.isinf(bands.times["code 13/11/7"][-1])
+    assert bands.swings[0].name == "ingress"
+    keys = setting('life.duration="2 h"', "life.oil.oil_changes=[]")
+    told = said(run("life", "known.toml", *keys))
+    assert f"the oil is at {bands.codes[0]} to {bands.codes[-1]} after 2 h (90 %)" in told
+    assert "to more than 2 h; it comes in" in told
+    assert "Most uncertain: ingress" in told
+
+
+def test_the_flow_that_is_enough_for_a_code():
+    asked = load_life("oil-circuit.toml")
+    flow = least_flow(asked.circuit, code="16/14/11")
+    told = said(run("life", "oil-circuit.toml", "--flow-for", "16/14/11"))
+    assert f"A flow of {6e4 * flow:.3g} L/min through return filter is enough for 16/14/11" in told
+    for factor, reached in ((1.001, True), (0.999, False)):
+        circuit = asked.circuit.replace(**{"filters.0.flow": factor * flow})
+        numbers = [int(part) for part in circuit.steady_code().split("/")]
+        assert all(a <= b for a, b in zip(numbers, (16, 14, 11), strict=True)) is reached
+    none = said(run("life", "oil-circuit.toml", "--flow-for", "0/0/0"))
+    assert "16/14/11" not in none
+
+
+def test_the_book_shows_what_is_printed():
+    text = (Path(__file__).parents[2] / "docs" / "life.md").read_text("utf-8")
+    shown = text.split("```text\n")[1].split("```")[0]
+    printed = [line.rstrip() for line in run("life", "oil-circuit.toml").stdout.splitlines()]
+    assert shown.splitlines() == printed[2:]

@@ -366,7 +366,7 @@ def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
     fields = getattr(owner, "__dataclass_fields__", {})
     if last not in fields or not isinstance(number_of_it, float):
         return None
-    return fields[last].metadata.get("quantity")  # type: ignore[no-any-return]
+    return fields[last].metadata.get("quantity")
 
 
 def _uncertainty(

@@ -306,7 +306,7 @@ class _Model:
 
 # ------------------------------------------------------------------------------ reports
 def _counts_of(
-    reports: Sequence[str] | ArrayLike, sizes: Sequence[float] | None
+    reports: Sequence[str] | ArrayLike, sizes: ArrayLike | None
 ) -> tuple[Array, Array]:
     """Sizes [m] and counts [1/m³] of reports that are codes or counts."""
     given = list(reports) if not isinstance(reports, str) else [reports]  # type: ignore[arg-type]
@@ -345,7 +345,7 @@ def oil_reports(
     reports: Sequence[str] | ArrayLike,
     *,
     circuit: OilCircuit,
-    sizes: Sequence[float] | None = None,
+    sizes: ArrayLike | None = None,
     material: Material | None = None,
     width: float = WIDTH,
 ) -> OilReports:
@@ -361,7 +361,7 @@ def oil_reports(
         ISO 4406 codes, or counts from each size on [1/m³].
     circuit : OilCircuit
         Its volume, filters, make-up and changes of oil; start and ingress are not used.
-    sizes : sequence of float, optional
+    sizes : array (S,), optional
         From which is counted [m]; 4, 6 and 14 µm(c) by default.
     material : Material, optional
         Of the particles, by default the first of the circuit.
