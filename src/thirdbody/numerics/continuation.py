@@ -224,8 +224,8 @@ def follow_branch(
 
     >>> curve = follow_branch(lambda x, r: r - x + 2 * x**2 / (1 + x**2), x=[0.0], parameter=0.0,
     ...                       step=0.1, inside=lambda x, r: x[0] < 3)
-    >>> [round(float(r), 6) for r in curve.parameter[curve.folds]]
-    [0.134884, -0.0]
+    >>> [round(abs(float(r)), 6) for r in curve.parameter[curve.folds]]
+    [0.134884, 0.0]
     """
     start = np.append(np.asarray(x, dtype=float), parameter)
     walk = _Walk(residual, first_jacobian(residual, start))

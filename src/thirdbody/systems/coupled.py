@@ -350,9 +350,10 @@ def coupled(
     ...     cooling=feedback.ThermalPath(h_1=5e3, h_2=5e3, T_1=293, T_2=293), limits="speed")
     >>> for each in answer.states:
     ...     print(f"{each.T:.0f} K, μ = {each.mu:.3f}, loop gain {each.loop_gain:.2f}")
-    423 K, μ = 0.130, loop gain 0.08
+    456 K, μ = 0.163, loop gain 0.07
+    1670 K, μ = 1.377, loop gain 11.20
     >>> print(f"stable up to {answer.seizure_speed:.3g} m/s")
-    stable up to 6.8 m/s
+    stable up to 6.29 m/s
     """
     need_one("limits", limits, "both", "speed", "load")
     laws = tuple(feedback)

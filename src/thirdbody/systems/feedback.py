@@ -290,7 +290,7 @@ class HalfSpaces(Value):
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> cooling = HalfSpaces(A_n=1e-6, T_1=293.0, T_2=293.0)
     >>> print(f"{cooling.bound_to(contact).temperature(1e6, v=1.0):.2f} K")
-    297.97 K
+    294.41 K
     """
 
     A_n: float = quantity("A_n", "m^2", "nominal area", gt=0, hint="1 mm² is 1e-6")
