@@ -126,8 +126,13 @@ def what_ifs_of_states(result: StudyResult) -> tuple[WhatIf, ...]:
 
 def _ends(contact: Contact, stated: dict[str, Any]) -> Iterator[_Ends]:
     """Every input that is varied."""
-    known = {name: (each.at(0.0), each.at(1.0)) for name, each in stated_ranges(contact).items()}
-    known |= {name: (each.at(ENDS[0]), each.at(ENDS[1])) for name, each in stated.items()}
+    known = {
+        name: (each.quantile(0.0), each.quantile(1.0))
+        for name, each in stated_ranges(contact).items()
+    }
+    known |= {
+        name: (each.quantile(ENDS[0]), each.quantile(ENDS[1])) for name, each in stated.items()
+    }
     bodies = ("surfaces.first", "surfaces.second")
     alike = contact.surfaces.alike
     hardness = ["+".join(f"{name}.H" for name in bodies)] if alike else [f"{n}.H" for n in bodies]
@@ -165,7 +170,7 @@ def _of_particles(contact: Contact) -> Iterator[_Ends]:
     )
     seats = tuple(name for name in inputs(contact) if name.endswith("particle_law.zeta_mean"))
     if getattr(contact.particle_law, "seat", "") == "rough" and seats:
-        usual = float(contact.part(seats[0].rpartition(".")[0]).zeta_mean)
+        usual = float(contact.value_at(seats[0].rpartition(".")[0]).zeta_mean)
         yield _Ends(
             seats,
             ((usual + SEATS[0], usual + SEATS[1]),) * len(seats),
@@ -184,7 +189,7 @@ def _range(
     value = moved.values[0]
     low, high = ends if isinstance(ends, tuple) else (value / ends, value * ends)
     unit = declared(contact, moved.names[0])["unit"]
-    at = [moved.at((end - value) / moved.scales[0]) for end in (low, high)]
+    at = [moved.numbers_at((end - value) / moved.scales[0]) for end in (low, high)]
     return _Ends(
         moved.names,
         tuple((float(at[0][name]), float(at[1][name])) for name in moved.names),

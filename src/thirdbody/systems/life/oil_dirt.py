@@ -13,6 +13,7 @@ from ...errors import Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
 from ...populations.measured import cleanliness
+from ...populations.measured.cleanliness import Level, Limit
 from ...quantities.units import to_si
 from ...quantities.value import Value, quantity
 
@@ -55,7 +56,7 @@ class OilDirt(Value):
         code: str,
         *,
         material: Material,
-        level: str = "middle",
+        level: Level = "middle",
         smallest: float | str | None = None,
         largest: float | str | None = None,
     ) -> Self:
@@ -84,7 +85,7 @@ class OilDirt(Value):
 
     @classmethod
     def of_dust(
-        cls, grade: str, *, material: Material, concentration: float | str, limit: str = "middle"
+        cls, grade: str, *, material: Material, concentration: float | str, limit: Limit = "middle"
     ) -> Self:
         """A test dust in oil.
 
