@@ -137,8 +137,8 @@ class Shares:
             self.top, self.bottom = ends
             return
         twice = {name: np.repeat(values, 2) for name, values in vary.items()}
-        ends = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
-        first, last = ({n: ends[n][i::2] for n in ("d", "h")} for i in range(2))
+        states = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
+        first, last = ({n: states[n][i::2] for n in ("d", "h")} for i in range(2))
         own = {name: values for name, values in vary.items() if name.startswith("roughness.")}
         rough = contact.with_arrays(own).roughness if own else contact.roughness
         # a load that no contact carries is replaced by the deepest one that the model knows

@@ -69,23 +69,25 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
     contact, film = study.contact, study.film
     if film is None or any(each.strength is not None for each in contact.populations):
         return ()
+
+    def thicker(factor: float) -> Study:
+        oil = film.oil.replace(eta=film.oil.eta * factor)
+        return replace(study, film=film.replace(oil=oil))
+
     ends: list[tuple[str, str, str, str, tuple[Study, Study]]] = [
         (
             "the number of particles",
             "half and twice as many, one class of ISO 4406 each way",
             "count your oil, and what it is that was counted",
             "number",
-            tuple(_with_number(study, factor) for factor in (1 / TWICE, TWICE)),  # type: ignore[arg-type]
+            (_with_number(study, 1 / TWICE), _with_number(study, TWICE)),
         ),
         (
             f"the viscosity at the inlet, {value_of(film.oil.eta, 'Pa s', 3)}",
             f"{percent(1 - 1 / VISCOSITY)} less and {percent(VISCOSITY - 1)} more",
             "measure the running temperature",
             "film.oil.eta",
-            tuple(
-                replace(study, film=film.replace(oil=film.oil.replace(eta=film.oil.eta * factor)))
-                for factor in (1 / VISCOSITY, VISCOSITY)
-            ),  # type: ignore[arg-type]
+            (thicker(1 / VISCOSITY), thicker(VISCOSITY)),
         ),
     ]
     for i, part in enumerate(found.populations):
