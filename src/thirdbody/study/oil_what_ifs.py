@@ -10,6 +10,7 @@ from ..contact.contact import Contact
 from ..populations.materials import materials
 from ..quantities.record import Record
 from ..quantities.say import percent, value_of
+from ..systems.film_conditions import FilmConditions
 from .dirty_oil import DirtyOil, dirty_oil
 from .what_ifs import HARDNESS, TWICE
 from .whole import Study
@@ -69,11 +70,6 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
     contact, film = study.contact, study.film
     if film is None or any(each.strength is not None for each in contact.populations):
         return ()
-
-    def thicker(factor: float) -> Study:
-        oil = film.oil.replace(eta=film.oil.eta * factor)
-        return replace(study, film=film.replace(oil=oil))
-
     ends: list[tuple[str, str, str, str, tuple[Study, Study]]] = [
         (
             "the number of particles",
@@ -87,7 +83,7 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
             f"{percent(1 - 1 / VISCOSITY)} less and {percent(VISCOSITY - 1)} more",
             "measure the running temperature",
             "film.oil.eta",
-            (thicker(1 / VISCOSITY), thicker(VISCOSITY)),
+            (_with_viscosity(study, film, 1 / VISCOSITY), _with_viscosity(study, film, VISCOSITY)),
         ),
     ]
     for i, part in enumerate(found.populations):
@@ -136,6 +132,12 @@ def _with_parts(study: Study, parts: tuple[Any, ...]) -> Study:
     contact = study.contact
     several = isinstance(contact.particles, tuple)
     return replace(study, contact=contact.replace(particles=parts if several else parts[0]))
+
+
+def _with_viscosity(study: Study, film: FilmConditions, factor: float) -> Study:
+    """The study with another viscosity of the oil."""
+    oil = film.oil.replace(eta=film.oil.eta * factor)
+    return replace(study, film=film.replace(oil=oil))
 
 
 def _with_number(study: Study, factor: float) -> Study:

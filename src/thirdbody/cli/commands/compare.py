@@ -151,7 +151,9 @@ def _sheets(asked: Study, found: Comparison, index: int) -> list[Sheet]:
     title = f"{asked.title or 'Study'}: {_at_load(found, index)}"
     columns, units = found.flat()
     known = {**COLUMNS, "law": "asperity law"}
-    meanings = {n: str(getattr(known.get(n), "meaning", known.get(n, ""))) for n in columns}
+    meanings = {
+        name: str(getattr(known.get(name), "meaning", known.get(name, ""))) for name in columns
+    }
     return question_sheets(
         title,
         _answer(found, index),

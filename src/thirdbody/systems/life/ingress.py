@@ -15,7 +15,6 @@ from ...errors import InvalidValue, Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
 from ...populations.measured import cleanliness
-from ...populations.measured.cleanliness import Level, Limit
 from ...quantities.units import to_si
 from ...quantities.value import Value, choice, quantity
 from .oil_dirt import problems_of_kinds
@@ -70,7 +69,12 @@ class Ingress(Value):
 
     @classmethod
     def of_dust(
-        cls, grade: str, *, rate: float | str, material: Material, limit: Limit = "middle"
+        cls,
+        grade: str,
+        *,
+        rate: float | str,
+        material: Material,
+        limit: cleanliness.Limit = "middle",
     ) -> Self:
         """So much of a test dust per time.
 
@@ -140,7 +144,7 @@ class Ingress(Value):
         code: str,
         *,
         material: Material,
-        level: Level = "middle",
+        level: cleanliness.Level = "middle",
         smallest: float | None = None,
         largest: float | None = None,
     ) -> Self:

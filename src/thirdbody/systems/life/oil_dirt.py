@@ -13,7 +13,6 @@ from ...errors import Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
 from ...populations.measured import cleanliness
-from ...populations.measured.cleanliness import Level, Limit
 from ...quantities.units import to_si
 from ...quantities.value import Value, quantity
 
@@ -56,7 +55,7 @@ class OilDirt(Value):
         code: str,
         *,
         material: Material,
-        level: Level = "middle",
+        level: cleanliness.Level = "middle",
         smallest: float | str | None = None,
         largest: float | str | None = None,
     ) -> Self:
@@ -85,7 +84,12 @@ class OilDirt(Value):
 
     @classmethod
     def of_dust(
-        cls, grade: str, *, material: Material, concentration: float | str, limit: Limit = "middle"
+        cls,
+        grade: str,
+        *,
+        material: Material,
+        concentration: float | str,
+        limit: cleanliness.Limit = "middle",
     ) -> Self:
         """A test dust in oil.
 
