@@ -224,7 +224,7 @@ def _spline_loads(
     if not (like.enough and np.all(np.isfinite(ends))):
         return None
     top, bottom = expected_ends(like, ends)
-    deepest = like.of(known.deepest)
+    deepest = like.extend_to_all(known.deepest)
     shares = Shares(contact, vary, count, np.stack([top, np.maximum(bottom, deepest)]))
 
     def states(x: Array, which: NDArray[np.intp]) -> Array:
@@ -236,7 +236,7 @@ def _spline_loads(
 
     x = np.linspace(0.0, 1.0, SPLINE_NODES)
     exact = at_nodes(x[::EXACT_EVERY], np.arange(count))
-    alike = np.moveaxis(like.of(np.moveaxis(at_nodes(x, probes), 0, 1)), 0, 1)
+    alike = np.moveaxis(like.extend_to_all(np.moveaxis(at_nodes(x, probes), 0, 1)), 0, 1)
     first, last = (np.logaddexp(*exact[1:, :, end]) for end in (0, -1))
     reach = (first < math.log(WINDOW[0])) & ((last > math.log(WINDOW[1])) | (bottom <= deepest))
     rows = np.flatnonzero(reach & np.all(np.isfinite(exact), axis=(0, 2)))

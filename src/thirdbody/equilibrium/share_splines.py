@@ -150,7 +150,7 @@ class SplineLoads:
         return np.asarray(((a * u + b) * u + c) * u + value)
 
     def values_at(self, what: int, rows: Any, x: Array, slope: int = 0) -> Array:
-        """Values or slopes of area, equality or load of rows at x; of the area second slopes too."""
+        """Values or slopes of area, equality or load of rows at x; of the area second slopes."""
         if what == AREA:
             return self._terms(0, rows, x, slope)
         one, two = (self._terms(k, rows, x, slope) for k in (1, 2))

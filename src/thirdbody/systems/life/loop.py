@@ -170,7 +170,7 @@ class Loop(ABC):
 
     @abstractmethod
     def passes(self, side: int) -> float:
-        """Times per second that each place of a surface meets the particles [1/s]; 0 of a dry one."""
+        """Times per second that a place of a surface meets the particles [1/s]; 0 of a dry one."""
 
     @property
     def one_area(self) -> float:
@@ -227,7 +227,7 @@ class Loop(ABC):
         return out
 
     def pieces(self, d: float, sigma: float) -> Array:
-        """Numbers of which one of each number is made once all that breaks at d is broken: (J, J)."""
+        """Numbers of pieces for one of each number once all that breaks at d is broken: (J, J)."""
         J = len(self.volumes)
         out = np.eye(J)
         if all(kind.strength is None for kind in self.tables.kinds):
@@ -331,14 +331,14 @@ class Loop(ABC):
             out.matrix[place.start + kind, at] += numbers[mine] * self.volumes[mine]
 
     def add_passage(self, out: Rates, numbers: Array, *, pieces: Array) -> None:
-        """Particles of the pool pass a gap and come out as pieces, numbers per one and time: (J,)."""
+        """Pass particles of the pool through a gap, which makes them pieces, (J,) per one and time."""
         pool = self.layout[self.pool]
         change = (pieces - np.eye(len(numbers))) * numbers
         out.matrix[pool, pool] += change
         self.add_flow(out, FINER, pool, -(self.volumes @ change) / self.volumes)
 
     def add_retention(self, out: Rates, numbers: Array, state: Pressed) -> Array:
-        """Embed a part of what passes, numbers per one and time (J,); returns that part [1]: (J,)."""
+        """Embed a part of what passes, (J,) per one and time; returns that part [1]: (J,)."""
         if self.setting.stays == 0:
             return np.zeros_like(numbers)
         pool = self.layout[self.pool]

@@ -132,7 +132,7 @@ class ParticleCurve:
         return replace(found, material=self.material, population=self.population)
 
     def _dent_kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """Which surfaces have a dent that stays, whether it has a shaft, and its end, as a number."""
+        """Number that codes which surfaces keep a dent, whether it has a shaft, and its end."""
         out = np.zeros(spots.x.shape, np.intp)
         for side, ends in zip((0, 1), self._deepest, strict=True):
             depth = self._depth_left(spots, side)
