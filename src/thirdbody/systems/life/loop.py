@@ -331,7 +331,7 @@ class Loop(ABC):
             out.matrix[place.start + kind, at] += numbers[mine] * self.volumes[mine]
 
     def add_passage(self, out: Rates, numbers: Array, *, pieces: Array) -> None:
-        """Pass particles of the pool through a gap, which makes them pieces, (J,) per one and time."""
+        """Pass particles of the pool through a gap that breaks them, (J,) per one and time."""
         pool = self.layout[self.pool]
         change = (pieces - np.eye(len(numbers))) * numbers
         out.matrix[pool, pool] += change
