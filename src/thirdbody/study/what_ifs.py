@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,7 @@ from ..contact.contact import Contact
 from ..errors import RangeWarning
 from ..quantities.record import Record
 from ..quantities.say import value_of
-
-if TYPE_CHECKING:
-    from .results import StudyResult
+from .whole import Study
 
 __all__ = ["WhatIf", "what_ifs_of_states"]
 
@@ -78,7 +76,7 @@ class _Ends(NamedTuple):
     code: str
 
 
-def what_ifs_of_states(result: StudyResult) -> tuple[WhatIf, ...]:
+def what_ifs_of_states(study: Study, states: Any, at: int) -> tuple[WhatIf, ...]:
     """What the load share of particles at one load of a study hangs on, the most first.
 
     Of contacts without particles, or where nearly the whole load is on them, it is the real area.
@@ -88,8 +86,11 @@ def what_ifs_of_states(result: StudyResult) -> tuple[WhatIf, ...]:
 
     Parameters
     ----------
-    result : StudyResult
-        Its `central` state counts.
+    study : Study
+    states : Equilibrium
+        Those of the study.
+    at : int
+        Number of the state that counts.
 
     Returns
     -------
@@ -97,15 +98,14 @@ def what_ifs_of_states(result: StudyResult) -> tuple[WhatIf, ...]:
         Empty where a state takes so long that nobody would wait: with particles that break, of
         studies of a connector or a plate, which have commands of their own.
     """
-    study = result.study
-    contact, at = study.contact.replace(outputs=()), result.central
+    contact = study.contact.replace(outputs=())
     own = study.connector is not None or study.plate is not None
     if own or any(each.strength is not None for each in contact.populations):
         return ()
-    pressure = float(result.states.pressure[at])
+    pressure = float(states.pressure[at])
     if not pressure > 0:
         return ()
-    share = float(result.states.particle_load_share[at])
+    share = float(states.particle_load_share[at])
     of = "A_t" if contact.two_body or share > SATED else "particle_load_share"
     ends = list(_ends(contact, study.uncertainty.inputs if study.uncertainty else {}))
     found = _at_ends(contact, pressure, ends, of)
