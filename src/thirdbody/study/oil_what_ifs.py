@@ -69,13 +69,13 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
     contact, film = study.contact, study.film
     if film is None or any(each.strength is not None for each in contact.populations):
         return ()
-    ends: list[tuple[str, str, str, str, tuple[Study, Study]]] = [
+    ends: list[tuple[str, str, str, str, tuple[Study, ...]]] = [
         (
             "the number of particles",
             "half and twice as many, one class of ISO 4406 each way",
             "count your oil, and what it is that was counted",
             "number",
-            tuple(_with_number(study, factor) for factor in (1 / TWICE, TWICE)),  # type: ignore[arg-type]
+            tuple(_with_number(study, factor) for factor in (1 / TWICE, TWICE)),
         ),
         (
             f"the viscosity at the inlet, {value_of(film.oil.eta, 'Pa s', 3)}",
@@ -85,7 +85,7 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
             tuple(
                 replace(study, film=film.replace(oil=film.oil.replace(eta=film.oil.eta * factor)))
                 for factor in (1 / VISCOSITY, VISCOSITY)
-            ),  # type: ignore[arg-type]
+            ),
         ),
     ]
     for i, part in enumerate(found.populations):
@@ -96,7 +96,7 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
                 f"{value_of(low, 'Pa', 3)} and {value_of(high, 'Pa', 3)}",
                 "find out what the particles are",
                 f"particles.{i}.material.H",
-                tuple(_with_hardness(study, i, H) for H in (low, high)),  # type: ignore[arg-type]
+                tuple(_with_hardness(study, i, H) for H in (low, high)),
             )
         )
     out = []

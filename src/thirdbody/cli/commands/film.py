@@ -134,7 +134,7 @@ class _Found(NamedTuple):
 
 def _data(found: _Found) -> dict[str, Any]:
     oils = {"oil": found.oil, "oil_filtered": found.filtered}
-    out = {name: each.to_dict() for name, each in oils.items() if each is not None}
+    out: dict[str, Any] = {name: each.to_dict() for name, each in oils.items() if each is not None}
     if found.what_ifs:
         out["what_ifs"] = [each.to_dict() for each in found.what_ifs]
     return found.result.to_dict() | out
