@@ -142,6 +142,7 @@ class ParticleCurve:
 
     def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
         dents = self.contact.outputs[-1]
+        assert isinstance(dents, Dents)
         with np.errstate(all="ignore"):
             return dents._dent_left(spots, side, self.contact).depth
 
@@ -259,7 +260,7 @@ class SurvivalCurve:
 
     def __init__(self, curve: ParticleCurve, strength: WeibullStrength, scale: float):
         self.average, self.lowest = curve.average, curve.lowest
-        self.breakage = Breakage.of(strength, curve.material, scale)
+        self.breakage = Breakage.of_material(strength, curve.material, scale)
         self.tension = self.breakage.tension(curve.one)
         low = self.average.sizes.support[0]
         kinks = [float(eps) for eps in self.tension.kinks]
@@ -287,7 +288,7 @@ class SurvivalCurve:
         eps = np.maximum(delta, 0.0) / x
         stress = np.zeros_like(eps)
         pressed = eps > 0
-        stress[pressed] = self.tension.met(eps[pressed])
+        stress[pressed] = self.tension.greatest_so_far(eps[pressed])
         return np.sum(number * (1 - self.breakage.survival(x, stress)), axis=1)
 
     def __call__(self, gap: Array) -> Array:
