@@ -93,7 +93,7 @@ def draw_map():
     for i, name in enumerate(NAMES):
         grain = tb.materials[name]
         hardness = np.geomspace(0.5e9, min(grain.H, 12e9), 121)
-        breakage = Breakage.of(tb.WeibullStrength.of(grain), grain, 1.0)
+        breakage = Breakage.of_material(tb.WeibullStrength.of(grain), grain, 1.0)
         sizes = []
         for H in hardness:
             body = BEARING.replace(H=float(H))

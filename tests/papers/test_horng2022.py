@@ -94,10 +94,10 @@ def test_loads_named_in_the_claims_lie_on_the_grid():
 )
 def test_rules(rule, good, bad):
     claim = Claim("T", "", "", "", "", {}, "", rule)
-    assert all(claim.judge(Measurement.of(value)).word == "pass" for value in good)
-    assert all(claim.judge(Measurement.of(value)).word == "fail" for value in bad)
+    assert all(claim.judge(Measurement.from_values(value)).word == "pass" for value in good)
+    assert all(claim.judge(Measurement.from_values(value)).word == "fail" for value in bad)
     assert claim.judge(Measurement.absent("none")).word == "not reproduced"
-    assert claim.judge(Measurement.of(float("inf"))).word == "not reproduced"
+    assert claim.judge(Measurement.from_values(float("inf"))).word == "not reproduced"
 
 
 # ------------------------------------------------------------------ what a curve says

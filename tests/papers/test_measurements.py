@@ -110,7 +110,7 @@ def test_a_band_is_met_lost_or_undecided():
             STANDINGS[0],
             "q",
             {"kind": "range", "value": [1.0, 2.0]},
-            lambda: Band.of(values),
+            lambda: Band.from_values(values),
             undecided=undecided,
         )
         return one.judge().word

@@ -26,9 +26,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from ..errors import InvalidValue, NoEquilibrium, NoTransition, ranked
+from ..errors import InvalidValue, NoEquilibrium, NoTransition, in_study, note_of, ranked
 from ..quantities.say import plural
-from ..quantities.study_words import in_study_words
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
 if TYPE_CHECKING:
@@ -170,14 +169,14 @@ def complain(sentences: Iterable[str]) -> None:
     """Errors, a line each; the exit status tells of them where nothing can be written."""
     with contextlib.suppress(OSError):
         for sentence in sentences:
-            for line in in_study_words(sentence).splitlines():
+            for line in in_study(sentence).splitlines():
                 print(_wrap_line(f"error: {line}"), file=sys.stderr)
 
 
 def warn(message: Warning | str, *_: object, **__: object) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
     WARNINGS.set(WARNINGS.get() + 1)
-    sentence = in_study_words(" ".join(str(message).split()))
+    sentence = " ".join(in_study(note_of(message)).split())
     print(_wrap_line(f"warning: {sentence}"), file=sys.stderr)
 
 

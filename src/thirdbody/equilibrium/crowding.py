@@ -73,7 +73,7 @@ def chi_of(contact: Contact) -> float:
 
 
 def crowded(contact: Contact, A_t: Array) -> NDArray[np.bool_]:
-    """Which real areas (N,) are more than a model that counts contacts one by one can mean.
+    """Mask of real areas (N,) too large for a model that counts contacts one by one.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def crowded_places(contact: Contact, A_t: Array, load: Array) -> tuple[float, st
 
 
 def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list[Note]:
-    """What states whose real area reaches this leave out; ``chi`` of contacts that differ."""
+    """Notes on the real area reached by states; ``chi`` of contacts that differ."""
     out: list[Note] = []
     if not _counts_summits(contact):
         if most > MOST_AREA:

@@ -56,7 +56,7 @@ class AskedConnector:
 
 
 def _connector(reader: Reader, path: str, data: Any) -> Any:
-    """The contacts, as a table of what they are given."""
+    """The contacts of [connector], as a table of arguments."""
     keys = keys_of(Connector) | {
         "force": amounts("force", FORCE)._replace(required=True),
         "conducting": words(None, 'names of particles that conduct, or "by material"'),

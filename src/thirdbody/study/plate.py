@@ -48,7 +48,7 @@ class AskedPlate:
 
 
 def _plate(reader: Reader, path: str, data: Any) -> Any:
-    """The plate, as a table of what it is given."""
+    """The plate of [plate], as a table of arguments."""
     return reader.table(path, data, keys_of(Chuck) | {"grain": amounts("grain", GRAIN)})
 
 

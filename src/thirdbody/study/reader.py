@@ -10,7 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
@@ -18,7 +18,7 @@ from ..quantities.units import EXAMPLES, quantity_to_si, say
 from ..quantities.value import allowed_range, problem_with, unit_meant
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
-from .vocabulary import in_words, near
+from .vocabulary import near
 
 __all__ = [
     "ANYTHING",
@@ -143,7 +143,7 @@ class Table:
 
 
 def rivals(path: str, key: str) -> tuple[str, ...]:
-    """The other keys of a table that cannot stand beside this one."""
+    """Keys of a table that cannot stand beside this one."""
     for name, keys in ONE_OF.items():
         if name.partition(".")[0] == path and key in keys:
             return tuple(other for other in keys if other != key)
@@ -151,7 +151,7 @@ def rivals(path: str, key: str) -> tuple[str, ...]:
 
 
 class Reader:
-    """What reads the tables of one file, and keeps what is wrong with them.
+    """Reader of the tables of one file, which collects all mistakes.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ class Reader:
         keys: Mapping[str, Key],
         build: Callable[[dict[str, Any]], Any] = dict,
     ) -> Any:
-        """What is built from the values of a table with these keys and no others.
+        """Object built from a table with these keys and no others.
 
         Its mistakes are kept, and an empty `InvalidValue` says that there are some.
         """
@@ -312,7 +312,7 @@ def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
 def variants(
     tag: str, kinds: Mapping[str, type], about: str = "", *, required: bool = False
 ) -> Key:
-    """The key of a table that stands for one of several classes, which a word in it names."""
+    """Key of a table for one of several classes, chosen by a word in it."""
 
     def read(reader: Reader, path: str, data: Any) -> Any:
         return reader.variant(path, data, tag, kinds)
@@ -322,7 +322,7 @@ def variants(
 
 # -------------------------------------------------------------------------- keys of one value
 class Notes(Protocol):
-    """Who keeps what is to be said of a file."""
+    """Protocol of objects that collect notes on a file."""
 
     notes: list[str]
 
@@ -365,7 +365,7 @@ def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> 
         raise wrong(path, f"is not a finite number{allowed}", value)
     if why := problem_with(about, found):
         meant = "" if about["hint"] else f"; it is the {about['meaning']}"
-        raise wrong(path, in_words(why) + meant, value)
+        raise wrong(path, in_study(why) + meant, value)
     load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
     if likely := unit_meant(about, found, load=load):
         _refuse_slip(reader, path, value, f"{found:g} {about['unit']}", f"{found:g} {likely}")
@@ -473,7 +473,7 @@ def refused(why: str) -> Key:
 
 
 def _read_word_or_number(reader: Reader, path: str, value: Any) -> str | float:
-    """A word or a pure number; which ones, the object it is for knows."""
+    """A word or a pure number; the object checks which words it takes."""
     if isinstance(value, str) or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
     raise wrong(path, "must be a word in quotes or a number", value)

@@ -47,7 +47,7 @@ def study_schema() -> dict[str, Any]:
 
 
 class Describer(Reader):
-    """Walks through the tables of a file like a `Reader`, and says of each what it may hold.
+    """Walker through the tables of a file, as a `Reader`, that says what each may hold.
 
     ``table`` gives JSON Schema in the place of a value, and keeps the keys in ``known``.
     """
@@ -116,7 +116,7 @@ class Describer(Reader):
 
 
 def _any_of(ways: Iterable[dict[str, Any]]) -> dict[str, Any]:
-    """The schema of a value of which these are the ways to write it; tables become one."""
+    """Schema of a value that may be written in any of these ways; tables become one."""
     tables: list[dict[str, Any]] = []
     out: list[dict[str, Any]] = []
     for schema in _each_way(ways):

@@ -56,7 +56,7 @@ def bodies(result: FilmResult) -> str:
 
 
 def summary(result: FilmResult) -> list[str]:
-    """Where regimes change, what passes, and why there is no friction, a sentence each."""
+    """Sentences on regimes, on what passes, and on friction that is not known."""
     states = result.states
     out = [f"Lubrication is {', and '.join(_regimes(result))}."]
     ends = sorted({0, len(states["speed"]) - 1})

@@ -28,7 +28,7 @@ DROP = ("width", "mm²/pass", "deepest", "load")
 
 
 def answer(found: DirtyOil) -> list[str]:
-    """Which population dents, who carries, and what life is left: a sentence each."""
+    """Sentences on who dents, who carries, and the life that is left."""
     out = [_dents(found.populations, found.where), _carries(found)]
     if found.life is not None:
         out.append(_life(found.life))
@@ -36,7 +36,7 @@ def answer(found: DirtyOil) -> list[str]:
 
 
 def _dents(parts: Sequence[PopulationDents], where: str) -> str:
-    """Who dents most often and who deepest."""
+    """Sentence on who dents most often and who deepest."""
     if not any(each.per_hour > 0 for each in parts):
         return f"Nothing dents {where}: no particle of the oil is larger than the film and hard."
     often = max(parts, key=lambda each: each.per_hour)

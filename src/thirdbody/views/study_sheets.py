@@ -104,7 +104,7 @@ def _some_rows(grid: Grid) -> list[str | Grid]:
 
 
 def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
-    """A table for a reader: each column in the unit in which most of its values are read."""
+    """A table for readers, each column in the unit that suits most of its values."""
     drawn = [each.column(np.atleast_1d(values[each.name]).tolist()) for each in columns]
     return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))
 
@@ -131,7 +131,7 @@ def _critical_grid(result: StudyResult) -> Grid:
 
 
 def _output_grid(result: StudyResult) -> Grid:
-    """What the outputs say, under each load; of many under some."""
+    """Grid of the outputs under each load; of many loads, some."""
     states = result.states
     some = some_of(len(states.status), MOST_LOADS)
     rows = []
@@ -188,7 +188,7 @@ def _sheets(
 
 
 def _rows_of_study(result: StudyResult) -> list[Row]:
-    """Loads, bodies and the contact: what a study says, and what the library takes beside it."""
+    """Rows of loads, bodies and contact: inputs of the study, and assumed ones."""
     study = result.study
     about, name = LOADS[study.load], study.load
     values = study.values.tolist()
@@ -208,7 +208,7 @@ def _rows_of_study(result: StudyResult) -> list[Row]:
 
 
 def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
-    """A row an input: its number in the unit in which it is read."""
+    """Grid of inputs, a row each, in units that suit them."""
     lines = [
         (row.meaning, row.symbol, *_amount(row), "default" if row.default else "study", row.name)
         for row in rows

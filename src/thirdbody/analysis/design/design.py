@@ -419,7 +419,7 @@ def _band(
     """Where the first objective loses less than this part of it, between two places."""
     label = task.objectives[0].label
     value, own = best.costs[label], best.numbers[name]
-    among = task.variables[name].span.at(np.linspace(*places, GRID + 1))
+    among = task.variables[name].span.values_at(np.linspace(*places, GRID + 1))
     grid = np.unique(np.append(among, own))
     place = int(np.searchsorted(grid, own))
 

@@ -37,7 +37,7 @@ MOST_SAMPLES = 256
 
 
 def most_samples(contact: Contact, vary: Iterable[str]) -> int:
-    """Samples that a report takes at most: few where each takes tables of its own."""
+    """Largest number of samples of a report; small where each sample needs tables."""
     return LEAST if costly(contact, vary) else MOST_SAMPLES
 
 
