@@ -14,6 +14,7 @@ from .explicit.ensemble import Ensemble
 from .explicit.state import ExplicitState
 from .study.results import FilmResult, StudyResult
 from .systems.coupled import Coupled, CoupledState
+from .systems.life.history import LifeHistory
 from .systems.mixed_film import MixedFilm
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "Equilibrium",
     "ExplicitState",
     "FilmResult",
+    "LifeHistory",
     "MixedFilm",
     "Propagation",
     "Sensitivity",

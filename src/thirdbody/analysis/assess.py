@@ -40,9 +40,10 @@ from .assessment import (
     unit_of,
 )
 from .attempts import columns_tried
+from .differences import QUICK
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
-from .sensitivity import sensitivity
+from .sensitivity import moves, sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
 from .uncertainty.propagation import Propagation, certain, propagate, swing
 from .uncertainty.samples import (
@@ -266,7 +267,7 @@ class _Work:
         contact, inputs = carrying(contact, drawn.points(points_of(few, len(vary), 0, 0)))
         loads = inputs.pop(load, np.full(few, held[0]))
         seconds = math.inf
-        for _ in range(2 if alone else 3):  # by the first the engine may be loaded
+        for _ in range(2):  # by the first the engine may be loaded
             start = time.monotonic()
             try:
                 if not alone:
@@ -456,13 +457,12 @@ def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
         return out
 
     def slopes(some: list[str]) -> dict[str, float]:
-        quick = costly(found.contact, some)
-        of = sensitivity(found.contact, of=decisive, to=some, quick=quick)
+        of = sensitivity(found.contact, of=decisive, to=some, quick=True)
         found_here = of.elasticity[decisive]
         return {label: float(found_here[label]) for label in some}
 
     try:
-        return slopes(labels)
+        return out | slopes([label for label in labels if moves(found.contact, label, QUICK)])
     except InvalidValue:  # one of them has none
         for label in labels:
             with suppress(InvalidValue):

@@ -238,13 +238,13 @@ def _default_inputs(contact: Contact) -> list[str]:
         else:
             key = name
         groups.setdefault(key, []).append(name)
-    return [label for names in groups.values() if _moves(contact, label := "+".join(names))]
+    return [label for names in groups.values() if moves(contact, label := "+".join(names))]
 
 
-def _moves(contact: Contact, label: str) -> bool:
+def moves(contact: Contact, label: str, rule: Rule = FULL) -> bool:
     """Whether an input may change: not so the height of a seat that has none."""
     try:
-        _room(contact, input_of(contact, label, TO), FULL.steps[0])
+        _room(contact, input_of(contact, label, TO), rule.steps[0], rule.reach)
     except InvalidValue:
         return False
     return True

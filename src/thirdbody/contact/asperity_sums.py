@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from functools import lru_cache, partial, singledispatch
+from functools import cached_property, lru_cache, partial, singledispatch
 from typing import Any
 
 import numpy as np
@@ -190,7 +190,11 @@ class GaussianSum(ReducedSum):
         super().__init__(law, heights, w)
         self.rule = gaussian_rule(law, math.frexp(w)[1] - 1)
         self.t = w * self.rule.y
-        self.table = PiecewiseChebyshev(partial(self.rule.sums, w), self.SPAN, kinds=self.KINDS)
+
+    @cached_property
+    def table(self) -> PiecewiseChebyshev:
+        """The sums without exp(−h²/2), as functions of h."""
+        return PiecewiseChebyshev(partial(self.rule.sums, self.w), self.SPAN, kinds=self.KINDS)
 
     def _sums(self, h: Array) -> tuple[Array, Array]:
         """The sums (N, 6), and their common factor (N, 1)."""

@@ -45,6 +45,13 @@ class AskedConnector:
     forces: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+    table = "connector"
+    """The table of the study file."""
+
+    @property
+    def part(self) -> Connector:
+        """What the table describes."""
+        return self.connector
 
     def pressure(self, E: float) -> float:
         """Mean Hertz pressure of the smooth clean contacts under the first force [Pa].

@@ -45,6 +45,13 @@ class AskedPlate:
     grains: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+    table = "plate"
+    """The table of the study file."""
+
+    @property
+    def part(self) -> Chuck:
+        """What the table describes."""
+        return self.chuck
 
 
 def _plate(reader: Reader, path: str, data: Any) -> Any:

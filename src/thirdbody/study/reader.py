@@ -10,7 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from ..errors import InvalidValue, Problem, in_study
+from ..errors import InvalidValue, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
@@ -65,6 +65,8 @@ LIMITS = {
 }
 """Limits of a quantity as JSON Schema calls them; of a number, which is in SI, not of text."""
 ANYTHING: dict[str, Any] = {}
+SLIP = "unit of "
+"""How codes of notes on numbers begin whose unit looks like a slip."""
 NOTHING: dict[str, Any] = {"enum": []}
 """What JSON Schema says of a key under which all, or nothing, can stand."""
 
@@ -379,10 +381,9 @@ def _refuse_slip(reader: Notes, path: str, value: Any, taken: str, meant: str) -
     else:
         has_unit = re.fullmatch(r"[\d\s.+-]*([eE][+-]?\d+)?\s*", value) is None
     if has_unit:
-        reader.notes.append(
-            f"{path} = {say(value)} is taken as {taken}: check its unit (upper and lower "
-            "case matter)"
-        )
+        what = f"{path} = {say(value)} is taken as {taken}"
+        action = "check its unit (upper and lower case matter)"
+        reader.notes.append(Note(what, code=SLIP + path, action=action))
         return
     rule = f"has no unit, so it would be {taken}, which is not plausible"
     any_value = f'With its unit any value is taken: "{taken}"'

@@ -24,6 +24,7 @@ from ..systems.mixed_film import COLUMNS
 from ..systems.stribeck import RegimeSpeeds
 from ..version import __version__
 from .load import force_sentences
+from .what_ifs import WhatIf, what_ifs_of_states
 from .whole import Study
 
 SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"
@@ -105,6 +106,21 @@ class StudyResult(_Result):
     def solved_states(self) -> list[int]:
         """Numbers of the states that have an equilibrium."""
         return np.flatnonzero(self.states.status == "ok").tolist()
+
+    @property
+    def central(self) -> int:
+        """Number of the state that stands for all: of forces the first, else the middle load."""
+        if self.forces:
+            return self.solved_states[0]
+        known = sorted(self.solved_states, key=lambda i: float(self.states.pressure[i]))
+        return known[(len(known) - 1) // 2]
+
+    @cached_property
+    def what_ifs(self) -> tuple[WhatIf, ...]:
+        """What the answer hangs on at the central state, the most first."""
+        if not self.solved_states:
+            return ()
+        return what_ifs_of_states(self.study, self.states, self.central)
 
     def need_state(self) -> None:
         """Refuse a result without a single state.

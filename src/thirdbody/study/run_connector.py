@@ -15,10 +15,11 @@ from ..quantities.plain_data import plain_data
 from ..quantities.record import column
 from ..quantities.say import number, percent
 from ..systems.connector import Connector
+from .asked_result import AskedResult
 from .connector import AskedConnector, connector_of
 from .overrides import override
 from .toml import read
-from .what_if import HARDNESS, AskedResult, WhatIf
+from .what_ifs import HARDNESS, WhatIf
 from .whole import read_tables
 
 __all__ = ["ConnectorResult", "load_connector", "run_connector"]

@@ -18,10 +18,11 @@ from ..quantities.say import percent, value_of
 from ..systems.chuck import Chuck
 from ..systems.connector import name_of
 from ..systems.plate_over_particle import THIN, Bump
+from .asked_result import AskedResult
 from .overrides import override
 from .plate import AskedPlate, plate_of
 from .toml import read
-from .what_if import HARDNESS, AskedResult, WhatIf
+from .what_ifs import HARDNESS, WhatIf
 from .whole import read_tables
 
 __all__ = ["PlateResult", "load_plate", "run_plate"]

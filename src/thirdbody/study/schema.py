@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from .life import LIFE
 from .mistakes import Known
 from .reader import Key, Reader, ReadOne, get, keys_of, tag_key
 from .tables import TABLES
@@ -34,7 +35,7 @@ def study_schema() -> dict[str, Any]:
     Examples
     --------
     >>> schema = study_schema()
-    >>> schema["required"]
+    >>> schema["else"]["required"]  # where there is no [life], an oil without a contact
     ['surfaces', 'roughness']
     >>> schema["properties"]["explicit"]["properties"]["size"]["maximum"]
     4096
@@ -43,6 +44,9 @@ def study_schema() -> dict[str, Any]:
     describer.every_way = True
     keys = {table.name: table.key for table in TABLES}
     schema = describer.table("", {}, keys)
+    # an oil without a contact needs no surfaces
+    contact = {"required": schema.pop("required")}
+    schema |= {"if": {"required": [LIFE.name]}, "then": {}, "else": contact}
     return {"$schema": DRAFT, "title": "A study file of thirdbody"} | schema
 
 

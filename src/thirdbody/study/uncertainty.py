@@ -12,7 +12,7 @@ from .inputs import Input, inputs_of
 from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
 from .vocabulary import LOADS
 
-__all__ = ["UNCERTAINTY", "field_of_input"]
+__all__ = ["UNCERTAINTY", "field_of_input", "read_uncertain"]
 
 
 def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
@@ -27,7 +27,9 @@ def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
     def one(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Uncertain]:
         label, entry = told
         found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
-        return "+".join(name for name, _ in found), _uncertain(reader, where, found[0][1], entry)
+        return "+".join(name for name, _ in found), read_uncertain(
+            reader, where, found[0][1], entry
+        )
 
     ranges = _ranges(given).items()
     return dict(
@@ -77,7 +79,7 @@ def field_of_input(
     raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
 
 
-def _uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
+def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
     """One distribution; its keys decide which."""
     given = dict(entry) if isinstance(entry, dict) else {}
     spacing = given.pop("spacing", None)

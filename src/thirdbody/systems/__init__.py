@@ -10,6 +10,7 @@ from . import feedback as feedback
 from . import film_conditions as film_conditions
 from . import fractal as fractal
 from . import interaction as interaction
+from . import life as life
 from . import load_sharing as load_sharing
 from . import mixed_film as mixed_film
 from . import oil_filter as oil_filter
@@ -29,6 +30,7 @@ __all__ = [
     "film_conditions",
     "fractal",
     "interaction",
+    "life",
     "load_sharing",
     "mixed_film",
     "oil_filter",

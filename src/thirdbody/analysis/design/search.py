@@ -243,7 +243,8 @@ class Task:
 
         def solve(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
             some = {name: values[which] for name, values in vary.items()}
-            return state_columns(contact, vary=some or None, **as_load(self.load, loads[which]))
+            given = as_load(self.load, loads[which])
+            return state_columns(contact, vary=some or None, fewest=1, **given)
 
         try:
             return columns_tried(solve, count)

@@ -47,7 +47,7 @@ START = (
     "The study asks for no output: these need no number of their own. Switch on what is to stay "
     "in the study."
 )
-BEGUN = (tb.outputs.Counts(), tb.outputs.ThermalConductance())
+BEGUN: tuple[AbstractOutput, ...] = (tb.outputs.Counts(), tb.outputs.ThermalConductance())
 """Outputs that are shown where the study asks for none."""
 WIDE_FROM = 30
 """Largest value over smallest from which an axis is logarithmic."""

@@ -1,51 +1,16 @@
-"""Answers of studies that solve no contact: their table, and what the answer hangs on."""
+"""Results of studies that solve no contact: a table, and what the answer hangs on."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from ..quantities.plain_data import plain_data
-from ..quantities.record import MappedRecord, Record, declared_columns
+from ..quantities.record import MappedRecord, declared_columns
 from ..version import __version__
+from .what_ifs import WhatIf
 
-__all__ = ["AskedResult", "WhatIf"]
-
-HARDNESS = 1.2
-"""What hardness may be off by, as a factor."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class WhatIf(Record):
-    """Answer if one input were otherwise."""
-
-    what: str
-    """What is uncertain, in words."""
-    values: tuple[float, ...]
-    """What the answer is at the ends."""
-    between: str
-    """From what to what it is changed."""
-    action: str
-    """What to do about it."""
-    code: str = ""
-    """What it is about, where others look for it."""
-
-    @property
-    def low(self) -> float:
-        """The least of the answers."""
-        return min(self.values)
-
-    @property
-    def high(self) -> float:
-        """The largest."""
-        return max(self.values)
-
-    @property
-    def ratio(self) -> float:
-        """The largest over the least."""
-        return self.high / self.low if self.low > 0 else np.inf if self.high > 0 else 1.0
+__all__ = ["AskedResult"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
