@@ -1,6 +1,7 @@
 """``thirdbody life``: an oil over time from the shell, and what reports of it say."""
 
 import csv
+import dataclasses
 import json
 from pathlib import Path
 
@@ -12,6 +13,9 @@ import thirdbody as tb
 from thirdbody import cli
 from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
 from thirdbody.systems.life.sizing import least_flow
+from thirdbody.views.html import words as words_in_html
+from thirdbody.views.life_words import answer
+from thirdbody.views.report import report
 
 HOUR = 3600.0
 
@@ -274,3 +278,12 @@ def test_the_book_shows_what_is_printed():
     shown = text.split("```text\n")[1].split("```")[0]
     printed = [line.rstrip() for line in run("life", "oil-circuit.toml").stdout.splitlines()]
     assert shown.splitlines() == printed[2:]
+
+
+def test_the_report_has_a_page_on_the_oil():
+    study = tb.load_study("oil-circuit.toml")
+    page = report(study).html()
+    assert "<h2>The oil over time</h2>" in page or "The oil over time" in page
+    assert words_in_html(answer(run_life(study.life))[0]) in page
+    other = tb.load_study("oil-circuit.toml", ["title=another"])
+    assert "The oil over time" not in report(dataclasses.replace(other, life=None)).html()

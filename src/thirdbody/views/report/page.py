@@ -27,6 +27,7 @@ from .tables import (
     critical_section,
     explicit_section,
     film_section,
+    life_section,
     oil_section,
     outputs_section,
     states_table,
@@ -84,6 +85,8 @@ class Report(Found):
         it could not be.
     oil, oil_filtered : DirtyOil or None
         What the particles of the oil do, before and after a filter.
+    life : LifeResult or None
+        The oil over time.
     """
 
     def sentences(self) -> tuple[str, ...]:
@@ -101,6 +104,7 @@ class Report(Found):
             ),
             *_warnings(self),
             *oil_section(self),
+            *life_section(self),
             *film_section(self),
             section("Figures", figures_of(self), name="figures"),
             section("States", states_table(self), name="states"),
