@@ -360,7 +360,7 @@ def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
         return FACTOR
     parent, _, last = name.rpartition(".")
     try:
-        owner, number_of_it = circuit.part(parent), circuit.part(name)
+        owner, number_of_it = circuit.value_at(parent), circuit.value_at(name)
     except InvalidValue:
         return None
     fields = getattr(owner, "__dataclass_fields__", {})

@@ -301,4 +301,3 @@ def coverage(loop: Loop, y: Array) -> float:
     eta = loop.present(y, loop.find_gap(y).d if loop.pool == "oil" else 0.0)
     squares = np.tile(loop.tables.classes.mean_power(2), loop.kinds)
     return float(np.pi / 4 * (eta @ squares))
-

@@ -108,11 +108,7 @@ class ParticleCurve:
         self.one = law.one(surfaces=contact.surfaces, particle=material)
         self.average = size_average(self.one, sizes)
         self.splits = sorted(
-            {
-                eps
-                for output in outputs
-                for eps in _splits(output, law, contact.surfaces, material)
-            }
+            {eps for output in outputs for eps in _splits(output, law, contact.surfaces, material)}
         )
         self.lowest = min(lowest, self.average.bottom, 0.0)
         self.splits += changes(self._probe, self._dent_kinds)
@@ -146,6 +142,7 @@ class ParticleCurve:
 
     def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
         dents = self.contact.outputs[-1]
+        assert isinstance(dents, Dents)
         with np.errstate(all="ignore"):
             return dents._dent_left(spots, side, self.contact).depth
 
@@ -263,7 +260,7 @@ class SurvivalCurve:
 
     def __init__(self, curve: ParticleCurve, strength: WeibullStrength, scale: float):
         self.average, self.lowest = curve.average, curve.lowest
-        self.breakage = Breakage.of(strength, curve.material, scale)
+        self.breakage = Breakage.of_material(strength, curve.material, scale)
         self.tension = self.breakage.tension(curve.one)
         low = self.average.sizes.support[0]
         kinks = [float(eps) for eps in self.tension.kinks]
@@ -291,7 +288,7 @@ class SurvivalCurve:
         eps = np.maximum(delta, 0.0) / x
         stress = np.zeros_like(eps)
         pressed = eps > 0
-        stress[pressed] = self.tension.met(eps[pressed])
+        stress[pressed] = self.tension.greatest_so_far(eps[pressed])
         return np.sum(number * (1 - self.breakage.survival(x, stress)), axis=1)
 
     def __call__(self, gap: Array) -> Array:
@@ -302,9 +299,7 @@ class SurvivalCurve:
         return out
 
 
-def local_gaps(
-    mean_gap: Array, *, widths: Array, kinks: Array, top: float
-) -> tuple[Array, Array]:
+def local_gaps(mean_gap: Array, *, widths: Array, kinks: Array, top: float) -> tuple[Array, Array]:
     """Gauss nodes in the local gap for seats of some widths about mean gaps, and their weights.
 
     Panels end at the kinks and are at most 1.5 of the smallest width; all lengths in one unit.

@@ -20,7 +20,7 @@ from ...study.run_life import LifeResult
 
 @dataclass(frozen=True, kw_only=True)
 class Found:
-    """What a study found; every attribute as `Report` lists it."""
+    """Results of a study; every attribute as `Report` lists it."""
 
     study: Study
     result: StudyResult = field(repr=False)
