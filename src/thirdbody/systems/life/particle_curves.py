@@ -263,7 +263,7 @@ class SurvivalCurve:
 
     def __init__(self, curve: ParticleCurve, strength: WeibullStrength, tops: Array):
         self.average, self.lowest = curve.average, curve.lowest
-        self.breakages = [Breakage.of(strength, curve.material, float(top)) for top in tops]
+        self.breakages = [Breakage.of_material(strength, curve.material, float(top)) for top in tops]
         self.tension = self.breakages[0].tension(curve.one)
         low = self.average.sizes.support[0]
         kinks = [float(eps) for eps in self.tension.kinks]
@@ -293,7 +293,7 @@ class SurvivalCurve:
         eps = np.maximum(delta, 0.0) / x
         stress = np.zeros_like(eps)
         pressed = eps > 0
-        stress[pressed] = self.tension.met(eps[pressed])
+        stress[pressed] = self.tension.greatest_so_far(eps[pressed])
         broken = [np.sum(number * (1 - b.survival(x, stress)), axis=1) for b in self.breakages]
         return np.stack(broken, axis=1)
 
