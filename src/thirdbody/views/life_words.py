@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..quantities.say import join_words, number, percent, value_of
+from ..systems.life.contact_history import ContactHistory, SteadyContact
 from ..systems.life.sizing import least_flow
 
 if TYPE_CHECKING:
     from ..study.run_life import LifeResult
-    from ..systems.life.history import LifeHistory
+    from ..systems.life.history import LifeHistory, SteadyOil
     from ..systems.life.reports import OilReports
 
 __all__ = [
@@ -97,7 +99,7 @@ def answer(found: LifeResult) -> list[str]:
     if stopped := _stop(found):
         out[0] = f"{stopped}: the oil has gone from {history.codes[0]} to {history.codes[-1]}."
     out += [_tends(history)]
-    if history.births is not None:
+    if isinstance(history, ContactHistory):
         said = breeding(history.R0)
         out.append(f"{said[0].upper()}{said[1:]}.")
     out.append(_largest_flows(history))
@@ -115,7 +117,9 @@ def _stop(found: LifeResult) -> str:
 
 def _tends(history: LifeHistory) -> str:
     """What the oil comes to, and how soon."""
-    steady = history.steady()
+    steady: Sequence[SteadyOil | SteadyContact] = history.steady()
+    if isinstance(history, ContactHistory):
+        steady = history.steady_with_contact() or history.steady()
     if not steady:
         return "It comes to no state in which it no longer changes."
     if "-" not in steady[0].code:

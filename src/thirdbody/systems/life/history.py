@@ -130,7 +130,7 @@ class LifeHistory(Record):
     # -------------------------------------------------------------------------- what it tends to
     def steady(self) -> tuple[SteadyOil, ...]:
         """The states in which the oil no longer changes; one, stable, without a contact."""
-        numbers = self.circuit.steady()
+        numbers = self.terms.steady
         classes = self.terms.classes
         leaving = (self.terms.loss + self.terms.growth) / self.circuit.volume
         counts = classes.above(counted_sizes()[:1])[0] > 0
