@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
-    *("answer", "band_words", "breeding", "duration_of", "events", "facts", "flow_of"),
+    *("answer", "band_words", "duration_of", "events", "facts", "flow_of"),
     *("last_words", "least_flow_words", "mass_of", "report_answer", "report_rows", "rows"),
 ]
 
@@ -34,8 +34,6 @@ REPORT_MEANS = {
 MINUTE, HOUR, DAY, YEAR = 60.0, 3600.0, 86400.0, 365.25 * 86400
 ENDS = ((2 * MINUTE, 1.0, "s"), (2 * HOUR, MINUTE, "min"), (20_000 * HOUR, HOUR, "h"))
 NEVER = "for ever"
-MATTERS, RUNS_AWAY = 0.3, 1.0
-"""R₀ from which debris matters, and from which nothing holds it."""
 LARGEST_FLOWS = 3
 
 
@@ -75,22 +73,6 @@ def flow_of(kilograms_per_second: float) -> str:
     return f"{mass_of(kilograms_per_second * HOUR)}/h"
 
 
-def breeding(R0: float) -> str:
-    """What one particle of debris breeds, in a sentence.
-
-    >>> breeding(7e-5)
-    'one particle of debris breeds 7×10⁻⁵ others before it is removed: wear does not feed itself'
-    >>> breeding(1.2)
-    'one particle of debris breeds 1.2 others before it is removed: wear feeds itself'
-    """
-    verdict = "wear does not feed itself"
-    if R0 >= RUNS_AWAY:
-        verdict = "wear feeds itself"
-    elif R0 > MATTERS:
-        verdict = "debris matters, so its hardness and sizes decide"
-    return f"one particle of debris breeds {number(R0, 3)} others before it is removed: {verdict}"
-
-
 def answer(found: LifeResult) -> list[str]:
     """How dirty the oil becomes, what it tends to, and where most of its dirt goes."""
     history = found.history
@@ -100,7 +82,7 @@ def answer(found: LifeResult) -> list[str]:
         out[0] = f"{stopped}: the oil has gone from {history.codes[0]} to {history.codes[-1]}."
     out += [_tends(history)]
     if isinstance(history, ContactHistory):
-        said = breeding(history.R0)
+        said = history.reproduction
         out.append(f"{said[0].upper()}{said[1:]}.")
     out.append(_largest_flows(history))
     return out
