@@ -20,7 +20,7 @@ from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import varied
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import Stages, counted, solving
 from ..quantities.say import percent, value_of
@@ -322,7 +322,7 @@ def _own_state(contact: Contact, load: str, value: float) -> _Own | NoEquilibriu
             state = solve(contact, **as_load(load, value))
         except NoEquilibrium as error:
             return error
-    told = dict.fromkeys(str(item.message) for item in heard)
+    told = dict.fromkeys(note_of(item.message) for item in heard)
     notes = [f"Warning: {text}." for text in told]
     return _Own(str(state.mode), notes + about_fragments(contact, as_load(load, value)))
 
@@ -491,7 +491,7 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tupl
     steps, stops = _departures(pages, every)
 
     def alone(way: Way) -> bool:
-        start = {name: float(v) for name, v in every[way][0].at([steps[way][0]]).items()}
+        start = {name: float(v) for name, v in every[way][0].moved_numbers([steps[way][0]]).items()}
         return costly(varied(one.contact, start), start)
 
     halved = {way for way in steps if alone(way)}
@@ -552,11 +552,11 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int
     if start > 0:
         values = start * np.geomspace(1.0, FAR**side, COARSE)
     else:
-        ends = np.array([known.at(0.0), known.at(1.0)])
+        ends = np.array([known.quantile(0.0), known.quantile(1.0)])
         values = np.linspace(start, start + side * (np.ptp(ends) + np.abs(ends).max()), COARSE)
 
     def fits(value: float) -> bool:
-        at = moved.at((value - moved.values[0]) / moved.scales[0])
+        at = moved.numbers_at((value - moved.values[0]) / moved.scales[0])
         return all(
             problem_with(declared(contact, name), float(v)) is None for name, v in at.items()
         )
@@ -587,7 +587,7 @@ def _departures(
     pieces = [slice(*pair) for pair in itertools.pairwise(ends.tolist())]
     vary: dict[str, Array] = {}
     for (drawn, values), piece in zip(ways.values(), pieces, strict=True):
-        for name, moved in drawn.at([values]).items():
+        for name, moved in drawn.moved_numbers([values]).items():
             vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = moved
     loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
 

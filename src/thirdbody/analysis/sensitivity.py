@@ -191,15 +191,17 @@ class Sensitivity(Record):
             raise InvalidValue(*problems)
 
         def one(of: str, i: int | None) -> Any:
-            def at(value: Any) -> float:
+            def as_float(value: Any) -> float:
                 return float(value if i is None or np.ndim(value) == 0 else value[i])
 
-            slopes = [(at(self.derivative[of][label]), given) for label, given in vary.items()]
+            slopes = [
+                (as_float(self.derivative[of][label]), given) for label, given in vary.items()
+            ]
             if unknown := [label for label, (slope, _) in zip(vary, slopes, strict=True)
                            if not math.isfinite(slope)]:  # fmt: skip
                 told = self.status[of][unknown[0]]
                 raise InvalidValue(f"{of} has no slope to {unknown[0]}: {told}")
-            return shifted(at(self.value[of]), slopes)
+            return shifted(as_float(self.value[of]), slopes)
 
         return {
             of: one(of, None) if np.ndim(value) == 0 else [one(of, i) for i in range(len(value))]

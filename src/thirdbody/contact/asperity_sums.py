@@ -58,7 +58,7 @@ def regimes(law: AbstractAsperityLaw, y: Array) -> NDArray[np.intp]:
 
 
 class ReducedSum(ABC):
-    """One law over heights, lengths in σ_s: what its subclasses, made for kinds of heights, share.
+    """Base of sums of one law over heights, lengths in σ_s.
 
     With w = ω_1/σ_s it holds ∫f(t/w) φ(h+t) dt and ∫a(t/w) φ(h+t) dt at separations h; equal
     laws, heights and w share one table, whatever the surface.
@@ -421,7 +421,7 @@ class AsperitySum:
 
 
 class MixedSum:
-    """Elliptic asperities of several shapes: an `AsperitySum` for each, with its own R_g and η."""
+    """Sum over elliptic asperities of several shapes: an `AsperitySum` each, with its R_g and η."""
 
     def __init__(
         self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float

@@ -234,7 +234,7 @@ class SizeAverage:
         return gaps, weights, values
 
     def gaps(self, width: float, splits: Sequence[float] = ()) -> tuple[Array, Array, Array]:
-        """As `nodes` without the tables: gaps, x_max − gap, weights (M,); relative error 1e-9.
+        """Nodes without tables: gaps, x_max − gap, weights (M,); relative error 1e-9.
 
         ``splits`` are more values of ε at which sums over gaps have a kink.
         """
@@ -261,14 +261,14 @@ class SizeAverage:
         return self.top - rise[::-1], rise[::-1], weights[::-1]
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
-        """Every particle squeezed in gaps (N,) under which they rest on a plane."""
+        """Spots of all particles squeezed in gaps (N,), resting on a plane."""
         found = self.spots_in(gap[:, None], self.top - gap[:, None], splits, None, 1.0)
         return self.laid_out(found, gap)
 
     def laid_out(
         self, spots: ParticleSpots, gaps: Array, means: Array | None = None, width: float = 0.0
     ) -> ParticleSpots:
-        """Spots that know the sizes and gaps they stand for; of pieces nothing is known."""
+        """Spots with their sizes and gaps, for whole particles only."""
         if spots.parents is not None:
             return spots
         layout = Layout(sizes=self.sizes, x=spots.x, gaps=gaps, means=means, width=width)
@@ -282,7 +282,7 @@ class SizeAverage:
         share: Array | None,
         weight: Array | float,
     ) -> ParticleSpots:
-        """Every particle in gaps (M, 1), each gap as often as its weight says."""
+        """Spots of all particles in gaps (M, 1), each gap counted with its weight."""
         x, delta, number = _counted(*self.of_sizes(gap, rise, splits, SIZE_NODES))
         return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
 

@@ -158,7 +158,7 @@ class Shares:
             )
         return out
 
-    def at(self, t: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
+    def logarithms_at(self, t: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
         """ln A_sa/A_ss, ln F_sa/F_ss and ln F* of contacts ``which`` (M,) at t (M,)."""
         A_sa, A_ss, F_sa, F_ss, F = self.columns_at(t, which)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -182,7 +182,7 @@ class Shares:
 
     def load(self, t: Array, which: NDArray[np.intp]) -> Array:
         """F* of contacts ``which`` at t."""
-        return np.exp(self.at(t, which)[2])
+        return np.exp(self.logarithms_at(t, which)[2])
 
 
 def _log_ratio(one: Array, other: Array) -> Array:
@@ -257,7 +257,7 @@ def _critical_loads(
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:
     shares = Shares(contact, vary, count)
     t = np.linspace(0.0, 1.0, nodes)
-    found = shares.at(np.tile(t, count), np.repeat(np.arange(count), nodes))
+    found = shares.logarithms_at(np.tile(t, count), np.repeat(np.arange(count), nodes))
     area, load, F = (values.reshape(count, nodes) for values in found)
     lost = np.isnan(shares.top)
 
@@ -332,7 +332,7 @@ def _crossings(
     column: NDArray[np.intp],
     level: Array,
 ) -> Array:
-    """F* of contacts ``which`` at which a share has its level between nodes ``cell`` and the next.
+    """Loads F* of contacts ``which`` at which a share passes its level in the interval ``cell``.
 
     From the root of a cubic spline through what the share misses its level by at all nodes, by
     Chandrupatla's method, all side by side; the load by a parabola through the last three points.
@@ -355,7 +355,7 @@ def _crossings(
     for _ in range(PASSES):
         if not len(left):
             break
-        found = shares.at(x, which[left])
+        found = shares.logarithms_at(x, which[left])
         new = np.stack([x, np.where(column[left] == 0, *found[:2]) - level[left], found[2]])
         same = (new[1] >= 0) == (one[1] >= 0)
         three, two = np.where(same, one, two), np.where(same, two, one)
@@ -405,7 +405,7 @@ def _peak(
     if not len(which):
         return entry([(~good, CriticalStatus.NONE, np.nan)], (np.empty(0), which))
     answer = elementwise.find_minimum(
-        lambda x, i: -shares.at(x, i.astype(np.intp))[0],
+        lambda x, i: -shares.logarithms_at(x, i.astype(np.intp))[0],
         tuple(t[top[which] + side] for side in (-1, 0, 1)),
         args=(which.astype(float),),
         tolerances={"xatol": EXACT_PEAK},
@@ -414,5 +414,5 @@ def _peak(
 
 
 def carrying(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:
-    """The contact without outputs, and of what varies that which decides how it carries load."""
+    """The contact without outputs, and the varied inputs that affect how it carries load."""
     return contact.replace(outputs=()), {name: v for name, v in vary.items() if carries(name)}

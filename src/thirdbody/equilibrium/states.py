@@ -162,7 +162,7 @@ def _loads_and_inputs(
     d: ArrayLike | None,
     vary: Mapping[str, ArrayLike] | None,
 ) -> tuple[str, NDArray[np.float64], dict[str, NDArray[Any]]]:
-    """Which load is given, its values and those of every varied input, all (N,)."""
+    """Name and values of the load, and the values of every varied input, all (N,)."""
     load, _, _ = given_load(contact, pressure, F_star, d)
     if problems := list(unknown_inputs(contact, vary or ())):
         raise InvalidValue(*problems)
@@ -208,7 +208,7 @@ def unknown_inputs(
             yield Problem(place, "says nothing of a contact without particles")
             continue
         try:
-            contact.part(name)
+            contact.value_at(name)
         except InvalidValue:
             paths = known or list(paths_of(contact))
             above = name.rpartition(".")[0]
@@ -272,7 +272,7 @@ def _take_states(arrays: Arrays, which: Any) -> dict[str, NDArray[Any]]:
 
 
 def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
-    """Columns of all states from those of some, in the order in which they come."""
+    """Columns of all states, put together from subsets in their order."""
     out: Columns = {}
     for which, columns in parts:
         for name in (*COLUMNS, "engine", CODE):
@@ -292,7 +292,7 @@ def carries(name: str) -> bool:
 def _with_outputs(
     contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], fewest: int
 ) -> Columns:
-    """Every column of the states, then the outputs of each contact among them."""
+    """Columns of the states, with those of the outputs of each contact."""
     inputs = {name: v for name, v in arrays.items() if carries(name)}
     with weighed(0.5):
         out = _columns(contact.replace(outputs=()), inputs, load, loads, fewest)
@@ -354,7 +354,7 @@ def _outputs_at(contact: Contact, d: NDArray[np.float64]) -> dict[str, NDArray[n
 def _solve(
     contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], fewest: int
 ) -> Columns:
-    """Every column: by nodes that states share where they can, the others one by one."""
+    """Columns by the compiled engines where they can, of other states one by one."""
     numeric = all(values.dtype.kind in "iuf" for values in arrays.values())
     if not (numeric and engine.available() and _differ(arrays, len(loads), fewest)):
         return _by_groups(contact, arrays, load, loads)
@@ -392,7 +392,7 @@ def _solve(
 
 
 def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
-    """Whether states that differ in these inputs each need tables of their own: 0.1 s a state.
+    """Whether states that differ in these inputs each need new tables: 0.1 s a state.
 
     Or nearly so: of particles that break, each takes 1 to 3 ms by the compiled engine.
     """
@@ -446,7 +446,7 @@ def _unnumbered(name: str) -> str:
 
 
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
-    """Every column by the compiled engine; `NotCompiled` where it does not know these inputs."""
+    """Columns by the compiled engine; `NotCompiled` for inputs that it does not know."""
     own = not engine.bare(contact, arrays) and engine.own_sizes(contact, arrays)
     order = None
     if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
@@ -477,7 +477,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
 
 
 def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
-    """Every column, each state by quadrature over its own laws; what is doubted, one by one."""
+    """Columns by quadrature of each state; doubtful states are solved one by one."""
     at_once = AT_ONCE // 16 if any(each.strength for each in contact.populations) else AT_ONCE
 
     def solve_from(start: int) -> tuple[Any, Columns]:
@@ -510,7 +510,7 @@ def _with_words(contact: Contact, columns: Columns) -> Columns:
 def _without_doubts(
     out: Columns, doubts: Iterable[str], solve_again: Callable[[Any, str], Columns]
 ) -> Columns:
-    """Columns in which states that an engine doubts are those that another one finds."""
+    """Columns in which doubtful states are replaced by those of another engine."""
     for why in doubts:
         if len(which := np.flatnonzero(out["engine"] == why)):
             for name, column in solve_again(which, why).items():
@@ -531,7 +531,7 @@ def _all(count: int, word: str) -> NDArray[Any]:
 def _by_groups(
     contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], why: str = ""
 ) -> Columns:
-    """Every column, one contact after another; ``why`` not by nodes."""
+    """Columns of one contact after another; ``why`` says what kept the compiled engine away."""
     parts = []
     for which in _alike(arrays, len(loads)):
         state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
