@@ -9,10 +9,14 @@ from .curves import (
     AREA_1,
     AREA_2,
     AT,
+    BEGIN,
     BESIDE,
     CLOSE,
     EDGE,
+    END,
     FIRST,
+    FIRST_HIGH,
+    FIRST_LOW,
     FLAT,
     FORM_1,
     FORM_2,
@@ -34,11 +38,14 @@ from .curves import (
     OLD_OFF,
     ONE,
     OTHER,
+    PASSING,
+    PASSING_2,
     ROOM,
     SECOND,
     SETTLED,
     SHARE,
     SLOPE,
+    SOUGHT,
     SURE,
     TERMS,
     TO,
@@ -50,14 +57,31 @@ from .curves import (
     find_rest,
     follow,
     mix,
+    read_particle,
+    read_particles,
     read_shares,
     settle_rows,
+    share_at,
     take_weaker,
     transform,
 )
-from .fields import CEB, CODE, COUNT, JG, JUMPS, KINKS, LIMIT, LOADS, MOST_JUMPS
+from .fields import (
+    BREAKS,
+    CEB,
+    CODE,
+    COUNT,
+    EQUAL,
+    JG,
+    JUMPS,
+    KINKS,
+    LIMIT,
+    LOADS,
+    MOST_JUMPS,
+    ROUGH,
+    SEAT,
+)
 from .sides import exact, scalar, side_at
-from .vectors import exp, formula_of, ln, padded
+from .vectors import exp, fill_side, formula_of, ln, padded
 
 
 @scalar
@@ -257,10 +281,10 @@ def _bound(eps, a, b, low, high, first, least, most):
 
 
 @exact
-def _find_rates(first, second, load, other, slope):
+def _find_rates(first, second, load, other, slope, count):
     """Slope of ln of the load of side 1 over that of side 2 at a fixed squeeze, by neighbours."""
-    last = TERMS - 1
-    for j in range(TERMS):
+    last = count - 1
+    for j in range(count):
         k, n = min(j + 1, last), max(j - 1, 0)
         rise = (load[n] - load[k]) * (first[n] + first[k])
         run = (load[n] + load[k]) * (first[n] - first[k])
@@ -269,7 +293,7 @@ def _find_rates(first, second, load, other, slope):
         one = rise / run if rise > 0 and run > 0 else 1.3
         two = rise_2 / run_2 if rise_2 > 0 and run_2 > 0 else 1.3
         slope[j] = one / first[j] + two / second[j]
-    for j in range(TERMS, len(slope)):
+    for j in range(count, len(slope)):
         slope[j] = slope[last]
 
 
@@ -302,7 +326,7 @@ def _keep(room, wide):
 
 
 @scalar
-def _find_shares(sides, p, panel, room, wide):
+def _find_shares(sides, p, panel, room, wide, count):
     """Indentations, loads and areas at the places of a series; whether they could be found.
 
     The last step is along the line through the two before, with an error of the square of the
@@ -322,7 +346,7 @@ def _find_shares(sides, p, panel, room, wide):
         find_rest(eps, first, second)
         fill_both(sides, p, panel, first, second, room)
         if step == 0:
-            _find_rates(first, second, load, other, slope)
+            _find_rates(first, second, load, other, slope, count)
         worst = find_off(load, other, first, second, slope, off)
         if worst == 0:
             return True
@@ -364,7 +388,7 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
     panel[FORM_1] = formula_of(sides, 2 * p, first[middle])
     panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
     panel[FROM], panel[UNTIL], panel[SURE] = begin, end, 1.0
-    if free or not _find_shares(sides, p, panel, room, wide):
+    if free or not _find_shares(sides, p, panel, room, wide, TERMS):
         _bound(eps, a, b, low, high, first, least, most)
         for j in range(TERMS):
             if free:
@@ -420,3 +444,136 @@ def share_out(sides, panels, p, count, rule, spread):
         left += tail * part
         n += 1
     return count, left
+
+
+@scalar
+def bracket(panels, p, n, eps):
+    """Between which indentations side 1 is at a squeeze of a panel whose shares are sought."""
+    a, b = panels[p, n, BEGIN], panels[p, n, END]
+    low, high = panels[p, n, FIRST_LOW], panels[p, n, FIRST_HIGH]
+    least = max(low, eps - (b - high))
+    return least, max(min(min(high, eps - (a - low)), eps), least)
+
+
+@scalar
+def _seek(sides, p, panel, room, count):
+    """Loads and areas of both sides at so many squeezes of a panel, by secants from a power."""
+    apart()
+    wide = padded(count)
+    eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
+    least, most = room[LEAST, :wide], room[MOST, :wide]
+    a, b, low, high = panel[BEGIN], panel[END], panel[FIRST_LOW], panel[FIRST_HIGH]
+    _guess(eps, a, b, low, high, first)
+    _bound(eps, a, b, low, high, first, least, most)
+    for j in range(wide):  # of no step before: nothing of another state
+        room[OLD, j], room[OLD_OFF, j] = first[j], 0.0
+    if not _find_shares(sides, p, panel, room, wide, count):
+        _bound(eps, a, b, low, high, first, least, most)
+        for j in range(wide):
+            first[j] = split(sides, 2 * p, eps[j], least[j], most[j])
+        find_rest(eps, first, second)
+        fill_both(sides, p, panel, first, second, room)
+    take_weaker(first, second, room[OTHER, :wide], room[LOAD, :wide])
+
+
+@scalar
+def can_seek(given, sides, p):
+    """Whether shares may be sought where they are asked for: once a state, and loads rise."""
+    jumps = sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS]
+    return given[p, SEAT] == ROUGH and given[p, BREAKS] == 0 and jumps == 0
+
+
+@scalar
+def bracket_shares(sides, panels, p, count):
+    """Write down what is known around every panel."""
+    apart()
+    begin, low, n = 0.0, 0.0, int(panels[p, 0, EDGE])  # 0, and no constant
+    while n < count:
+        if n > 0 and panels[p, n, ONE] >= 0:
+            begin, low = panels[p, n, EDGE], panels[p, n, ONE]
+        last = n + 1
+        while panels[p, last, ONE] < 0:
+            last += 1
+        end, high, panel = panels[p, last, EDGE], panels[p, last, ONE], panels[p, n]
+        panel[HELD], panel[SURE] = 0.0, SOUGHT
+        panel[BEGIN], panel[END], panel[FIRST_LOW], panel[FIRST_HIGH] = begin, end, low, high
+        panel[FORM_1] = formula_of(sides, 2 * p, 0.5 * (low + high))
+        panel[FORM_2] = formula_of(sides, 2 * p + 1, 0.5 * (begin - low + end - high))
+        n += 1
+
+
+@scalar
+def first_at(sides, panels, p, n, eps):
+    """Indentation over x of side 1 at a squeeze ε on panel n."""
+    if panels[p, n, SURE] == SOUGHT:
+        low, high = bracket(panels, p, n, eps)
+        return split(sides, 2 * p, eps, low, high)
+    held = panels[p, n, HELD]
+    if held != 0:
+        return held if held > 0 else eps + held
+    return eps * share_at(panels, p, n, eps)
+
+
+@scalar
+def particle_at(given, sides, panels, p, n, eps):
+    """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
+    apart()
+    if panels[p, n, SURE] == 1:
+        return read_particle(panels[p, n], eps)
+    if given[p, EQUAL] == 1:
+        load, area = side_at(sides, 2 * p, 0.5 * eps)
+        return load, area, area
+    held = panels[p, n, HELD]
+    one = held if held > 0 else eps + held
+    if panels[p, n, SURE] == SOUGHT:
+        one = first_at(sides, panels, p, n, eps)
+    load, first = side_at(sides, 2 * p, one)
+    other, second = side_at(sides, 2 * p + 1, eps - one)
+    if held == 0:
+        return load if one > eps - one else other, first, second
+    return other if held > 0 else load, first, second
+
+
+@scalar
+def fill_particles(given, sides, panels, p, n, count):
+    """As `particle_at`, at so many ε in the row `AT` of the room behind the panels of part p.
+
+    Into the rows `LOAD`, `AREA_1` and `AREA_2` there.
+    """
+    apart()
+    wide, panel, room = padded(count), panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    eps, first = room[AT, :wide], room[FIRST, :wide]
+    for j in range(count, wide):
+        eps[j] = eps[count - 1]
+    if panel[SURE] == 1:
+        read_particles(
+            panel, eps, room[LOAD, :wide], room[AREA_1, :wide], room[AREA_2, :wide]
+        )  # fmt: skip
+    elif given[p, EQUAL] == 1:
+        for j in range(wide):
+            first[j] = 0.5 * eps[j]
+        fill_side(
+            sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide],
+            room[PASSING, :wide], room[PASSING_2, :wide],
+        )  # fmt: skip
+        for j in range(wide):
+            room[AREA_2, j] = room[AREA_1, j]
+    elif panel[SURE] == SOUGHT:
+        _seek(sides, p, panel, room, count)
+    else:
+        for j in range(count):
+            room[LOAD, j], room[AREA_1, j], room[AREA_2, j] = particle_at(
+                given, sides, panels, p, n, eps[j]
+            )
+
+
+@scalar
+def settle(given, sides, panels, p, n, rule):
+    """Series of load and areas on panel n between equal sides, where they are smooth enough."""
+    apart()
+    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    panel[SURE] = 0.0
+    panel[FROM], panel[UNTIL] = panel[EDGE], panel[TO]
+    fill_places(rule[0, :TERMS], panel[EDGE], panel[TO], room[AT, :TERMS])
+    fill_particles(given, sides, panels, p, n, TERMS)
+    panel[SURE] = 1.0 if settle_rows(panel, room, rule) <= SETTLED else 0.0
