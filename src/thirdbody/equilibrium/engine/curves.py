@@ -43,9 +43,6 @@ STEEPEST, TRIES, FLAT = 1e4, 25, 1e-12
 """Power of an indentation like which a load may grow."""
 NEGLIGIBLE = 5e-14
 """What a panel may leave out of its series, times its width over that of the sizes and the seat."""
-SOUGHT, BEGIN, END, FIRST_LOW, FIRST_HIGH = 2, SHARE, SHARE + 1, SHARE + 2, SHARE + 3
-"""Of a panel on which shares are sought where they are asked for: in place of `SURE`; and of the
-series, two squeezes around the panel, and the indentations of side 1 there."""
 JUMP, BESIDE = 1e-9, 1e-14
 """Of a load at a kink, at least, and where its sides are looked at; both relative."""
 

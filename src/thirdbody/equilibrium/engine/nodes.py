@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart
-from .curves import EDGE, FORM_1, FORM_2, TO
+from .curves import EDGE, FORM_1, FORM_2
 from .fields import EQUAL
 from .sides import exact, scalar
 from .vectors import BLEND, DISC, DOUBLED, PLASTIC, TABLE, exp
@@ -25,8 +25,6 @@ __all__ = [
 LINEAR, ROOTED, CUBIC, LOGARITHMIC, FLATTENED = range(5)
 """Variables: itself, its root, its cube root, the logarithm of it over what is left of one, and of
 the height that a disc has left."""
-SURELY_LEFT = 1 - 1e-9
-"""Squeeze up to which something is left of one."""
 
 
 @scalar
@@ -34,10 +32,9 @@ def variable_of(given, panels, p, n):
     """Variable of panel n."""
     if panels[p, n, EDGE] == 0:
         return ROOTED
-    formula = panels[p, n, FORM_1]
     if given[p, EQUAL] != 1:
-        deep = formula >= TABLE or panels[p, n, FORM_2] >= TABLE
-        return LOGARITHMIC if deep and panels[p, n, TO] < SURELY_LEFT else CUBIC
+        return CUBIC
+    formula = panels[p, n, FORM_1]
     if formula == TABLE:
         return LOGARITHMIC
     if formula == DISC:
@@ -49,12 +46,9 @@ def variable_of(given, panels, p, n):
 def is_plain(given, panels, p, n):
     """Whether half the nodes do on a panel that is short against all that changes there."""
     first = panels[p, n, FORM_1]
-    second = first if given[p, EQUAL] == 1 else panels[p, n, FORM_2]
-    return (
-        0 < first
-        and 0 < second
-        and ((first < BLEND or first == DISC) and (second < BLEND or second == DISC))
-    )
+    if given[p, EQUAL] == 1:
+        return 0 < first < BLEND or first == DISC
+    return 0 < first < BLEND and 0 < panels[p, n, FORM_2] < BLEND
 
 
 @exact

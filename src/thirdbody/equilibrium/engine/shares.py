@@ -9,14 +9,10 @@ from .curves import (
     AREA_1,
     AREA_2,
     AT,
-    BEGIN,
     BESIDE,
     CLOSE,
     EDGE,
-    END,
     FIRST,
-    FIRST_HIGH,
-    FIRST_LOW,
     FLAT,
     FORM_1,
     FORM_2,
@@ -45,7 +41,6 @@ from .curves import (
     SETTLED,
     SHARE,
     SLOPE,
-    SOUGHT,
     SURE,
     TERMS,
     TO,
@@ -66,7 +61,6 @@ from .curves import (
     transform,
 )
 from .fields import (
-    BREAKS,
     CEB,
     CODE,
     COUNT,
@@ -77,8 +71,6 @@ from .fields import (
     LIMIT,
     LOADS,
     MOST_JUMPS,
-    ROUGH,
-    SEAT,
 )
 from .sides import exact, scalar, side_at
 from .vectors import exp, fill_side, formula_of, ln, padded
@@ -281,10 +273,10 @@ def _bound(eps, a, b, low, high, first, least, most):
 
 
 @exact
-def _find_rates(first, second, load, other, slope, count):
+def _find_rates(first, second, load, other, slope):
     """Slope of ln of the load of side 1 over that of side 2 at a fixed squeeze, by neighbours."""
-    last = count - 1
-    for j in range(count):
+    last = TERMS - 1
+    for j in range(TERMS):
         k, n = min(j + 1, last), max(j - 1, 0)
         rise = (load[n] - load[k]) * (first[n] + first[k])
         run = (load[n] + load[k]) * (first[n] - first[k])
@@ -293,7 +285,7 @@ def _find_rates(first, second, load, other, slope, count):
         one = rise / run if rise > 0 and run > 0 else 1.3
         two = rise_2 / run_2 if rise_2 > 0 and run_2 > 0 else 1.3
         slope[j] = one / first[j] + two / second[j]
-    for j in range(count, len(slope)):
+    for j in range(TERMS, len(slope)):
         slope[j] = slope[last]
 
 
@@ -326,7 +318,7 @@ def _keep(room, wide):
 
 
 @scalar
-def _find_shares(sides, p, panel, room, wide, count):
+def _find_shares(sides, p, panel, room, wide):
     """Indentations, loads and areas at the places of a series; whether they could be found.
 
     The last step is along the line through the two before, with an error of the square of the
@@ -346,7 +338,7 @@ def _find_shares(sides, p, panel, room, wide, count):
         find_rest(eps, first, second)
         fill_both(sides, p, panel, first, second, room)
         if step == 0:
-            _find_rates(first, second, load, other, slope, count)
+            _find_rates(first, second, load, other, slope)
         worst = find_off(load, other, first, second, slope, off)
         if worst == 0:
             return True
@@ -388,7 +380,7 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
     panel[FORM_1] = formula_of(sides, 2 * p, first[middle])
     panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
     panel[FROM], panel[UNTIL], panel[SURE] = begin, end, 1.0
-    if free or not _find_shares(sides, p, panel, room, wide, TERMS):
+    if free or not _find_shares(sides, p, panel, room, wide):
         _bound(eps, a, b, low, high, first, least, most)
         for j in range(TERMS):
             if free:
@@ -447,67 +439,8 @@ def share_out(sides, panels, p, count, rule, spread):
 
 
 @scalar
-def bracket(panels, p, n, eps):
-    """Between which indentations side 1 is at a squeeze of a panel whose shares are sought."""
-    a, b = panels[p, n, BEGIN], panels[p, n, END]
-    low, high = panels[p, n, FIRST_LOW], panels[p, n, FIRST_HIGH]
-    least = max(low, eps - (b - high))
-    return least, max(min(min(high, eps - (a - low)), eps), least)
-
-
-@scalar
-def _seek(sides, p, panel, room, count):
-    """Loads and areas of both sides at so many squeezes of a panel, by secants from a power."""
-    apart()
-    wide = padded(count)
-    eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
-    least, most = room[LEAST, :wide], room[MOST, :wide]
-    a, b, low, high = panel[BEGIN], panel[END], panel[FIRST_LOW], panel[FIRST_HIGH]
-    _guess(eps, a, b, low, high, first)
-    _bound(eps, a, b, low, high, first, least, most)
-    for j in range(wide):  # of no step before: nothing of another state
-        room[OLD, j], room[OLD_OFF, j] = first[j], 0.0
-    if not _find_shares(sides, p, panel, room, wide, count):
-        _bound(eps, a, b, low, high, first, least, most)
-        for j in range(wide):
-            first[j] = split(sides, 2 * p, eps[j], least[j], most[j])
-        find_rest(eps, first, second)
-        fill_both(sides, p, panel, first, second, room)
-    take_weaker(first, second, room[OTHER, :wide], room[LOAD, :wide])
-
-
-@scalar
-def can_seek(given, sides, p):
-    """Whether shares may be sought where they are asked for: once a state, and loads rise."""
-    jumps = sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS]
-    return given[p, SEAT] == ROUGH and given[p, BREAKS] == 0 and jumps == 0
-
-
-@scalar
-def bracket_shares(sides, panels, p, count):
-    """Write down what is known around every panel."""
-    apart()
-    begin, low, n = 0.0, 0.0, int(panels[p, 0, EDGE])  # 0, and no constant
-    while n < count:
-        if n > 0 and panels[p, n, ONE] >= 0:
-            begin, low = panels[p, n, EDGE], panels[p, n, ONE]
-        last = n + 1
-        while panels[p, last, ONE] < 0:
-            last += 1
-        end, high, panel = panels[p, last, EDGE], panels[p, last, ONE], panels[p, n]
-        panel[HELD], panel[SURE] = 0.0, SOUGHT
-        panel[BEGIN], panel[END], panel[FIRST_LOW], panel[FIRST_HIGH] = begin, end, low, high
-        panel[FORM_1] = formula_of(sides, 2 * p, 0.5 * (low + high))
-        panel[FORM_2] = formula_of(sides, 2 * p + 1, 0.5 * (begin - low + end - high))
-        n += 1
-
-
-@scalar
-def first_at(sides, panels, p, n, eps):
+def first_at(panels, p, n, eps):
     """Indentation over x of side 1 at a squeeze ε on panel n."""
-    if panels[p, n, SURE] == SOUGHT:
-        low, high = bracket(panels, p, n, eps)
-        return split(sides, 2 * p, eps, low, high)
     held = panels[p, n, HELD]
     if held != 0:
         return held if held > 0 else eps + held
@@ -525,12 +458,8 @@ def particle_at(given, sides, panels, p, n, eps):
         return load, area, area
     held = panels[p, n, HELD]
     one = held if held > 0 else eps + held
-    if panels[p, n, SURE] == SOUGHT:
-        one = first_at(sides, panels, p, n, eps)
     load, first = side_at(sides, 2 * p, one)
     other, second = side_at(sides, 2 * p + 1, eps - one)
-    if held == 0:
-        return load if one > eps - one else other, first, second
     return other if held > 0 else load, first, second
 
 
@@ -558,8 +487,6 @@ def fill_particles(given, sides, panels, p, n, count):
         )  # fmt: skip
         for j in range(wide):
             room[AREA_2, j] = room[AREA_1, j]
-    elif panel[SURE] == SOUGHT:
-        _seek(sides, p, panel, room, count)
     else:
         for j in range(count):
             room[LOAD, j], room[AREA_1, j], room[AREA_2, j] = particle_at(

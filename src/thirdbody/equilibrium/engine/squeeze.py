@@ -11,8 +11,6 @@ from .curves import (
     AT,
     CLOSE,
     EDGE,
-    FIRST_HIGH,
-    FIRST_LOW,
     FORM_1,
     HELD,
     LAST_1,
@@ -22,7 +20,6 @@ from .curves import (
     REGIME,
     ROOM,
     SHARE,
-    SOUGHT,
     SURE,
     TO,
     UNTIL,
@@ -30,15 +27,11 @@ from .curves import (
 from .densities import scale_of
 from .fields import (
     BREAKS,
-    CODE,
     COUNT,
     EQUAL,
-    FACED,
     FOOTPRINT,
-    FORM,
     HIGH,
     JUMPS,
-    KE,
     KIND,
     KINKS,
     LIMIT,
@@ -47,14 +40,11 @@ from .fields import (
     PROJECTED,
     SEAT,
     SHADOW,
-    SQUASHED,
     TIP,
     WIDTH,
 )
 from .shares import (
     around,
-    bracket_shares,
-    can_seek,
     fill_particles,
     first_at,
     inverse,
@@ -99,7 +89,7 @@ def _kinks(given, sides, panels, p):
     panels[p, 0, EDGE] = panels[p, 0, ONE] = 0.0
     count = 1 + int(panels[p, 0, EDGE])  # no constant, for which numba would compile twice
     equal = given[p, EQUAL] == 1
-    all_splits = given[p, BREAKS] == 1 or not (equal or can_seek(given, sides, p))
+    all_splits = given[p, BREAKS] == 1 or not equal
     for i in range(1 if equal else 2):
         own, other = 2 * p + i, 2 * p + 1 - i
         stronger = sides[own, LIMIT] - sides[other, LIMIT] > (2 * i - 1) * CLOSE * sides[own, LIMIT]
@@ -212,7 +202,7 @@ def _note_last(given, sides, panels, p, count):
     one = panels[p, count, LAST_1] = _last_area(sides, 2 * p, load, one)
     panels[p, count, LAST_2] = one if equal else _last_area(sides, 2 * p + 1, load, two)
     # the weaker side takes the rest
-    indented = 0.5 * eps if equal else first_at(sides, panels, p, count - 1, eps)
+    indented = 0.5 * eps if equal else first_at(panels, p, count - 1, eps)
     deeper = equal or first <= other * (1 + CLOSE)
     if sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS] > 0:  # a last kink of either
         deeper |= panels[p, count - 1, HELD] <= 0
@@ -224,17 +214,10 @@ def _note_last(given, sides, panels, p, count):
 def _farthest(given, sides, p, a):
     """Ratio of the ends of a panel that begins at a, at most."""
     apart()
-    if given[p, BREAKS] == 1:
+    if given[p, EQUAL] != 1 or given[p, BREAKS] == 1:
         return RATIO
-    if given[p, EQUAL] == 1:
-        formula = formula_of(sides, 2 * p, 0.5 * a * (1 + 1e-6))
-        return RATIO if formula == ANY else FARTHEST
-    if not can_seek(given, sides, p):
-        return RATIO
-    for i in range(2 * p, 2 * p + 2):
-        if sides[i, FORM] == SQUASHED or sides[i, FORM] == FACED or sides[i, CODE] > KE:
-            return RATIO
-    return FARTHEST
+    formula = formula_of(sides, 2 * p, 0.5 * a * (1 + 1e-6))
+    return RATIO if formula == ANY else FARTHEST
 
 
 @scalar
@@ -281,19 +264,11 @@ def lay_panels(given, sides, panels, p, rule):
         spread = max(given[p, WIDTH], scale_of(given, p, given[p, HIGH])) / given[p, HIGH]
         if given[p, SEAT] == PLANE and given[p, KIND] == ONE_SIZE:
             spread = 0.0  # what is squeezed is squeezed alike
-        if can_seek(given, sides, p):
-            bracket_shares(sides, panels, p, count)
-        else:
-            count, worst = share_out(sides, panels, p, count, rule, PART * spread)
+        count, worst = share_out(sides, panels, p, count, rule, PART * spread)
         count = _cut_at_crossings(given, sides, panels, p, count)
     for n in range(count):
         eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])
-        if equal:
-            one = 0.5 * eps
-        elif panels[p, n, SURE] == SOUGHT:
-            one = 0.5 * (panels[p, n, FIRST_LOW] + panels[p, n, FIRST_HIGH])
-        else:
-            one = first_at(sides, panels, p, n, eps)
+        one = 0.5 * eps if equal else first_at(panels, p, n, eps)
         panels[p, n, REGIME] = regime_of(sides, 2 * p, one)
         if equal:
             panels[p, n, FORM_1] = formula_of(sides, 2 * p, one)
