@@ -2,6 +2,7 @@
 
 python benchmarks/page.py
 python benchmarks/page.py --against OTHER/CHECKOUT
+python benchmarks/page.py --every                  every slider on every tab
 """
 
 from __future__ import annotations
@@ -50,6 +51,60 @@ WATCH = """selector => {
 }"""
 
 
+FIRST_CHANGE = """() => {
+  const panel = document.querySelector(".q-tab-panel"), drawn = ".scatterlayer path, "
+    + ".barlayer path, .shapelayer path, [data-figure=section] path";
+  const look_at = () => [
+    ...[...panel.querySelectorAll(drawn)].map(e => e.getAttribute("d")),
+    ...[...panel.querySelectorAll("image")].map(e => e.getAttribute("href")?.length),
+    ...[...panel.querySelectorAll(".here")].map(e => e.getAttribute("style")),
+    ...[...document.querySelectorAll("[data-fact]:not([data-fact=time])")].map(e => e.innerText),
+  ].join();
+  const was = look_at(), began = performance.now();
+  window.key = undefined;
+  window.shown = new Promise(done => {
+    addEventListener("keydown", e => { window.key = e.timeStamp; }, { capture: true, once: true });
+    const look = () => {
+      if (window.key !== undefined && look_at() !== was)
+        setTimeout(() => done(performance.now() - window.key));
+      else if (performance.now() - began > 4000) done(null);
+      else requestAnimationFrame(look);
+    };
+    look();
+  });
+}"""
+"""The first new picture or number of the tab; null where four seconds bring none."""
+FEW = 8
+
+
+def first_changes(browser: Any, address: str) -> None:
+    """A row a tab: of every slider the median and the longest time to the first new picture."""
+    page = browser.new_page(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
+    print("| tab | slider | median ms | longest ms |\n|---|---|---|---|")
+    page.goto(address)
+    page.wait_for_selector('[data-figure="section"] svg')
+    for name in page.get_by_role("tab").all_inner_texts():
+        page.get_by_role("tab", name=name.strip(), exact=True).click()
+        page.wait_for_timeout(8000)  # what follows a preview is there
+        places = page.evaluate(
+            "() => [...document.querySelectorAll('.q-slider[data-slider]')]"
+            ".filter(e => e.offsetParent).map(e => e.dataset.slider)"
+        )
+        for slider in places:
+            page.locator(f'[data-slider="{slider}"] .q-slider__track-container').focus()
+            times = []
+            for move in range(FEW):
+                page.evaluate(FIRST_CHANGE)
+                page.keyboard.press("ArrowRight" if move % 2 else "ArrowLeft")
+                times.append(page.evaluate("window.shown"))
+                page.wait_for_timeout(150)
+                if times[-1] is None:
+                    break
+            known = [each for each in times[1:] if each is not None]
+            ends = f"{statistics.median(known):.0f} | {max(known):.0f}" if known else "none | none"
+            print(f"| {name.strip()} | {slider} | {ends} |", flush=True)
+
+
 def measured(browser: Any, address: str, name: str, slider: str) -> list[float]:
     """Milliseconds of every move, to and fro through the middle of the slider."""
     page = browser.new_page(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
@@ -75,7 +130,9 @@ def main() -> None:
     """One line a case, for each checkout in turn."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--against", type=Path, help="another checkout, measured in the same run")
-    other = parser.parse_args().against
+    parser.add_argument("--every", action="store_true", help="every slider on every tab")
+    asked = parser.parse_args()
+    other = asked.against
     from playwright.sync_api import sync_playwright
 
     sources = {"this": ROOT} | ({"other": other.resolve()} if other else {})
@@ -83,6 +140,13 @@ def main() -> None:
         browser = playwright.chromium.launch(
             executable_path=chromium(playwright), args=["--no-sandbox"]
         )
+        if asked.every:
+            server, address = served()
+            try:
+                first_changes(browser, address)
+            finally:
+                ended(server)
+            return
         print("| checkout | tab | slider | median ms | 19 of 20 below ms |\n|---|---|---|---|---|")
         servers = {name: served(source=source) for name, source in sources.items()}
         try:

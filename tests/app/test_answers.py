@@ -53,7 +53,7 @@ def test_a_force_is_told_in_the_words_of_the_command_line(force, tmp_path):
     assert all("Integrated over" not in each.sentence() for each in first)
     printed, names = StringIO(), {}
     with contextlib.redirect_stdout(printed):
-        exec(to_python(state.answer.study, state.at), names)
+        exec(to_python(state.answer.study, state.operating_load), names)
     assert names["body"] == state.answer.study.body
     assert printed.getvalue().splitlines()[1:] == told
 
@@ -61,7 +61,7 @@ def test_a_force_is_told_in_the_words_of_the_command_line(force, tmp_path):
 def test_a_script_holds_the_film(tmp_path):
     study = tomllib.loads((ROOT / "examples" / "oil_film.toml").read_text())
     state, names = State(study, tmp_path), {}
-    exec(to_python(state.answer.study, state.at), names)
+    exec(to_python(state.answer.study, state.operating_load), names)
     assert names["film"] == state.answer.study.film
     own = state.answer.study.film.stribeck_columns(state.answer.contact)
     assert np.array_equal(names["lubricated"]["mu"], own["mu"], equal_nan=True)
@@ -109,7 +109,7 @@ def test_the_section_shows_no_more_particles_than_a_contact_holds(tmp_path):
 
 def _drawn(study, folder):
     state = State(study, folder)
-    return interface.drawing_of(state.answer, state.at, 0)
+    return interface.drawing_of(state.answer, state.operating_load, 0)
 
 
 # ---------------------------------------------------------------- axes
@@ -130,7 +130,7 @@ def test_axes_of_outputs_show_what_matters(name, tmp_path):
     table = {"friction": {"m_ss": 0.2, "m_sa": 0.3}, "counts": {}}
     state = State(example(name) | {"outputs": table}, tmp_path)
     assert not state.problems
-    made = outputs.output_figures(state.answer, state.at)
+    made = outputs.output_figures(state.answer, state.operating_load)
     made |= {"area": curves.figures(state.answer, "pressure", critical=False)["area"]}
     assert made["friction [1]"]["layout"]["yaxis"]["type"] == "linear"
     for key, drawn in made.items():
@@ -157,9 +157,11 @@ def test_a_map_contains_its_study(study, tmp_path):
     ratio = contact.populations[0].diameter.mean_diameter / contact.roughness.sigma
     here = float(ratio), float(state.point().F_star)
     sizes, loads = mode_map.reach(here)
-    found = {"sizes": sizes.tolist(), "loads": loads.tolist()}
-    assert mode_map.inside(found, here)
-    assert not mode_map.inside(found, (here[0], 1.01 * loads[-1]))
+    sigma, E_ss = contact.roughness.sigma, contact.E_ss
+    found = {"sizes": sizes.tolist(), "loads": loads.tolist(), "sigma": sigma, "E_ss": E_ss}
+    point = here[0] * sigma, here[1] * E_ss  # a size [m] and a pressure [Pa]
+    assert mode_map.inside(found, point)
+    assert not mode_map.inside(found, (point[0], 1.01 * loads[-1] * E_ss))
     assert sizes[0] * 2 < here[0] < sizes[-1] / 2
     assert loads[0] * 2 < here[1] < loads[-1] / 2
 

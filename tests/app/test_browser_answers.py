@@ -219,8 +219,9 @@ def test_what_was_missing_is_not_told_once_it_is_there(visit):
     study["particles"] = study["particles"] | {"material": BARE["first"]}
     page = visit(study, "error_bars")
     said = page.locator('[data-said="error bars"]')
-    said.get_by_text("no input is uncertain yet").wait_for()
-    assert not page.locator('[data-stale="error bars"]').is_visible()
+    assumed = page.locator('[data-fact="error bars assumed"]')
+    assumed.get_by_text("shown for ±10 % of").wait_for()
+    drawn(page, "bands")
     study["uncertainty"] = {"inputs": {"roughness.sigma": {"low": "95 nm", "high": "105 nm"}}}
     page.get_by_role("tab", name="Take away", exact=True).click()
     text = page.locator('textarea[data-path="toml"]')
@@ -231,12 +232,16 @@ def test_what_was_missing_is_not_told_once_it_is_there(visit):
     )
     page.locator('[data-take="toml"]').click()
     page.get_by_role("tab", name="Error bars", exact=True).click()
+    assumed.wait_for(state="hidden")
     drawn(page, "bands")
     assert not said.inner_text()
-    assert "preview" in page.locator('[data-stale="error bars"]').inner_text()
+    page.locator('[data-stale="error bars"]').wait_for(state="hidden")
+    assert len(page.evaluate(INPUTS)) == 1
     shot(page, "error-bars")
 
 
+INPUTS = "() => document.querySelector('[data-figure=tornado]').data[0].y"
+"""The inputs that have a bar."""
 ON_THE_MAP = """() => {
   const plot = document.querySelector("[data-figure='map']"), mark = plot.data.at(-1);
   const map = plot.data[0], ends = a => [Math.min(...a), Math.max(...a)];

@@ -201,7 +201,8 @@ def test_the_same_numbers_however_one_comes_back(opened, tmp_path):
 
 
 def heights_of(page):
-    """The numbers of the tab Surface, once they are there."""
+    """The numbers of the tab Surface of the file that was dropped, once they are there."""
+    page.get_by_text("file: part.txt", exact=True).wait_for()
     page.locator('[data-fact="surface R"]').wait_for()
     when(page, "() => document.querySelector('[data-cancel=surface]')?.offsetParent === null")
     return page.evaluate(FACTS)

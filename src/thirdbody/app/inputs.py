@@ -23,7 +23,7 @@ from .fields import VARIANTS, Field, fields_of, number_field, text_of, value_fro
 from .particle_inputs import ParticleInputs
 from .text import with_micro
 from .uploads import take
-from .widgets import put, upload
+from .widgets import set_attributes, upload
 
 __all__ = ["FORMED", "Inputs"]
 
@@ -260,7 +260,7 @@ class Inputs(ParticleInputs):
         if kind == "force":
             one: Any = LOADS_BEGUN[kind]
         else:
-            one = self.state.at if self.state.answer is not None else 1e-5
+            one = self.state.operating_load if self.state.answer is not None else 1e-5
         single = ui.button("One value", on_click=lambda: self.change("load", {kind: one}))
         single.props("flat dense")
 
@@ -278,17 +278,25 @@ class Inputs(ParticleInputs):
         for each in fields_of(BODIES[kind]) if kind in BODIES else ():
             self.field(("body",), each)
 
-    def outputs(self) -> None:
-        """Every output of the library: a switch, then its numbers."""
+    def output_switches(self) -> None:
+        """A switch for every output of the library."""
         for name, kind in VARIANTS["outputs"].items():
             place: Place = ("outputs", name)
-            on = self.state.get(*place) is not None
-            box = ui.switch(str(getattr(kind, "title", name)), value=on)
-            put(box, {"data-path": dotted(place)})
+            box = ui.switch(
+                str(getattr(kind, "title", name)), value=self.state.get(*place) is not None
+            )
+            set_attributes(box, {"data-path": dotted(place)})
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
-            if on:
-                with ui.column().classes("w-full pl-4 gap-1"):
-                    self._of_output(place, fields_of(kind))
+
+    def output_numbers(self) -> None:
+        """The numbers of every output that is on."""
+        for name, kind in VARIANTS["outputs"].items():
+            place: Place = ("outputs", name)
+            if self.state.get(*place) is None:
+                continue
+            with ui.column().classes("w-full gap-1"):
+                ui.label(str(getattr(kind, "title", name))).classes("subhead")
+                self._of_output(place, fields_of(kind))
 
     def _of_output(self, place: Place, every: list[Field]) -> None:
         """The numbers of an output; what has a default and is not given is folded."""
@@ -333,7 +341,7 @@ class Inputs(ParticleInputs):
                 drop = ui.button(
                     icon="delete", on_click=lambda _, k=label: self._set_uncertainty(k, None)
                 )
-                put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
+                set_attributes(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
             "uniform": "between two values",
             "log-uniform": "between two values, over decades",

@@ -65,14 +65,65 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .hint { color: var(--hint); font-size: 0.83rem; line-height: 1.3; }
 .stale { font-size: 0.85rem; border-left: 3px solid #E69F00; padding-left: 0.6rem; }
 .problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
+.switches { gap: 0 1rem; }
+.subhead.group { border-top: 1px solid rgba(127, 127, 127, 0.3); padding-top: 0.6rem; }
+.subhead.group { width: 100%; }
 .subhead { font-weight: 600; margin-top: 0.4rem; }
-.facts { gap: 0.5rem 1.6rem; }
+.facts { gap: 0.4rem 1.25rem; }
 .headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
 .headline.second { font-size: 0.95rem; }
 .whole-contact { font-size: 1.05rem; font-weight: 600; line-height: 1.4; max-width: 60rem; }
-.waiting { width: 100%; height: 320px; border-radius: 4px; background: rgba(127, 127, 127, 0.1); }
+.waiting { width: 100%; display: grid; gap: 0.75rem; }
+.bone { border-radius: 4px; background: rgba(127, 127, 127, 0.14); height: 1.4rem; width: 70%; }
+.bone { animation: breathe 1.6s ease-in-out infinite alternate; }
+.bone.short { width: 45%; }
+.bone.block { height: 220px; width: 100%; }
+.bone.row { width: 90%; height: 2.4rem; }
+@keyframes breathe { to { opacity: 0.45; } }
+@media (prefers-reduced-motion: reduce) { .bone { animation: none; } }
 .words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
-.fact .value { font-size: 1.05rem; font-weight: 600; }
+.fact .value { font-size: 0.95rem; font-weight: 600; line-height: 1.35; }
+.fact .hint { font-size: 0.76rem; }
+.fact.said { position: absolute; width: 1px; height: 1px; overflow: hidden; }
+.fact.said { clip-path: inset(50%); }
+.answer { position: relative; width: 100%; }
+.verdict { display: flex; flex-wrap: wrap; align-items: flex-start; gap: 0.2rem 1rem; }
+.verdict { padding-top: 0.7rem; }
+.verdict .sentence { flex: 1 1 20rem; font-weight: 600; line-height: 1.35; }
+.standing { display: flex; flex-direction: column; align-items: flex-end; margin-left: auto; }
+.standing .hint { font-size: 0.76rem; max-width: 15rem; text-align: right; }
+.verdict .remark { flex: 1 0 100%; }
+.badge { border-radius: 999px; padding: 0 0.6rem 0 0.4rem; font-size: 0.83rem; font-weight: 600; }
+.badge .q-icon { font-size: 1.1rem; margin-right: 0.3rem; }
+.badge.q-btn { border: 1.5px solid currentColor; min-height: 1.8rem; }
+.badge.q-btn.holds { color: #00644a; }
+.badge.q-btn.near { color: #00518a; }
+.badge.q-btn.doubtful { color: #8a4b00; }
+.body--dark .badge.q-btn.holds { color: #5fd6ae; }
+.body--dark .badge.q-btn.near { color: #8cc8f0; }
+.body--dark .badge.q-btn.doubtful { color: #ffb95c; }
+.limits { padding: 0.9rem 1rem; max-width: 34rem; font-size: 0.88rem; line-height: 1.4; }
+.limit { border-left: 3px solid #E69F00; padding-left: 0.6rem; }
+.new-study { width: 100%; max-width: 1180px; padding: 1.2rem 1.4rem; gap: 0.9rem; }
+.steps { display: grid; gap: 1.2rem 2rem; width: 100%; }
+@media (min-width: 900px) { .steps { grid-template-columns: repeat(3, minmax(0, 1fr)); } }
+.step .number { width: 1.7rem; height: 1.7rem; border-radius: 50%; text-align: center; }
+.step .number { background: #0072B2; color: #ffffff; font-weight: 700; line-height: 1.7rem; }
+.step .subhead { margin: 0; font-size: 1.05rem; }
+.so-far { flex: 1 1 20rem; font-weight: 600; line-height: 1.4; min-height: 2.8em; }
+.new-end { position: sticky; bottom: -1.2rem; padding: 0.7rem 0; z-index: 1; background: #fff; }
+.body--dark .new-end { background: #1d1d1d; }
+.tab-group { font-size: 0.7rem; font-weight: 600; color: var(--hint); white-space: nowrap; }
+.tab-group { padding: 0 0.35rem 0 0.7rem; text-transform: uppercase; letter-spacing: 0.04em; }
+.grouped .q-tab { min-height: 34px; }
+.tab-line { display: none; }
+@media (min-width: 700px) {
+  .verdict.beside { position: absolute; right: 0; z-index: 2; }
+  .verdict.beside + .q-tab-panels .headline:not(.second),
+  .verdict.beside + .q-tab-panels .whole-contact { padding-right: 13.5rem; }
+  .tab-line { display: block; flex-basis: 100%; height: 0; }
+  .tab-group:first-child, .tab-line + .tab-group { padding-left: 0; min-width: 5.4rem; }
+}
 .figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
 .figures { align-items: start; }
 @media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
@@ -81,6 +132,7 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
 .here[hidden] { display: none; }
 .sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
+.slider .hint { font-size: 0.76rem; }
 .slider { flex: 1 1 130px; min-width: 130px; padding: 0 8px; }
 .knobs { flex: 6 1 0; gap: 0.4rem 1.6rem; align-items: flex-end; }
 @media (max-width: 699px) {
@@ -126,7 +178,7 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .body--dark [data-figure="map"] .legendlines path { stroke: #dddddd !important; }
 .body--dark [data-figure="bands"] :is(.fills, .legendfill) { filter: brightness(1.9); }
 .body--dark .layer-below .shapelayer { opacity: 0.5; }
-.q-tab { padding: 0 8px; }
+.q-tab { padding: 0 5px; }
 .whole .q-field { max-width: 100%; }
 .q-field__messages { line-height: 1.2; }
 .q-field--with-bottom { padding-bottom: 0; }
@@ -135,6 +187,11 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
 /* what is important in the framework yields only to an earlier layer */
 @layer overrides {
+  @media (max-width: 699px) {
+    .fresh .block { display: none !important; }
+    .fresh .q-icon { margin: 0 !important; }
+  }
+  @media (min-width: 700px) { .grouped .q-tabs__content { flex-wrap: wrap !important; } }
   :root { --focus: #0072B2; }
   .body--dark { --focus: #56B4E9; }
   .q-header { --focus: #ffffff; }

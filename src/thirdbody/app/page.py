@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import shutil
 import time
 from collections.abc import Awaitable, Callable, Mapping
@@ -10,21 +9,24 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from nicegui import background_tasks, events, run, ui
+from nicegui import events, run, ui
 from starlette.datastructures import QueryParams
 
-from ..errors import InvalidValue, ThirdBodyError, ranked
+from ..errors import InvalidValue, ThirdBodyError
 from .address import FOLLOW, TRAVELLED, Address, files_in, surface_in
 from .examples import EXAMPLES, example
 from .folders import Folders
 from .look import LOOK, RESIZE
+from .new_study import NewStudy
 from .side import Side
 from .sliders import Sliders
 from .solver import Died, solver
+from .soon import Soon
 from .state import State, files_of
-from .tabs import TABS
-from .text import from_link, with_micro, without_paths
-from .widgets import put
+from .tabs import GROUPS, LINES, TABS
+from .text import from_link, with_micro
+from .verdict import Verdict
+from .widgets import set_attributes, skeleton
 from .work import when_left
 
 __all__ = ["Start", "page"]
@@ -40,8 +42,6 @@ TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
 
 
 GETTING = "Getting ready: the page loads and compiles what it needs, once after its start."
-MOST_NOTES = 3
-"""Notes that are shown unfolded."""
 LEAST = 0.5
 """Seconds of starting that are told of."""
 WITHOUT_ANSWER = ("surface", "dust", "take_away")
@@ -123,30 +123,6 @@ def _plain_names(study: object) -> Any:
     return [_plain_names(item) for item in study] if isinstance(study, list) else study
 
 
-class Soon:
-    """Calls a function once for many requests that come together, and never twice at a time."""
-
-    def __init__(self, call: Callable[[], Awaitable[None]]) -> None:
-        self.call, self.asked, self.running = call, False, False
-        self.client = ui.context.client
-
-    def __call__(self) -> None:
-        self.asked = True
-        if not self.running:
-            self.running = True
-            background_tasks.create(self._run())
-
-    async def _run(self) -> None:
-        try:
-            while self.asked and not self.client._deleted:
-                await asyncio.sleep(0.005)
-                self.asked = False
-                with self.client:
-                    await self.call()
-        finally:
-            self.running = False
-
-
 def _took(seconds: float, since: float) -> str:
     """How long the answer took, and how long before it a process was being started."""
     starting = solver().prepared(since)
@@ -182,12 +158,10 @@ class Page:
         """How each tab that was opened is drawn."""
         self.travels = 0
         """How often back or forward was pressed."""
-        self.said: list[str] = []
-        """Notes that are shown."""
         skip = self._header()
         self.side = Side(state)
         whole = ui.column().classes("whole gap-2")
-        put(skip, {"href": f"#{whole.html_id}"})
+        set_attributes(skip, {"href": f"#{whole.html_id}"})
         with whole.props('tabindex=-1 role=region aria-label="the answer"'):
             with ui.row().classes("w-full items-center gap-3"):
                 self.banner = ui.label(told).classes("problem")
@@ -197,10 +171,10 @@ class Page:
             self.getting = ui.label(GETTING).classes("hint")
             self.getting.props('role=status data-said="getting ready"').set_visibility(False)
             self.sliders = Sliders(state)
-            self._tabs()
-            self.notes = ui.column().classes("w-full gap-1")
+            with ui.element("div").classes("answer"):
+                self._tabs()
             self.address = Address(state)
-            self.clock = ui.label().classes("hint").props('data-fact="time"')
+        self.new = NewStudy(state, self._begun)
         self.soon = Soon(self._refresh)
         state.changed.append(self.soon)
         self.tabs.on_value_change(self._turned)
@@ -219,6 +193,9 @@ class Page:
             menu.props('flat dense color=white aria-label="inputs"')
             ui.html("thirdbody", sanitize=False, tag="h1").classes("name")
             ui.space()
+            fresh = ui.button("New study", icon="add", on_click=lambda: self.new.open())
+            fresh.props('flat dense no-caps color=white aria-label="a new study, from a drawing"')
+            set_attributes(fresh.classes("fresh"), {"data-path": "new"})
             self.undo = ui.button(icon="undo", on_click=self._undone)
             self.undo.props('flat dense color=white aria-label="undo" data-path="undo"')
             self.names = ui.select(
@@ -233,15 +210,20 @@ class Page:
     def _tabs(self) -> None:
         """A tab for every question, empty until it is opened."""
         self.tabs = ui.tabs().props("dense no-caps align=left outside-arrows mobile-arrows")
-        with self.tabs.classes("w-full"):
-            for name in TABS:
-                ui.tab(name, label=import_module(f".tabs.{name}", __package__).TITLE)
+        with self.tabs.classes("w-full grouped"):
+            for group, names in GROUPS.items():
+                if group in LINES:
+                    ui.element("span").classes("tab-line")
+                set_attributes(ui.label(group).classes("tab-group"), {"aria-hidden": "true"})
+                for name in names:
+                    ui.tab(name, label=import_module(f".tabs.{name}", __package__).TITLE)
+        self.verdict = Verdict(self.state)
         panels = ui.tab_panels(self.tabs, value=self.state.tab, animated=False)
         self.places = {}
         with panels.classes("w-full bg-transparent"):
             for name in TABS:
                 with ui.tab_panel(name).classes("q-px-none"):
-                    self.waiting[name] = ui.element("div").classes("waiting")
+                    self.waiting[name] = skeleton()
                     self.places[name] = ui.column().classes("w-full gap-3")
                     self.places[name].set_visibility(False)
 
@@ -254,7 +236,7 @@ class Page:
         except Died as error:
             self.banner.set_text("; ".join(error.problems))
             self.retry.set_visibility(True)
-            self.clock.set_text("")
+            self.verdict.clock.set_text("")
         else:
             self.retry.set_visibility(False)
         finally:
@@ -287,8 +269,9 @@ class Page:
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
         self.banner.set_text(with_micro(wrong or self.told))
-        self._note(state.answer.notes, remark)
-        self.clock.set_text(_took(time.perf_counter() - state.began, state.began))
+        self.verdict.clock.set_text(_took(time.perf_counter() - state.began, state.began))
+        await self.verdict.tell()
+        self.verdict.note(remark)
 
     def _wrong(self) -> str:
         """What is told of a study with mistakes."""
@@ -319,27 +302,17 @@ class Page:
             self.waiting.pop(name).delete()
             self.places[name].set_visibility(True)
 
-    def _note(self, notes: list[str], remark: str) -> None:
-        """Notes of the answer, and a remark of the page, below the tab."""
-        known = [with_micro(without_paths(f"Note: {text}")) for text in ranked(notes)]
-        if [*known, remark] == self.said:
-            return
-        self.said = [*known, remark]
-        self.notes.clear()
-        with self.notes:
-            for text in (*known[:MOST_NOTES], *[remark] * bool(remark)):
-                ui.label(text).classes("hint")
-            if rest := known[MOST_NOTES:]:
-                with ui.expansion(f"{len(rest)} more of less effect").classes("hint"):
-                    for text in rest:
-                        ui.label(text)
-
     # ------------------------------------------------------------------ what happens
     def _opened(self, name: str | None) -> None:
         if name:
             self.names.set_value(None)
             self.state.open(example(name))
             self.side.again()
+
+    def _begun(self, tab: str) -> None:
+        """A new study: the tab that answers it first."""
+        self.tabs.set_value(tab)
+        self.side.again()
 
     def _undone(self) -> None:
         self.state.undo()
@@ -367,5 +340,6 @@ class Page:
 
     def _turned(self) -> None:
         self.state.tab = str(self.tabs.value or TABS[0])
+        self.verdict.place()
         self.state.began = time.perf_counter()
         self.soon()

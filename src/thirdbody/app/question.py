@@ -12,9 +12,13 @@ from .figures import Figure, empty
 from .inputs import Inputs
 from .state import Answer, State
 from .text import with_micro
-from .widgets import facts, put, table
+from .widgets import facts, set_attributes, table
 
 __all__ = ["Question", "QuestionTab", "Shown"]
+
+
+NOTE = "Note: "
+"""How a sentence begins that the badge tells."""
 
 
 class Shown(NamedTuple):
@@ -62,24 +66,26 @@ class QuestionTab:
     """One question, its answer first."""
 
     def __init__(self, state: State, question: Question) -> None:
-        self.state, self.question = state, question
+        self.state, self.question, self.tab = state, question, state.tab
         self.inputs = Inputs(state, self._renewed)
         self.there: Any = None
         """Whether there were entries."""
         self.answer: Answer | None = None
         name = question.table
-        ui.label(question.about).classes("hint")
-        self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
         self.words = ui.column().classes("w-full gap-1")
+        self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
+        ui.label(question.about).classes("hint")
         with ui.element("div").classes("figures w-full"):
-            with ui.column().classes("w-full"):
-                self._form()
             self.beside = ui.column().classes("w-full gap-1")
             with self.beside:
                 self.facts = ui.row().classes("facts w-full")
-                self.plot = put(ui.plotly(empty(360)).classes("w-full"), {"data-figure": name})
+                self.plot = set_attributes(
+                    ui.plotly(empty(360)).classes("w-full"), {"data-figure": name}
+                )
                 self.rows = ui.column().classes("w-full")
                 self.notes = ui.column().classes("w-full gap-0")
+            with ui.column().classes("w-full"):
+                self._form()
 
     def _renewed(self) -> None:
         self._form.refresh()
@@ -92,16 +98,14 @@ class QuestionTab:
             if not isinstance(self.state.get(name), dict):
                 values = ", ".join(f"{key} {value}" for key, value in question.start.items())
                 ui.label(with_micro(f"Shown for {values}.")).classes("hint")
-                ui.button("Change these", icon="edit", on_click=self._begun).props(
-                    f'no-caps data-path="{name}.add"'
-                )
+                change = ui.button("Change these", icon="edit", on_click=self._begun)
+                set_attributes(change.props("no-caps"), {"data-path": f"{name}.add"})
                 return
             for field in (*question.own, *fields_of(question.kind)):
                 if field.name not in question.left_out:
                     self.inputs.field((name,), field)
-            ui.button("Remove", icon="delete", on_click=self._removed).props(
-                f'flat dense no-caps data-path="{name}.remove"'
-            )
+            remove = ui.button("Remove", icon="delete", on_click=self._removed)
+            set_attributes(remove.props("flat dense no-caps"), {"data-path": f"{name}.remove"})
             self.inputs.rest = ui.column().classes("w-full")
 
     def _begun(self) -> None:
@@ -134,7 +138,7 @@ class QuestionTab:
         with self.words:
             for i, text in enumerate(shown.answer):
                 said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
-                put(said, {"data-fact": f"{name}: answer {i}"})
+                set_attributes(said, {"data-fact": f"{name}: answer {i}"})
         self.facts.clear()
         with self.facts:
             facts(shown.facts, f"{name}: ")
@@ -146,4 +150,7 @@ class QuestionTab:
         self.notes.clear()
         with self.notes:
             for text in shown.notes:
-                ui.label(with_micro(text)).classes("hint")
+                if not text.startswith(NOTE):
+                    ui.label(with_micro(text)).classes("hint")
+        noted = [text.removeprefix(NOTE) for text in shown.notes if text.startswith(NOTE)]
+        self.state.note(self.tab, noted)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -14,13 +15,14 @@ import thirdbody as tb
 
 from ..populations.finish import STATED
 from ..quantities.say import value_of
+from ..study.load import FORCE
 from .fields import engineering, number_of
 from .inputs import Inputs
 from .sizing import size_of, with_size
 from .state import Answer, State
-from .widgets import put
+from .widgets import set_attributes
 
-__all__ = ["Slider", "Sliders", "at_position", "position_of"]
+__all__ = ["CODES", "CodeKnob", "Slider", "Sliders", "at_position", "position_of", "shifted"]
 
 STEPS = 400
 REACH = 10.0
@@ -65,7 +67,7 @@ class Slider(ui.slider):
 
     def speak(self, text: str) -> None:
         """What is read out in the place of the position."""
-        put(self, {"aria-valuetext": text})
+        set_attributes(self, {"aria-valuetext": text})
 
 
 @dataclass
@@ -87,7 +89,7 @@ class Knob:
         with ui.column().classes("slider gap-0") as self.box:
             self.text = ui.label(self.label).classes("hint")
             self.slider = Slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
-            put(self.slider, {"aria-label": self.label, "data-slider": self.place})
+            set_attributes(self.slider, {"aria-label": self.label, "data-slider": self.place})
         self.box.set_visibility(False)  # until its number is known
 
     def follow(self, position: float) -> None:
@@ -120,6 +122,70 @@ class Knob:
             self.slider.set_value(where)
 
 
+CODES = re.compile(r"\d+(/\d+){1,2}")
+MOST_SHIFTED = 6
+"""Classes that an oil goes up and down."""
+
+
+def shifted(code: str, classes: int) -> str:
+    """A cleanliness code by so many classes, each of which doubles the particles.
+
+    >>> shifted("18/16/13", 2), shifted("9/2", -3)
+    ('20/18/15', '6/0')
+    """
+    return "/".join(str(max(int(each) + classes, 0)) for each in code.split("/"))
+
+
+class CodeKnob(Knob):
+    """The number of particles of an oil, in the classes of its ISO 4406 code."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+        self.first = ""
+        """The code in the middle of the slider."""
+        super().__init__("oil", "particles.iso4406", lambda: None, lambda v: None, str)
+
+    def code(self) -> str:
+        """The code of the study; empty where it has none, or several."""
+        given = self.state.get("particles")
+        every = given if isinstance(given, list) else [given]
+        codes = {
+            str(each["iso4406"]) for each in every if isinstance(each, dict) and "iso4406" in each
+        }
+        code = codes.pop() if len(codes) == 1 else ""
+        return code if CODES.fullmatch(code) else ""
+
+    def build(self) -> None:
+        """Put the slider on the page; each step of it is a class."""
+        super().build()
+        set_attributes(self.slider, {"min": -MOST_SHIFTED, "max": MOST_SHIFTED})
+
+    def follow(self, position: float) -> None:
+        """Set the code of every population by the position of the slider."""
+        code, given = shifted(self.first, round(position)), self.state.get("particles")
+        if not self.first or code == self.code():
+            return
+        self.moved = True
+        several = given if isinstance(given, list) else [given]
+        new = [each | {"iso4406": code} if "iso4406" in each else each for each in several]
+        study = self.state.study | {"particles": new if isinstance(given, list) else new[0]}
+        self.state.replace(study, kind=self.place)
+
+    def tell(self) -> None:
+        """Show the code of the study."""
+        code = self.code()
+        self.box.set_visibility(bool(code))
+        self.text.set_text(f"oil {code}")
+        self.slider.speak(code)
+        own, self.moved = self.moved, False
+        if own or not code:
+            return
+        here = [n for n in range(-MOST_SHIFTED, MOST_SHIFTED + 1) if self.first]
+        known = [n for n in here if shifted(self.first, n) == code]
+        self.first = self.first if known else code
+        self.slider.set_value(known[0] if known else 0)
+
+
 class Sliders:
     """The strip over the tabs."""
 
@@ -138,7 +204,7 @@ class Sliders:
 
     def _all(self) -> list[Knob]:
         sizes = Knob(
-            "mean size x_a",
+            "mean size",
             "particles.size",
             self._size,
             lambda v: self.state.replace(
@@ -147,7 +213,7 @@ class Sliders:
             _length,
         )
         amount = Knob(
-            "particles per area",
+            "particles",
             "particles.areal_density",
             self._density,
             lambda v: self.state.set(
@@ -157,22 +223,40 @@ class Sliders:
         )
         fields = tb.Roughness.__dataclass_fields__
         return [
+            self._force(),
             self._rough("σ", "sigma", fields["sigma"].metadata["quantity"]),
             self._rough("Ra", "Ra", STATED["Ra"]),
+            self._rough("Ra, first", "first.Ra", STATED["Ra"]),
+            self._rough("Ra, second", "second.Ra", STATED["Ra"]),
             self._rough("R", "R", fields["R"].metadata["quantity"]),
             sizes,
             amount,
+            CodeKnob(self.state),
         ]
+
+    def _force(self) -> Knob:
+        """The one force of the study."""
+
+        def read() -> float | None:
+            value = number_of(self.state.get("load", "force"), FORCE)
+            return value if value > 0 else None
+
+        def write(value: float) -> None:
+            self.state.set("load", "force", f"{float(f'{value:.3g}'):g} N")
+
+        return Knob("force", "load.force", read, write, lambda v: value_of(v, "N"))
 
     def _rough(self, label: str, name: str, about: dict[str, object]) -> Knob:
         """A length of the roughness."""
 
+        place = ("roughness", *name.split("."))
+
         def read() -> float | None:
-            value = number_of(self.state.get("roughness", name), about)
+            value = number_of(self.state.get(*place), about)
             return value if value > 0 else None
 
         def write(value: float) -> None:
-            self.state.set("roughness", name, engineering(value, "m", 3))
+            self.state.set(*place, engineering(value, "m", 3))
 
         return Knob(label, f"roughness.{name}", read, write, _length)
 
@@ -212,7 +296,7 @@ class Sliders:
             return
         self.moving = True
         try:
-            at = self.state.at
+            at = self.state.operating_load
             part = position_of(answer.loads, at)
             self.load.set_value(round(STEPS * part))
             self.load_label.set_text(_load_text(answer, at))

@@ -9,7 +9,7 @@ import json
 import math
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypedDict, TypeVar, TypeVarTuple
@@ -116,7 +116,7 @@ class Answer:
         return pressed(self.study.body, self.study.forces, self.contact)
 
     @property
-    def held(self) -> float:
+    def particles_held(self) -> float:
         """Particles that one contact holds on average; any number where its area is not known."""
         study, every = self.study, sum(dust.areal_density for dust in self.contact.populations)
         if study.body is not None and study.forces is not None:
@@ -298,6 +298,12 @@ class State:
         self.wanted = at
         self.tab = ""
         """The tab in sight."""
+        self.noted: dict[str, list[str]] = {}
+        """What the answers of single tabs leave open."""
+        self.opened = study
+        """The study as it was opened."""
+        self.kept: Tables | None = None
+        """A study that was kept, to lay this one beside it."""
         self.past: list[tuple[Tables, float | None]] = []
         """Study and operating load before each step."""
         self.steps = 0
@@ -349,6 +355,7 @@ class State:
     def open(self, study: Tables) -> None:
         """A study that begins anew, with an operating load of its own."""
         self._step(None)
+        self.opened = study
         self._set_study(study, None)
 
     def _step(self, kind: str | None) -> None:
@@ -466,6 +473,12 @@ class State:
         if self.reading is not None:
             self.reading.cancel()
 
+    def note(self, tab: str, notes: Iterable[str]) -> None:
+        """What the answer of a tab leaves open; the badge tells it."""
+        if (every := list(notes)) != self.noted.get(tab, []):
+            self.noted[tab] = every
+            self.tell()
+
     def tell(self) -> None:
         """The study or the operating load is another one."""
         for call in list(self.changed):
@@ -473,7 +486,7 @@ class State:
 
     # ------------------------------------------------------------------ the operating load
     @property
-    def at(self) -> float:
+    def operating_load(self) -> float:
         """The operating load, in the unit of the study's load."""
         assert self.answer is not None
         if self.wanted is None or self.wanted not in self.answer:
@@ -490,7 +503,7 @@ class State:
     def point(self) -> tb.Equilibrium:
         """The state under the operating load."""
         assert self.answer is not None
-        return self.answer.solve(self.at)
+        return self.answer.solve(self.operating_load)
 
 
 def files_of(table: object) -> list[str]:

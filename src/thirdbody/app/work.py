@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import operator
+import time
 from collections.abc import Awaitable, Callable
 from typing import Generic, TypeVar, cast
 
@@ -11,16 +12,21 @@ from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue
 from .jobs import MOST, RUNNING, Job, Stopped
-from .solver import apart
+from .solver import apart, solver
 from .state import State, measured
 from .text import with_micro
-from .widgets import put
+from .widgets import set_attributes
 from .worker import in_little
 
 __all__ = ["Work", "when_left"]
 
+RESTS = 0.6
+"""Seconds that a study rests before what was shown as a preview is done in full."""
+SLOW = 8.0
+"""Seconds of a preview from which on the rest is left to the button."""
 LEFT = 3.0
 """Seconds after which a page that is not seen any more counts as closed."""
+FOLLOWS = "A preview; all of it follows."
 STALE = "What is shown belongs to the study as it was before the last changes: do it again."
 
 
@@ -86,37 +92,68 @@ class Work(Generic[Found]):
         """What the mistakes that are said belong to."""
         self.preview = False
         """Whether it is a preview."""
+        self.slow = False
+        """Whether previews take long: then nothing more begins of itself."""
+        self.following = False
+        """Whether all of a preview is being computed."""
         self.job: Job | None = None
         with ui.row().classes("w-full items-center gap-3"):
             self.start = ui.button(label, icon="play_arrow", on_click=self.run)
-            put(self.start.props("no-caps"), {"data-work": task})
+            set_attributes(self.start.props("no-caps"), {"data-work": task})
             self.bar = ui.linear_progress(value=0.0, show_value=False).classes("grow")
-            put(self.bar, {"aria-label": f"progress of {task}"})
+            set_attributes(self.bar, {"aria-label": f"progress of {task}"})
             self.stop = ui.button("Cancel", icon="stop", on_click=self.cancel).props("flat no-caps")
-            put(self.stop, {"data-cancel": task})
-        self.said = put(ui.label().classes("problem"), {"role": "alert", "data-said": task})
-        self.stale = put(ui.label().classes("stale"), {"role": "status", "data-stale": task})
+            set_attributes(self.stop, {"data-cancel": task})
+        self.said = set_attributes(
+            ui.label().classes("problem"), {"role": "alert", "data-said": task}
+        )
+        self.stale = set_attributes(
+            ui.label().classes("stale"), {"role": "status", "data-stale": task}
+        )
         self._idle()
         when_left(self.cancel)
 
     async def tell(self, state: State) -> None:
-        """Begin with a preview, and say when what is shown does not fit the study any more."""
-        measures = bool(measured(state.study, state.folder))
-        wanted = self.little and self.done is None and not state.problems and not measures
-        if wanted and not self.trying and not self._fits(self.tried):
+        """Show a preview of the study as it is, then all of it; or say that it does not fit."""
+        if self._wanted(state) and not self.trying and not self._fits(self.tried):
             self.tried, self.trying = (self.key(),), True
             background_tasks.create(self._try(state))  # the page does not wait for it
         self._fit()
 
+    def _wanted(self, state: State) -> bool:
+        """Whether another answer begins of itself."""
+        if self.little is None or state.problems or measured(state.study, state.folder):
+            return False
+        return self.done is None or not (self.slow or self._fits(self.done))
+
     async def _try(self, state: State) -> None:
         """One preview; another one where the study moved on before there was one."""
+        began, asked_for = time.perf_counter(), self.tried
         try:
-            await self._in_little()
+            shown = await self._by_itself(self.little)
+            self.slow = time.perf_counter() - began - solver().prepared(began) > SLOW
         finally:
             self.trying = False
-        if self.done is None and not self.said.client._deleted and not self._fits(self.tried):
+        if self.said.client._deleted:
+            return
+        if not self._fits(self.tried):
             with self.said.client:
                 await self.tell(state)
+        elif shown and not self.slow and self.tried is asked_for:
+            await self._follow(asked_for)
+
+    async def _follow(self, asked_for: object) -> None:
+        """All of what was shown as a preview, once the study rests."""
+        await asyncio.sleep(RESTS)
+        while self.following:
+            await asyncio.sleep(RESTS)
+        if self.tried is not asked_for or not self._fits(self.tried) or self.job is not None:
+            return
+        self.following = True
+        try:
+            await self._by_itself(None)
+        finally:
+            self.following = False
 
     async def again(self, state: State) -> None:
         """Another preview in the place of the one that is shown."""
@@ -145,31 +182,34 @@ class Work(Generic[Found]):
         if self.done is not None and not self.same(self.done[0], self.key()):
             text = STALE
         elif self.preview:
-            text = f"A preview: “{self.start.text}” does it in full."
+            by_hand = f"A preview: “{self.start.text}” does it in full."
+            text = by_hand if self.slow else FOLLOWS
         self.stale.set_text(text)
         self.stale.set_visibility(bool(text))
 
-    async def _in_little(self) -> None:
-        asked_for, client = self.tried, self.said.client
+    async def _by_itself(self, little: Callable[[Asked], Asked] | None) -> bool:
+        """A preview, or all of it, without a button; whether it is shown."""
+        asked_for, client, before = self.tried, self.said.client, self.done
         assert asked_for is not None
         with client:
             try:
                 asked = self.ask()
                 if isinstance(asked, Awaitable):
                     asked = await asked
-                if asked is None or self.little is None:
-                    return
-                result = await apart(in_little, self.task, self.little(asked))
+                if asked is None:
+                    return False
+                result = await apart(in_little, self.task, little(asked) if little else asked)
             except InvalidValue as error:
-                if self.tried is asked_for and self.done is None:
+                if self.tried is asked_for and self.done is before:
                     self.fail("; ".join(error.problems), asked_for[0])
-                return
-            if self.tried is not asked_for or self.done is not None or client._deleted:
-                return  # asked anew or done in full meanwhile, or nobody looks
-            self.preview, self.done, self.failed = True, asked_for, None
+                return False
+            if self.tried is not asked_for or self.done is not before or client._deleted:
+                return False  # asked anew or done by the button meanwhile, or nobody looks
+            self.preview, self.done, self.failed = little is not None, asked_for, None
             self.said.set_text("")
             await self._shown(result)
             self._fit()
+            return True
 
     async def _shown(self, result: object) -> None:
         shown = self.show(cast(Found, result))

@@ -62,10 +62,12 @@ Numbers = list[float | None]
 
 
 class ModeMap(TypedDict):
-    """Modes and load shares, a row a size."""
+    """Modes and load shares, a row a size; sizes over σ and loads F*, with σ [m] and E_ss [Pa]."""
 
     sizes: list[float]
     loads: list[float]
+    sigma: float
+    E_ss: float
     mode: list[list[int]]
     share: list[Numbers]
     mean: float
@@ -265,7 +267,15 @@ def mode_map(
         index.append(row)
         share.append(part)
         report((number + 1) / len(sizes))
-    return {"sizes": sizes, "loads": loads, "mode": index, "share": share, "mean": mean}
+    return {
+        "sizes": sizes,
+        "loads": loads,
+        "sigma": contact.roughness.sigma,
+        "E_ss": contact.E_ss,
+        "mode": index,
+        "share": share,
+        "mean": mean,
+    }
 
 
 def compare(
@@ -376,7 +386,7 @@ def error_bars(
         "tornado": point.tornado(of)[of],
         "words": {label: words_of(asked.contact, label) for label in point.inputs},
         "ends": {
-            label: [value_of(one.at(q), unit_of(asked.contact, label)) for q in (0.05, 0.95)]
+            label: [value_of(one.quantile(q), unit_of(asked.contact, label)) for q in (0.05, 0.95)]
             for label, one in point.inputs.items()
         },
     }
@@ -443,14 +453,16 @@ def counted(file: str) -> dict[str, list[float]]:
     return {"edges": list(bins.edges), "counts": list(bins.counts)}
 
 
-def explicit(*, study: dict[str, object], folder: str, F_star: float, report: Report) -> Pressing:
+def explicit(
+    *, study: dict[str, object], folder: str, F_star: float, points: int, report: Report
+) -> Pressing:
     """One small surface of the study pressed point by point under one load."""
     from ..study.one_surface import one_surface
     from ..views.explicit_words import headline, rows
     from ..views.plot.explicit import section_of
 
     report(0.1)
-    found = one_surface(_study(study, folder), F_star)
+    found = one_surface(_study(study, folder), F_star, points=points)
     report(0.9)
     maps, bodies = found.state.maps, found.state.particles
     field = {str(name): maps[name].values for name in maps.data_vars}

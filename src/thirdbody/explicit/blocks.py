@@ -79,14 +79,14 @@ def errors_of(sums: Array, steeper: Array, area: float) -> Array:
     whole = sums.sum(axis=1)
     if not whole[:2].sum() > 0:
         return np.full(len(ERRORS), math.nan)
-    here, there = (_told(each[:, None], area) for each in (whole, steeper))
+    here, there = (_figures_of_sums(each[:, None], area) for each in (whole, steeper))
     rise = math.log(steeper[:2].sum() / whole[:2].sum())
     slope = (there - here) / rise
     left = whole[:, None] - sums
     part = (count - 1) / count
     with np.errstate(divide="ignore", invalid="ignore"):
         away = np.log(part * whole[:2].sum() / left[:2].sum(axis=0))
-        without = _told(left, area * part) + slope * away
+        without = _figures_of_sums(left, area * part) + slope * away
         spread = without - without.mean(axis=1, keepdims=True)
     out = np.sqrt(part * np.sum(spread**2, axis=1))
     out[1] *= math.exp(here[1, 0])
@@ -94,7 +94,7 @@ def errors_of(sums: Array, steeper: Array, area: float) -> Array:
     return np.where(np.isfinite(out) & (out > 0), out, math.nan)
 
 
-def _told(sums: Array, area: float) -> Array:
+def _figures_of_sums(sums: Array, area: float) -> Array:
     """Separation, logarithm of the real area, shares of particles: (4, n)."""
     load, on_particles, touched, dents, volume = sums
     with np.errstate(invalid="ignore", divide="ignore"):

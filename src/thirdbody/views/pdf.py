@@ -116,7 +116,7 @@ def _without_date(pdf: bytes) -> bytes:
     )
     ours = f"/Creator (thirdbody {__version__})".encode()
 
-    def named(found: re.Match[bytes]) -> bytes:
+    def creator(found: re.Match[bytes]) -> bytes:
         return ours.ljust(len(found[0])) if len(ours) <= len(found[0]) else found[0]
 
-    return re.sub(rb"/Creator \((?:[^()\\]|\\.)*\)", named, held, count=1)
+    return re.sub(rb"/Creator \((?:[^()\\]|\\.)*\)", creator, held, count=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Awaitable, Callable
 from functools import partial
 
@@ -29,7 +30,7 @@ from ..figures import (
     span,
 )
 from ..state import Answer, State
-from ..widgets import Plot, put, show_figures
+from ..widgets import Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 from .interface import abouts, swatch
 
@@ -37,6 +38,10 @@ __all__ = ["TITLE", "build", "figures"]
 
 TITLE = "Curves"
 TAB = "curves"
+RESTS = 0.4
+"""Seconds after which the slider counts as at rest."""
+TICK = 0.01
+"""Seconds by which a timer may be early."""
 LOOKS = 0.05
 """Seconds after which it is looked whether the tab is still in sight."""
 FIGURES = ("area", "shares", "regimes", "separation")
@@ -173,6 +178,8 @@ class Curves:
         self.table = ui.column().classes("w-full scroll-x")
         self.later: ui.timer | None = None
         """The timer after which critical loads follow."""
+        self.drawn = 0.0
+        """When the figures were drawn last."""
         self.shown: tuple[Answer, str, bool] | None = None
         """What the figures show."""
         self.told: Answer | None = None
@@ -185,20 +192,28 @@ class Curves:
         known = "critical" in answer.__dict__
         await self._place(answer)
         await self._show(answer, critical=known)
+        self.drawn = time.perf_counter()
         if known:
             self._tell(answer)
         elif self.later is None:
             # critical loads are many states: they follow when the slider rests
-            with self.grid:
-                self.later = ui.timer(0.25, self._finish, once=True)
+            self._wait(RESTS)
+
+    def _wait(self, seconds: float) -> None:
+        with self.grid:
+            self.later = ui.timer(seconds, self._finish, once=True)
 
     async def _place(self, answer: Answer) -> None:
         """Where the line of the operating load is."""
         state, axis = self.state, str(self.against.value)
-        at = await state.ask(_solved, state.at) if answer.load == "d" else state.at
+        at = (
+            await state.ask(_solved, state.operating_load)
+            if answer.load == "d"
+            else state.operating_load
+        )
         F_star = at / answer.contact.E_ss if answer.load == "pressure" else at
         here = F_star * (1.0 if axis == "F_star" else answer.contact.E_ss * SCALES[axis])
-        put(self.grid, {"data-at": repr(here)})
+        set_attributes(self.grid, {"data-at": repr(here)})
 
     async def _show(self, answer: Answer, *, critical: bool) -> None:
         asked = (answer, str(self.against.value), critical)
@@ -229,6 +244,10 @@ class Curves:
 
     async def _finish(self) -> None:
         self.later = None
+        moved = time.perf_counter() - self.drawn
+        if moved < RESTS:  # the slider moves
+            self._wait(RESTS - moved + TICK)
+            return
         answer = self.state.answer
         assert answer is not None
         try:

@@ -23,9 +23,12 @@ from ..worker import Designed
 __all__ = ["TITLE", "build", "design_figure"]
 
 TITLE = "Design"
-LOADS = 16
+LOADS, FEW = 16, 4
 METRICS = ("particle_load_share", "A_t", "plastic_share", "d", "h", "A_p")
 WRITTEN = "as the table [design] says"
+SIZE = "particles.mean+particles.std"
+LIKELY = (SIZE, "roughness.sigma", "roughness.Ra", "roughness.first.Ra")
+"""Inputs that a search begins with, the first that the study has."""
 AIMS = {
     "smallest": "as small as possible",
     "largest": "as large as possible",
@@ -53,7 +56,7 @@ def variables_of(state: State) -> dict[str, str]:
     out = {e.name: e.quantity["unit"] for e in inputs_of(state.study) if e.quantity and not e.idle}
     if {"particles.mean", "particles.std"} <= out.keys():
         # a size is searched with its spread in proportion
-        out = {"particles.mean+particles.std": out["particles.mean"]} | out
+        out = {SIZE: out["particles.mean"]} | out
     return out
 
 
@@ -113,24 +116,30 @@ class Search:
 
     def __init__(self, state: State) -> None:
         self.state = state
-        ui.label(
-            "The search runs over the loads of the study. Limits hold at every load; besides, "
-            "always: A_t < 0.2, and particles cover less than 0.3."
-        ).classes("hint")
         names = _names(state)
-        self.which = ui.select(names, value=names[0], label="what may change").classes("w-full")
+        first = next((name for name in (WRITTEN, *LIKELY) if name in names), names[0])
+        self.said = ui.label().props('data-fact="design"').classes("break-any headline second")
+        self.which = ui.select(names, value=first, label="what may change").classes("w-full")
         self.which.props('dense data-path="design.which"')
         self.form = ui.column().classes("w-full")
         with self.form, ui.row().classes("w-full items-end gap-3"):
             self._aim()
         with self.form, ui.row().classes("w-full items-end gap-3"):
             self._limit()
-        self.form.set_visibility(names[0] != WRITTEN)
-        self.which.on_value_change(self._ranged)
-        self.work = Work("design", "Search", self._ask, self._show, key=lambda: state.answer)
-        self.said = ui.label().props('data-fact="design"').classes("break-any")
+        self.form.set_visibility(first != WRITTEN)
+        if first != SIZE:
+            self._ranged()
+        self.work = Work("design", "Search", self._ask, self._show, key=self._key, little=_little)
         self.plot = plot_place("design", 420)
-        self.plot.set_visibility(False)
+        ui.label(
+            "The search runs over the loads of the study. Limits hold at every load; besides, "
+            "always: A_t < 0.2, and particles cover less than 0.3."
+        ).classes("hint")
+        self.which.on_value_change(self._changed)
+        for entry in (self.of, self.aim, self.over, self.limit):
+            entry.on_value_change(lambda: self.work.tell(state))
+        for text in (self.low, self.high, self.most, self.least):
+            text.on("change", lambda: self.work.tell(state))
 
     def _aim(self) -> None:
         """The range, and what is to be small or large in it."""
@@ -150,6 +159,16 @@ class Search:
         self.most = ui.input("at most").props('dense data-path="design.most"')
         self.least = ui.input("at least").props('dense data-path="design.least"')
 
+    def _key(self) -> object:
+        """What a design belongs to: the study, and the form."""
+        form = (self.which, self.low, self.high, self.of, self.aim, self.over)
+        asked = [str(each.value) for each in (*form, self.limit, self.most, self.least)]
+        return self.state.answer, self.state.get("design"), asked
+
+    async def _changed(self) -> None:
+        self._ranged()
+        await self.work.tell(self.state)
+
     def _ranged(self) -> None:
         """Another input: a range about what it is."""
         name, answer = str(self.which.value), self.state.answer
@@ -159,7 +178,7 @@ class Search:
             return
         *path, last = name.split("+")[0].split(".")
         try:
-            now = float(answer.contact.part(field_of(".".join(path), last)))
+            now = float(answer.contact.value_at(field_of(".".join(path), last)))
         except (InvalidValue, TypeError, ValueError):
             return
         self.low.set_value(text_of(engineering(now / 5, unit)))
@@ -193,7 +212,6 @@ class Search:
         unit = units.get(variable.split("+")[0], "1")
         names = in_words(self.state.study, list(result["values"]))
         self.plot.update_figure(design_figure(result, variable, objective, unit, names))
-        self.plot.set_visibility(True)
         self.said.set_text(with_micro(" ".join(design_sentences(result, units, names))))
 
     async def draw(self) -> None:
@@ -205,6 +223,21 @@ class Search:
             options = blank | metrics_of(self.state)
             if options != menu.options:
                 menu.set_options(options, value=menu.value if menu.value in options else None)
+        self.plot.set_visibility(self.work.done is not None or self.work.trying)
+
+
+def _little(asked: Asked) -> Asked:
+    """Fewer loads, where the form says which."""
+    study = asked["study"]
+    assert isinstance(study, dict)
+    table = study.get("design")
+    if not isinstance(table, dict):
+        return asked
+    few = {
+        key: value | {"points": FEW} if isinstance(value, dict) and "points" in value else value
+        for key, value in table.items()
+    }
+    return asked | {"study": study | {"design": few}}
 
 
 def in_words(study: dict[str, object], fields: list[str]) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterable
 
 import numpy as np
 from nicegui import ui
@@ -14,7 +14,9 @@ from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.critical_loads import CRITICAL
 from ...quantities.plain_data import plain_data
 from ...quantities.say import percent, value_of
+from ...study.inputs import inputs_of
 from ...views.plot.style import OKABE_ITO
+from ..fields import engineering, number_of
 from ..figures import (
     AXES,
     GREY,
@@ -30,7 +32,7 @@ from ..figures import (
 )
 from ..inputs import Inputs
 from ..state import State
-from ..widgets import plot_place, put
+from ..widgets import plot_place, set_attributes
 from ..work import Asked, Work
 from ..worker import Bands
 from .outputs import bounded
@@ -42,6 +44,39 @@ LOADS = 21
 WIDE = 26
 """Characters of an input beside its bar."""
 PLAIN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
+
+
+LIKELY = (
+    "roughness.sigma",
+    "roughness.Ra",
+    "roughness.first.Ra",
+    "roughness.second.Ra",
+    "roughness.R",
+    "particles.mean",
+    "particles.median",
+    "particles.areal_density",
+    "surfaces.second.H",
+)
+"""Inputs that are taken as uncertain where the study says nothing of any."""
+PART = 0.1
+"""By how much of each."""
+ASSUMED = "The study says of no input how well it is known: shown for ±10 % of {}."
+
+
+def assumed(state: State) -> dict[str, dict[str, object]]:
+    """Ranges to begin with, where neither study nor library states any; else none."""
+    if state.answer is None or state.get("uncertainty", "inputs") or _ranges(state):
+        return {}
+    found: dict[str, dict[str, object]] = {}
+    for each in inputs_of(state.study):
+        if each.name not in LIKELY or each.idle or each.quantity is None:
+            continue
+        value = number_of(state.get(*each.name.split(".")), each.quantity)
+        if value > 0:
+            unit = str(each.quantity["unit"])
+            ends = (engineering(value * (1 + part), unit) for part in (-PART, PART))
+            found[each.name] = dict(zip(("low", "high"), ends, strict=True))
+    return found
 
 
 def label_of(name: str) -> str:
@@ -207,14 +242,8 @@ class ErrorBars:
 
     def __init__(self, state: State) -> None:
         self.state = state
-        ui.label(
-            "Say what is known of the inputs. Without any entry the ranges of the materials "
-            "library count, where it states some."
-        ).classes("hint")
-        self.inputs = Inputs(state, self._renewed)
-        self.known = self._inputs_and_ranges()
-        """What the entries show."""
-        self._entries()
+        self.said = ui.label().classes("headline second").props('data-fact="error bars"')
+        self.assumed = ui.label().classes("hint").props('data-fact="error bars assumed"')
         with ui.row().classes("w-full items-end gap-3"):
             self.of = ui.select(results_of(state), value=PLAIN[0], label="result")
             self.of.props('dense options-dense data-path="error bars.of"').classes("grow")
@@ -226,13 +255,19 @@ class ErrorBars:
             "error bars", "Draw error bars", self._ask, self._show, key=self._key, little=_little
         )
         self.of.on_value_change(lambda: self.work.tell(state))
-        self.said = ui.label().props('data-fact="error bars"')
         self.box = ui.element("div").classes("figures w-full")
         self.plots: dict[str, ui.plotly] = {}
         with self.box:
             for name in ("bands", "tornado"):
                 self.plots[name] = plot_place(name, 380)
-        self.box.set_visibility(False)
+        ui.label("What is known of the inputs").classes("subhead")
+        ui.label(
+            "Without any entry the ranges of the materials library count, where it states some."
+        ).classes("hint")
+        self.inputs = Inputs(state, self._renewed)
+        self.known = self._inputs_and_ranges()
+        """What the entries show."""
+        self._entries()
 
     def _renewed(self) -> None:
         self._entries.refresh()
@@ -252,7 +287,7 @@ class ErrorBars:
 
     def _key(self) -> object:
         state = self.state
-        return state.answer, state.get("uncertainty"), str(self.of.value), state.at
+        return state.answer, state.get("uncertainty"), str(self.of.value), state.operating_load
 
     async def _ask(self) -> Asked | None:
         await self.state.settle()
@@ -260,15 +295,17 @@ class ErrorBars:
         if answer is None:
             return None
         values = answer.loads
-        self.said.set_text("")
         space = np.linspace if answer.load == "d" else np.geomspace
         self.load = answer.load
+        study = self.state.study
+        if start := assumed(self.state):
+            study = study | {"uncertainty": {"inputs": start}}
         return {
-            "study": self.state.study,
+            "study": study,
             "folder": str(self.state.folder),
             "load": answer.load,
             "loads": space(values[0], values[-1], LOADS).tolist(),
-            "at": self.state.at,
+            "at": self.state.operating_load,
             "of": str(self.of.value),
             "samples": int(self.samples.value or 1024),
         }
@@ -298,11 +335,23 @@ class ErrorBars:
         options, of = results_of(self.state), self.of
         if options != of.options:
             of.set_options(options, value=of.value if of.value in options else PLAIN[0])
+        names = words_of_inputs(self.state, assumed(self.state))
+        self.assumed.set_text(ASSUMED.format(", ".join(names)) if names else "")
+        self.assumed.set_visibility(bool(names))
         await self.work.tell(self.state)
+        shown = self.work.done is not None or self.work.trying
+        self.box.set_visibility(shown)
+        self.said.set_visibility(self.work.done is not None)
 
 
 def _little(asked: Asked) -> Asked:
     return asked | {"loads": np.array(asked["loads"])[::4].tolist(), "samples": 128}
+
+
+def words_of_inputs(state: State, names: Iterable[str]) -> list[str]:
+    """What inputs are, by meaning and symbol."""
+    known = {each.name: each.quantity for each in inputs_of(state.study) if each.quantity}
+    return [f"{known[name]['meaning']} {known[name]['symbol']}" for name in names]
 
 
 def _ranges(state: State) -> dict[str, dict[str, float]]:
@@ -330,7 +379,7 @@ def _offer(inputs: Inputs, state: State) -> None:
         low, high = (value_of(end, unit_of(contact, name)) for end in ends.values())
         ui.label(f"{words_of(contact, name)} between {low} and {high}").classes("hint")
     known = own if isinstance(own, dict) else {}
-    put(
+    set_attributes(
         ui.button(
             "Take these ranges into the study",
             icon="input",

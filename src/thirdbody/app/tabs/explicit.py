@@ -9,10 +9,10 @@ from nicegui import ui
 from numpy.typing import ArrayLike
 
 from ...quantities.say import percent, prefixed, value_of
+from ...study.one_surface import POINTS
 from ..figures import INKS, Figure, Part, figure, line
 from ..state import Answer, State
-from ..text import with_micro
-from ..widgets import facts, plot_place, put
+from ..widgets import facts, plot_place, set_attributes
 from ..work import Asked, Work
 from ..worker import Pressing
 
@@ -20,6 +20,8 @@ __all__ = ["TITLE", "build", "force_figure", "pressure_figure", "section_figure"
 
 TITLE = "Explicit"
 SECONDS = 120.0
+FEW = 64
+"""Points along each side of a preview."""
 MOST_CIRCLES = 400
 """Particles that are drawn, those that carry most."""
 CORNERS = 24
@@ -131,48 +133,55 @@ class Explicit:
 
     def __init__(self, state: State) -> None:
         self.state = state
+        self.words = set_attributes(
+            ui.label().classes("headline second"), {"data-fact": "explicit headline"}
+        )
+        self.work = Work(
+            "explicit",
+            "Press the surface",
+            self._ask,
+            self._show,
+            SECONDS,
+            key=self._key,
+            little=lambda asked: asked | {"points": FEW},
+        )
+        self.box = ui.column().classes("w-full")
+        with self.box:
+            self.table = ui.row().classes("facts w-full")
+            self.plots: dict[str, ui.plotly] = {}
+            with ui.element("div").classes("figures w-full"):
+                for name in NAMES:
+                    self.plots[name] = plot_place(f"explicit {name}")
         ui.label(
             "A small part of the surface of the study, measured or made with its σ, R and α, is "
             "pressed point by point under the operating load, with every particle at its place, "
             "and laid beside the statistical answer."
         ).classes("hint")
-        self.work = Work(
-            "explicit", "Press the surface", self._ask, self._show, SECONDS, key=self._key
-        )
-        self.box = ui.column().classes("w-full")
-        with self.box:
-            self.words = put(ui.label().classes("w-full"), {"data-fact": "explicit headline"})
-            self.table = ui.row().classes("facts w-full")
-            self.notes = ui.column().classes("w-full gap-1")
-            self.plots: dict[str, ui.plotly] = {}
-            with ui.element("div").classes("figures w-full"):
-                for name in NAMES:
-                    self.plots[name] = plot_place(f"explicit {name}")
-        self.box.set_visibility(False)
 
     def _key(self) -> object:
         answer = self.state.answer
-        return None if answer is None else (answer.contact, answer.study.explicit, self.state.at)
+        return (
+            None
+            if answer is None
+            else (answer.contact, answer.study.explicit, self.state.operating_load)
+        )
 
     async def _ask(self) -> Asked | None:
         await self.state.settle()
         if self.state.answer is None:
             self.work.fail("the study has a mistake; see its entries")
             return None
-        load = await self.state.ask(_load, self.state.at)
-        return {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}
+        load = await self.state.ask(_load, self.state.operating_load)
+        asked = {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}
+        return asked | {"points": POINTS}
 
     def _show(self, found: Pressing) -> None:
-        self.box.set_visibility(True)
         self.words.set_text(found["headline"].replace("`", ""))
         self.table.clear()
         with self.table:
             each = found["compared"].items()
             facts(((name, f"{a}; statistically {b}") for name, (a, b) in each), "explicit ")
-        self.notes.clear()
-        with self.notes:
-            for text in found["warnings"]:
-                ui.label(with_micro(text)).classes("hint")
+        self.state.note("explicit", found["warnings"])
         draws = {"pressure": pressure_figure, "section": section_figure, "forces": force_figure}
         for name, draw in draws.items():
             self.plots[name].update_figure(draw(found))
@@ -180,6 +189,8 @@ class Explicit:
 
     async def draw(self) -> None:
         await self.work.tell(self.state)
+        nothing = self.work.done is None and not self.work.trying
+        self.box.set_visibility(not nothing)
 
 
 def _load(answer: Answer, at: float) -> float:

@@ -4,25 +4,31 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Awaitable, Callable
+from typing import NamedTuple
 
 import numpy as np
 from nicegui import ui
 
+from ...errors import ThirdBodyError
 from ...quantities.say import value_of
 from ...study import FilmResult, Study, run_film
+from ...study.dirty_oil import dirty_oil, read_filter
 from ...study.film import SHAPES, SPEED
 from ...systems.film_conditions import Entrainment, FilmConditions
-from ...systems.film_formulas import Oil
+from ...systems.film_formulas import Oil as OilProperties
+from ...views import oil_words
 from ...views.film_words import point, summary
 from ...views.plot.film import OF_PARTICLES, bands_of
 from ..fields import Field, engineering, fields_of, number_field
 from ..figures import GREY, Figure, band, figure, line, log_title, mark
 from ..inputs import Inputs
 from ..sliders import Slider
-from ..state import Answer, State
+from ..solver import apart
+from ..state import Answer, State, look, measured
 from ..text import with_micro
 from ..widgets import facts as named_values
-from ..widgets import plot_place, put
+from ..widgets import plot_place, set_attributes
+from ..widgets import table as shown_table
 
 __all__ = ["START", "TITLE", "build", "film_figures", "solved"]
 
@@ -33,12 +39,19 @@ START: dict[str, object] = {
     "conjunction": {"shape": "point", "R": "9.5 mm"},
     "oil": {"eta": "20 mPa s", "alpha": "20 / GPa"},
 }
+BEGUN = (
+    "Shown for a ball of 9.5 mm radius under 20 N in oil of 20 mPa s. A film carries the load "
+    "together with asperities and particles; add it to set bodies, oil and speed."
+)
 RANGE = START["speed"]
 BODIES = {
     "point": {"shape": "point", "R": "9.5 mm"},
     "line": {"shape": "line", "R": "9.5 mm", "length": "10 mm"},
 }
 DIRT = {"concentration": 1e-6, "entry_ratio": 1.0, "friction": 0.1}
+FILTER = "as on a data sheet, e.g. 5=75, 10=1000; left out: the oil as it is"
+UNKNOWN = "not known"
+"""A number that is not there: it is left out."""
 MOST, REACH = 80, 100.0
 """Speeds of the curves, and how far they go beyond one speed."""
 SHADE = {"boundary": 0.35, "mixed": 0.15, "full film": 0.0}
@@ -87,6 +100,27 @@ def _solved(answer: Answer) -> tuple[FilmResult, int]:
     return solved(answer.study)
 
 
+class Oil(NamedTuple):
+    """What the particles of the oil do: sentences, and a table with its heads."""
+
+    sentences: list[str]
+    heads: tuple[str, ...]
+    rows: list[list[str]]
+
+
+def oil_of(answer: Answer, fine: str) -> Oil | None:
+    """What the particles of a study's oil do, before and after a filter where one is written."""
+    oil = dirty_oil(answer.study)
+    if oil is None:
+        return None
+    if not fine:
+        return Oil(oil_words.answer(oil), tuple(oil_words.HEADS), oil_words.rows(oil))
+    filtered = dirty_oil(answer.study, filter=read_filter(fine))
+    assert filtered is not None
+    sentences = [oil_words.filter_answer(oil, filtered), *oil_words.answer(oil)]
+    return Oil(sentences, ("", "before", "after the filter"), oil_words.filter_rows(oil, filtered))
+
+
 def film_figures(found: FilmResult, i: int) -> dict[str, Figure]:
     """Three figures over speed, with the regimes behind the curves and the speed i marked."""
     states = found.states
@@ -132,12 +166,11 @@ class Film:
 
     def __init__(self, state: State) -> None:
         self.state = state
-        ui.label(
-            "An oil film, asperities and particles carry one load together. The film of smooth "
-            "bodies follows from their radii, the oil and the speed."
-        ).classes("hint")
         self.inputs = Inputs(state, self._renewed)
         self.answer: Answer | None = None
+        """Whose film is shown."""
+        self.start: tuple[Answer, Answer | None] | None = None
+        """A study without a film, and its answer with one to begin with."""
         self.found: FilmResult | None = None
         """What was found for the answer."""
         self.i = 0
@@ -145,12 +178,19 @@ class Film:
         self.there: object = None
         """Which entries there are."""
         self.plots: dict[str, ui.plotly] = {}
+        self.wrong = ui.label().classes("problem").props('role=alert data-said="film"')
+        self.words = ui.column().classes("w-full gap-1")
+        self.dents = ui.column().classes("w-full gap-1")
+        with self.dents:
+            self.oil_rows = ui.column().classes("w-full scroll-x")
+            self.fine = ui.input("a filter: its β ratio at sizes").classes("w-full narrow")
+            set_attributes(self.fine, {"data-path": "film.filter", "hint": FILTER})
+            self.fine.props("dense debounce=400").on_value_change(self._filtered)
         with ui.element("div").classes("figures w-full"):
+            with ui.column().classes("w-full gap-1") as self.beside:
+                self._results()
             with ui.column().classes("w-full"):
                 self._form()
-            self.beside = ui.column().classes("w-full gap-1")
-            with self.beside:
-                self._results()
 
     def _renewed(self) -> None:
         self._form.refresh()
@@ -168,9 +208,10 @@ class Film:
         self.slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
         self.slider.on_value_change(self._moved)
         self.facts = ui.row().classes("facts w-full")
-        self.words = ui.column().classes("w-full gap-0")
         for name in CURVES:
             self.plots[name] = plot_place(name)
+        with ui.expansion("More about the film").classes("w-full").props("dense"):
+            self.more = ui.column().classes("w-full gap-1")
 
     def _show(self, found: FilmResult) -> None:
         """Facts and figures at the speed of the slider."""
@@ -183,7 +224,8 @@ class Film:
         self.slider.speak(said)
         self.facts.clear()
         with self.facts:
-            named_values(point(found, self.i).items(), "film: ")
+            every = point(found, self.i).items()
+            named_values(((name, said) for name, said in every if said != UNKNOWN), "film: ")
 
     def _moved(self) -> None:
         i = int(self.slider.value or 0)
@@ -197,53 +239,95 @@ class Film:
             self.there = shape
             self._renewed()
         self.inputs.tell()
-        answer = self.state.answer
-        assert answer is not None
-        given = answer.study.film
-        self.beside.set_visibility(given is not None)
-        if given is None or answer is self.answer:
+        answer = await self._with_film()
+        for part in (self.words, self.dents, self.beside):
+            part.set_visibility(answer is not None)
+        if answer is None or answer is self.answer:
             return
         before = self.found
-        found, middle = await self.state.ask(_solved)
+        found, middle = await apart(_solved, answer)
         kept = before is not None and np.array_equal(before.states["speed"], found.states["speed"])
         self.answer, self.found = answer, found
         self.i = self.i if kept else middle
-        put(self.slider, {"max": len(found.states["speed"]) - 1})
+        set_attributes(self.slider, {"max": len(found.states["speed"]) - 1})
         self.slider.set_value(self.i)
+        self._show(found)
+        await self._tell(answer, found)
+
+    async def _with_film(self) -> Answer | None:
+        """The answer of the study, or of the study with a film to begin with."""
+        state, answer = self.state, self.state.answer
+        assert answer is not None
+        self.wrong.set_text("")
+        if answer.study.film is not None:
+            return answer
+        if self.start is None or self.start[0] is not answer:
+            study, surface = state.study | {"film": START}, state.surfaces
+            known = surface.get(measured(study, state.folder))
+            found, problems, _ = await apart(look, study, state.folder, known)
+            self.start = (answer, found)
+            self.wrong.set_text(with_micro("; ".join(problems)))
+        return self.start[1]
+
+    async def _tell(self, answer: Answer, found: FilmResult) -> None:
+        """The answer in sentences: what the particles of the oil do, then the film."""
+        try:
+            oil = await apart(oil_of, answer, str(self.fine.value or ""))
+        except ThirdBodyError as error:
+            oil = None
+            self.wrong.set_text("; ".join(getattr(error, "problems", None) or [str(error)]))
+        if answer is not self.answer:
+            return
+        said = oil.sentences if oil is not None else []
+        self.dents.set_visibility(oil is not None)
+        self.state.note("film", found.run_warnings)
+        more = summary(found)
+        if not said:
+            said, more = more[:1], more[1:]
         self.words.clear()
         with self.words:
-            for text in (*summary(found), *found.run_warnings):
+            for i, text in enumerate(said):
+                style = "whole-contact" if i == 0 else ""
+                set_attributes(
+                    ui.label(with_micro(text)).classes(style), {"data-fact": f"film: answer {i}"}
+                )
+        self.more.clear()
+        with self.more:
+            for text in more:
                 ui.label(with_micro(text)).classes("hint")
-        self._show(found)
+        self.oil_rows.clear()
+        if oil is not None:
+            with self.oil_rows:
+                heads = {f"c{i}": head for i, head in enumerate(oil.heads)}
+                rows = [dict(zip(heads, row, strict=True)) for row in oil.rows]
+                shown_table("oil", heads, rows)
+
+    async def _filtered(self) -> None:
+        if self.answer is not None and self.found is not None:
+            self.wrong.set_text("")
+            await self._tell(self.answer, self.found)
 
 
 def _entries(inputs: Inputs, state: State) -> None:
     """The table [film], entry by entry."""
     table = state.get("film")
     if not isinstance(table, dict):
+        ui.label(BEGUN).classes("hint")
         ui.button("Add a film", icon="add", on_click=lambda: inputs.change("film", START)).props(
             'no-caps data-path="film.add"'
         )
         return
     own = {field.name: field for field in fields_of(FilmConditions)}
-    inputs.field(("film",), own["load"])
-    _speed(inputs, table.get("speed"))
+    if state.get("body") is None or "conjunction" in table:
+        inputs.field(("film",), own["load"])
+        _bodies(inputs, table)
+    else:
+        ui.label("Bodies and load are those at the side.").classes("hint")
+    if "speed" in table or state.get("body", "shaft_speed") is None:
+        _speed(inputs, table.get("speed"))
     inputs.field(("film",), own["slide_roll"])
-    ui.label("bodies").classes("subhead")
-    bodies = table.get("conjunction")
-    shape = str(bodies.get("shape")) if isinstance(bodies, dict) else "point"
-    words = {"point": "point: a ball, a crowned roller", "line": "line: a roller, a gear tooth"}
-    inputs.select(
-        ("film", "conjunction", "shape"),
-        words,
-        shape,
-        "kind of contact",
-        lambda word: inputs.change("film", "conjunction", BODIES[word]),
-    )
-    for field in fields_of(SHAPES.get(shape, SHAPES["point"])):
-        inputs.field(("film", "conjunction"), field)
     ui.label("oil").classes("subhead")
-    for field in fields_of(Oil):
+    for field in fields_of(OilProperties):
         inputs.field(("film", "oil"), field)
     with ui.expansion("more").classes("w-full"), ui.column().classes("w-full gap-2"):
         for name in ("hertz", "few", "most"):
@@ -258,6 +342,23 @@ def _entries(inputs: Inputs, state: State) -> None:
     ui.button("Remove the film", icon="delete", on_click=lambda: _removed(inputs, state)).props(
         'flat dense no-caps data-path="film.remove"'
     )
+
+
+def _bodies(inputs: Inputs, table: dict[str, object]) -> None:
+    """The bodies of a film that has its own."""
+    ui.label("bodies").classes("subhead")
+    bodies = table.get("conjunction")
+    shape = str(bodies.get("shape")) if isinstance(bodies, dict) else "point"
+    words = {"point": "point: a ball, a crowned roller", "line": "line: a roller, a gear tooth"}
+    inputs.select(
+        ("film", "conjunction", "shape"),
+        words,
+        shape,
+        "kind of contact",
+        lambda word: inputs.change("film", "conjunction", BODIES[word]),
+    )
+    for field in fields_of(SHAPES.get(shape, SHAPES["point"])):
+        inputs.field(("film", "conjunction"), field)
 
 
 def _speed(inputs: Inputs, now: object) -> None:

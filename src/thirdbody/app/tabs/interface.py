@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -33,6 +34,8 @@ from ..widgets import Facts
 __all__ = ["TITLE", "abouts", "build", "drawing_of", "facts_of", "headline", "swatch"]
 
 TITLE = "Interface"
+IN_HEADLINE = ("load", "mode", "particles carry")
+"""Facts that the headline says."""
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
 FILM = "The study has an oil film: here surfaces and particles carry the load alone; see Film."
 PLACE = (
@@ -40,8 +43,10 @@ PLACE = (
     "begins at the mean and goes up to the largest."
 )
 FIRST = "Preliminary: the integral over the contact follows."
-RESTS = 0.25
+RESTS = 0.4
 """Seconds after which what takes long is computed for a study that has not changed."""
+TICK = 0.01
+"""Seconds by which a timer may be early."""
 SPARSE = 100
 """A slab so many times deeper than the drawing is wide is no picture of a place."""
 MET = (
@@ -127,7 +132,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     means = abouts()
     numbers = Facts(
         {"separation h": means["h"], "separation d": means["d"], "load": means["F*"]}
-        | {"mode": "; ".join(f"{mode}: {means[mode]}" for mode in MODES)}
+        | {"mode": "; ".join(f"{mode}: {means[mode]}" for mode in MODES)},
+        said=IN_HEADLINE,
     )
     status = ui.label().classes("problem")
     caption = ui.label().classes("hint")
@@ -145,7 +151,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         force.draw()
         answer.classes(**{"add" if state.answer.study.forces is not None else "remove": "second"})
         film.set_visibility(state.answer.study.film is not None)
-        bad, found = await state.ask(drawing_of, state.at, seed["now"])
+        bad, found = await state.ask(drawing_of, state.operating_load, seed["now"])
         status.set_text(bad)
         status.set_visibility(bool(bad))
         if bad:
@@ -184,6 +190,8 @@ class Force:
         """Whose integral is shown, or asked for."""
         self.later: Any = None
         """The timer after which the integral is asked for."""
+        self.drawn = 0.0
+        """When the pressures were shown last."""
         self.running = False
 
     def draw(self) -> None:
@@ -202,13 +210,21 @@ class Force:
         self.warned.set_text(f"Warning: {'; '.join(warned)}." if warned else "")
         self.warned.set_visibility(bool(warned))
         self.place.set_visibility(found[0].kind != "flat" and answer.forced)
+        self.drawn = time.perf_counter()
         if follows and self.later is None and not self.running:
-            with self.box:
-                self.later = ui.timer(RESTS, self._finish, once=True)
+            self._wait(RESTS)
+
+    def _wait(self, seconds: float) -> None:
+        with self.box:
+            self.later = ui.timer(seconds, self._finish, once=True)
 
     async def _finish(self) -> None:
         self.later, answer = None, self.state.answer
         if answer is None or self.running:
+            return
+        moved = time.perf_counter() - self.drawn
+        if moved < RESTS:  # the study moves
+            self._wait(RESTS - moved + TICK)
             return
         self.running = True
         try:
@@ -244,7 +260,7 @@ def drawing_of(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     point = answer.solve(at, tb.outputs.Counts())
     if str(point.status) != "ok":
         return str(point.status), None
-    held = answer.held
+    held = answer.particles_held
     made = section(answer.contact, point, seed=seed, held=held)
     svg = to_svg(made, title="Cross-section of the interface, to scale")
     return "", (svg, _caption(made, held), made.names, facts_of(point, held), headline(point, held))

@@ -29,11 +29,24 @@ LITTLE = 3
 """A preview has every third of both."""
 
 
-OUTSIDE = "The study lies outside this map: draw it again."
+ABOUT = "Sizes are scaled as a whole, everything else stays. Every point is a solved state."
+
+
+NM, MPA = 1e9, 1e-6
+"""A map is drawn in these."""
+
+
+def axes_of(found: ModeMap) -> tuple[np.ndarray, np.ndarray]:
+    """Sizes [m] and pressures [Pa] of a map."""
+    sizes = found["sigma"] * np.array(found["sizes"], float)
+    return sizes, found["E_ss"] * np.array(found["loads"], float)
 
 
 def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
-    """The map as plain data, and where the study is."""
+    """The map as plain data, and where the study is: its mean size [m] and pressure [Pa]."""
+    sizes, loads = (
+        (scale * each).tolist() for scale, each in zip((NM, MPA), axes_of(found), strict=True)
+    )
     colours = [MODE_FILLS[name] for name in MODES]
     scale = []
     for number, colour in enumerate(colours):
@@ -44,8 +57,8 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
     traces: list[Part] = [
         {
             "type": "heatmap",
-            "x": found["sizes"],
-            "y": found["loads"],
+            "x": sizes,
+            "y": loads,
             "z": flipped,
             "text": [list(column) for column in zip(*names, strict=True)],
             "zmin": -0.5,
@@ -57,12 +70,12 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
                 "thickness": 14,
                 "len": 0.6,
             },
-            "hovertemplate": "x_a/σ = %{x:.3g}<br>F* = %{y:.3g}<br>%{text}<extra></extra>",
+            "hovertemplate": "%{x:.3g} nm<br>%{y:.3g} MPa<br>%{text}<extra></extra>",
         },
         {
             "type": "contour",
-            "x": found["sizes"],
-            "y": found["loads"],
+            "x": sizes,
+            "y": loads,
             "z": [list(column) for column in zip(*found["share"], strict=True)],
             "contours": {"start": 0.5, "end": 0.5, "size": 1, "coloring": "none"},
             "line": {"color": "#222222", "dash": "dash", "width": 2},
@@ -73,11 +86,11 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
         },
     ]
     if here is not None:
-        traces.append(_here(*here))
+        traces.append(_here(NM * here[0], MPA * here[1]))
     return figure(
         traces,
-        x="particle size over roughness x<sub>a</sub>/σ",
-        y="load F*",
+        x="mean particle size [nm]",
+        y="nominal pressure [MPa]",
         title="Contact mode; a click goes there",
         ylog=True,
         height=520,
@@ -121,7 +134,7 @@ def inside(found: ModeMap, here: tuple[float, float] | None) -> bool:
     """Whether the study lies on the map."""
     if here is None:
         return True
-    axes = zip((found["sizes"], found["loads"]), here, strict=True)
+    axes = zip(axes_of(found), here, strict=True)
     return all(axis[0] <= value <= axis[-1] for axis, value in axes)
 
 
@@ -142,9 +155,6 @@ def about_map(modes: list[list[int]]) -> str:
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The map of this study."""
-    ui.label(
-        "Sizes are scaled as a whole, everything else stays. Every point is a solved state."
-    ).classes("hint")
     shown: ModeMap | None = None
 
     async def ask() -> Asked | None:
@@ -157,7 +167,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if place is None or not (place[0] > 0 and place[1] > 0):
             work.fail("the map needs a state of the study that is solved")
             return None
-        sizes, loads = reach(place)
+        contact = answer.contact
+        sizes, loads = reach((place[0] / contact.roughness.sigma, place[1] / contact.E_ss))
         return {
             "study": state.study,
             "folder": str(state.folder),
@@ -166,12 +177,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         }
 
     async def here() -> tuple[float, float] | None:
-        """Where the study is on a map."""
+        """Where the study is on a map: its mean size [m] and pressure [Pa]."""
         assert state.answer is not None
         contact = state.answer.contact
         if len(contact.populations) != 1:
             return None
-        return size_of(contact) / contact.roughness.sigma, await state.ask(_load, state.at)
+        return size_of(contact), await state.ask(_pressure, state.operating_load)
 
     async def show(result: ModeMap) -> None:
         nonlocal shown
@@ -183,11 +194,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=_little)
     plot = plot_place("map", 520)
-    plot.set_visibility(False)
+    ui.label(ABOUT).classes("hint")
     only = ui.label().classes("hint").props('data-fact="map"')
 
     async def tell() -> None:
         await work.tell(state)
+        plot.set_visibility(shown is not None or work.trying)
         await draw()
 
     async def draw() -> None:
@@ -196,10 +208,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         plot.set_visibility(True)
         place = await here()
         if not inside(shown, place):
-            if work.preview:  # which is soon done again, for where the study is now
-                await work.again(state)
-            else:
-                work.fail(OUTSIDE)
+            await work.again(state)  # a map contains its study
             place = None
         only.set_text(about_map(shown["mode"]))
         plot.update_figure(map_figure(shown, place))
@@ -209,8 +218,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if not points or state.answer is None:
             return
         contact = state.answer.contact
-        F_star = float(points[0]["y"])
-        size = float(points[0]["x"]) * contact.roughness.sigma
+        F_star = float(points[0]["y"]) / (MPA * contact.E_ss)
+        size = float(points[0]["x"]) / NM
         at = {"F_star": F_star, "pressure": F_star * contact.E_ss}.get(state.answer.load)
         state.replace(with_size(state.study, size), at=at)
 
@@ -226,8 +235,8 @@ def _little(asked: Asked) -> Asked:
     return asked | few
 
 
-def _load(answer: Answer, at: float) -> float:
-    return float(answer.solve(at).F_star)
+def _pressure(answer: Answer, at: float) -> float:
+    return float(answer.solve(at).pressure)
 
 
 def _same_map(one: object, other: object) -> bool:

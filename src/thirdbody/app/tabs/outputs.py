@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import textwrap
 from collections.abc import Awaitable, Callable
@@ -10,7 +11,10 @@ from itertools import takewhile
 import numpy as np
 from nicegui import ui
 
+import thirdbody as tb
+
 from ...analysis.uncertainty.propagation import about_result
+from ...contact.output import AbstractOutput
 from ...equilibrium.columns import about
 from ...quantities.say import prefixed, value_of
 from ..figures import AXES, SCALES, Figure, clipped, figure, line, mark, plain, symbol, wrapped
@@ -31,6 +35,20 @@ QUANTITIES = {
 """What columns of one unit are where their meanings have no words in common."""
 BOUNDED = re.compile(r"\b(share|part|friction)\b")
 """Words of the meanings of numbers that are bounded."""
+GROUPS = {
+    "How many contacts": ("counts",),
+    "Heat and current": ("thermal_conductance", "electrical_conductance", "flash_temperature"),
+    "Damage": ("dents", "crushing", "wear"),
+    "Friction": ("friction", "static_friction"),
+}
+"""Outputs by what they are about; others follow."""
+OTHERS = "Others"
+START = (
+    "The study asks for no output: these need no number of their own. Switch on what is to stay "
+    "in the study."
+)
+BEGUN: tuple[AbstractOutput, ...] = (tb.outputs.Counts(), tb.outputs.ThermalConductance())
+"""Outputs that are shown where the study asks for none."""
 WIDE_FROM = 30
 """Largest value over smallest from which an axis is logarithmic."""
 LINKS = {"of", "a", "an", "the", "on", "in", "by", "that", "from"}
@@ -52,15 +70,22 @@ def output_figures(answer: Answer, at: float) -> dict[str, Figure]:
             what = quantity_of(columns, unit)
             title = str(output.title) if len(units) == 1 else f"{output.title}: {what}"
             made = _figure(answer, columns, unit, what, wrapped(title, WIDE))
-            scale = SCALES.get(answer.load, 1.0)
-            made["layout"]["shapes"] = [mark(at * scale, "", dash="solid")[0]]
+            made["layout"]["shapes"] = [mark(_here(answer, at), "", dash="solid")[0]]
             out[f"{output.name} [{unit}]"] = made
     return out
 
 
+def _here(answer: Answer, at: float) -> float:
+    """Where the operating load is on the axis of the figures: a separation, or a pressure."""
+    if answer.load == "d":
+        return at
+    return at * SCALES["pressure"] * (answer.contact.E_ss if answer.load == "F_star" else 1.0)
+
+
 def _figure(answer: Answer, columns: list[str], unit: str, what: str, title: str) -> Figure:
     """Columns of one unit over the load, in the prefix of their largest value."""
-    scale = SCALES.get(answer.load, 1.0)
+    against = "d" if answer.load == "d" else "pressure"
+    x = np.asarray(getattr(answer.curves, against)) * SCALES.get(against, 1.0)
     values = [np.asarray(answer.curves.outputs[column], dtype=float) for column in columns]
     every = np.concatenate(values)
     every = every[np.isfinite(every) & (every != 0)]
@@ -70,14 +95,11 @@ def _figure(answer: Answer, columns: list[str], unit: str, what: str, title: str
     names = [f"{symbol(about(c).symbol)}: {plain(about(c).meaning)}" for c in columns]
     names = [_folded(each) for each in names]
     return figure(
-        [
-            line(answer.loads * scale, y / size, each, i)
-            for i, (y, each) in enumerate(zip(values, names, strict=True))
-        ],
-        x=AXES[answer.load],
+        [line(x, y / size, each, i) for i, (y, each) in enumerate(zip(values, names, strict=True))],
+        x=AXES[against],
         title=title,
         y=wrapped(what + (f" [{name}]" if name else ""), WIDE),
-        xlog=answer.load != "d",
+        xlog=against != "d",
         ylog=bool(wide) and not bounded(columns),
         height=HEIGHT + LINE * sum(each.count("<br>") + 1 for each in names),
     )
@@ -122,47 +144,80 @@ def names_of_outputs(state: State) -> list[str]:
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Switches with their numbers, figures, and the values at the operating load."""
 
-    seen = {"asked": names_of_outputs(state)}
+    return Outputs(state).draw
 
-    def renewed() -> None:
-        seen["asked"] = names_of_outputs(state)
-        entries.refresh()
 
-    inputs = Inputs(state, renewed)
+def group_of(name: str) -> str:
+    """What an output is about.
 
-    @ui.refreshable
-    def entries() -> None:
-        inputs.shown.clear()
-        with ui.column().classes("w-full gap-1 narrow"):
-            inputs.outputs()
-            inputs.rest = ui.column().classes("w-full")
+    >>> group_of("wear"), group_of("one of my own")
+    ('Damage', 'Others')
+    """
+    return next((group for group, names in GROUPS.items() if name in names), OTHERS)
 
-    with ui.element("div").classes("figures w-full"):
-        with ui.column().classes("w-full"):
-            entries()
-        table = ui.column().classes("w-full")
-    grid = ui.element("div").classes("figures w-full")
-    plots: dict[str, Plot] = {}
 
-    async def draw() -> None:
-        if names_of_outputs(state) != seen["asked"]:  # undone, or another study
-            renewed()
-        inputs.tell()
-        made, rows = await state.ask(_figures_and_rows, state.at)
-        for name in [name for name in plots if name not in made]:
-            plots.pop(name).widget.delete()
-        with grid:
-            for name, drawn in made.items():
-                if name not in plots:
-                    plots[name] = Plot(f"output {name}", drawn["layout"]["height"])
-        _table(rows, table)
-        await show_figures((plots[name], drawn) for name, drawn in made.items())
+class Outputs:
+    """Values at the operating load, figures in groups, and switches with their numbers."""
 
-    return draw
+    def __init__(self, state: State) -> None:
+        self.state = state
+        self.asked = names_of_outputs(state)
+        """What the entries show."""
+        self.inputs = Inputs(state, self._renewed)
+        self._switches()
+        self.start = ui.label(START).classes("hint").props('data-fact="outputs begun"')
+        self.grids: dict[str, tuple[ui.element, ui.element]] = {}
+        """Of each group its heading and the place of its figures."""
+        for group in (*GROUPS, OTHERS):
+            heading = ui.label(group).classes("subhead group")
+            self.grids[group] = (heading, ui.element("div").classes("figures w-full"))
+        self.plots: dict[str, Plot] = {}
+        self.table = ui.column().classes("w-full scroll-x")
+        self._numbers()
+
+    def _renewed(self) -> None:
+        self.asked = names_of_outputs(self.state)
+        self.inputs.shown.clear()
+        self._switches.refresh()
+        self._numbers.refresh()
+
+    @ui.refreshable_method
+    def _switches(self) -> None:
+        with ui.row().classes("w-full switches"):
+            self.inputs.output_switches()
+
+    @ui.refreshable_method
+    def _numbers(self) -> None:
+        """The numbers of the outputs, and mistakes that belong to none of them."""
+        with ui.element("div").classes("figures w-full"):
+            self.inputs.output_numbers()
+        self.inputs.rest = ui.column().classes("w-full")
+
+    async def draw(self) -> None:
+        """The outputs of the study as it is now, or some to begin with."""
+        state = self.state
+        if names_of_outputs(state) != self.asked:  # undone, or another study
+            self._renewed()
+        self.inputs.tell()
+        made, rows = await state.ask(_figures_and_rows, state.operating_load)
+        for name in [name for name in self.plots if name not in made]:
+            self.plots.pop(name).widget.delete()
+        groups = {name: group_of(name.split(" [")[0]) for name in made}
+        for name, drawn in made.items():
+            if name not in self.plots:
+                with self.grids[groups[name]][1]:
+                    self.plots[name] = Plot(f"output {name}", drawn["layout"]["height"])
+        for group, (heading, _) in self.grids.items():
+            heading.set_visibility(group in groups.values())
+        answer = state.answer
+        self.start.set_visibility(answer is not None and not answer.contact.outputs)
+        _table(rows, self.table)
+        await show_figures((self.plots[name], drawn) for name, drawn in made.items())
 
 
 def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], list[dict[str, str]]]:
-    """The figures, and the rows of the table."""
+    """The figures, and the rows of the table; of some outputs where the study asks for none."""
+    answer = answer if answer.contact.outputs else _begun(answer)
     rows = [
         {
             "meaning": about(name).meaning,
@@ -173,6 +228,14 @@ def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], lis
         for name, value in answer.solve(at).outputs.items()
     ]
     return output_figures(answer, at), rows
+
+
+def _begun(answer: Answer) -> Answer:
+    """The answer with outputs that need no number of their own."""
+    contact = answer.contact
+    fitting = tuple(each for each in BEGUN if not each.problems(contact))
+    made = dataclasses.replace(answer.study, contact=contact.replace(outputs=fitting))
+    return Answer(made)
 
 
 def _table(rows: list[dict[str, str]], place: ui.element) -> None:

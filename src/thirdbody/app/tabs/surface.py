@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import cast
@@ -15,12 +16,13 @@ from ...quantities.units import to_si
 from ..fields import value_from
 from ..figures import Figure, Part, figure, line, mark
 from ..guard import LARGEST_UPLOAD
+from ..solver import apart
 from ..state import State, missing
 from ..text import with_micro
 from ..uploads import take
-from ..widgets import facts, plot_place, put, upload
+from ..widgets import facts, plot_place, set_attributes, upload
 from ..work import Asked, Work
-from ..worker import Reading
+from ..worker import Reading, in_little
 from ..worker import Surface as Found
 
 __all__ = ["TITLE", "build", "options_from"]
@@ -86,11 +88,6 @@ class Surface:
         self.result: Found | None = None
         self.followed: dict[str, str] = {}
         """What the address told last, or was told."""
-        ui.label(
-            "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
-            f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a "
-            f"process of its own, which is stopped after {value_of(SECONDS, 's')}."
-        ).classes("hint")
         self._chooser()
         self.texts: dict[str, ui.input | ui.select] = {}
         with ui.row().classes("w-full gap-3"):
@@ -100,10 +97,16 @@ class Surface:
         )
         for entry in self.texts.values():
             entry.on_value_change(lambda: self.work.tell(state))
+        self.begun = False
+        """Whether the example was shown, or something else."""
         self.box = ui.column().classes("w-full")
         with self.box:
             self._results()
-        self.box.set_visibility(False)
+        ui.label(
+            "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
+            f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a "
+            f"process of its own, which is stopped after {value_of(SECONDS, 's')}."
+        ).classes("hint")
 
     # ------------------------------------------------------------------ what there is
     def _chooser(self) -> None:
@@ -122,7 +125,7 @@ class Surface:
     def _options(self) -> None:
         for name, hint in ENTRIES:
             entry = ui.input(name).props("dense").classes("w-52")
-            self.texts[name] = put(entry, {"hint": hint, "data-path": f"surface.{name}"})
+            self.texts[name] = set_attributes(entry, {"hint": hint, "data-path": f"surface.{name}"})
         form = ui.select(FORMS, value="", label="form removed")
         self.texts["detrend"] = form.props("dense").classes("w-36")
 
@@ -132,7 +135,7 @@ class Surface:
         with ui.row():
             for label, name in TAKEN:
                 button = ui.button(label, icon="input", on_click=lambda _, n=name: self._take(n))
-                put(button.props("no-caps"), {"data-take": name})
+                set_attributes(button.props("no-caps"), {"data-take": name})
         self.plots: dict[str, ui.plotly] = {}
         with ui.element("div").classes("figures w-full"):
             for name in ("heights", "rms_gradient", "R", "eta"):
@@ -157,12 +160,17 @@ class Surface:
 
     def _hide(self) -> None:
         """Show no result, and none as that of a former file."""
+        self.begun = True
         self.box.set_visibility(False)
+        self.table.clear()
         self.work.forget()
 
     def draw(self) -> None:
         """Read again what the address tells, after a reload and on the way back."""
         told = self.state.surface
+        if not told and not self.begun:
+            self.begun = True
+            background_tasks.create(self._begin())
         if not told or told == self.followed:
             return
         self.followed = told
@@ -175,6 +183,14 @@ class Surface:
             self.work.fail(missing(told["file"]))
             return
         background_tasks.create(self._read())
+
+    async def _begin(self) -> None:
+        """The example of the library, until a file is dropped."""
+        with self.box, contextlib.suppress(InvalidValue):
+            example: dict[str, object] = {"file": "example", "options": {}}
+            found = await apart(in_little, "surface", example)
+            if self.result is None and self.file == "example" and not self.box.is_deleted:
+                self._show(cast(Found, found))
 
     async def _read(self) -> None:
         with self.box:
