@@ -510,8 +510,9 @@ class Numbers:
     ) -> tuple[Any, Any]:
         """Fill in the rows of a side by the table of deep squeezes; its E* and H."""
         ratio, R = body / surface, 0.5
-        cases = [np.atleast_1d(each) for each in (ratio, varied.friction_factor, E / H)]
-        cases = np.broadcast_arrays(*cases)  # one, where none of them varies
+        given = (ratio, varied.friction_factor, E / H)
+        # one case, where none of them varies
+        cases = np.broadcast_arrays(*(np.atleast_1d(each) for each in given))
         load, area = curve_rows(*cases)
         terms = f.TABLE_LOAD + f.TABLE_TERMS
         rows[:, f.TABLE_LOAD : terms], rows[:, f.TABLE_AREA : f.OF_SIDE] = load, area
