@@ -84,12 +84,22 @@ if TYPE_CHECKING:
     from .study.whole import load_study
     from .systems import (
         film_formulas as films,
+        feedback,
         fractal as fractal,
         interaction as interaction,
         rough_body as rough_body,
         waviness as waviness,
     )
+    from .systems.coupled import coupled
+    from .systems.life import until as until
+    from .systems.life.circuit import OilCircuit
+    from .systems.life.history import LifeHistory as LifeHistory
+    from .systems.life.ingress import Ingress
+    from .systems.life.oil_dirt import OilDirt
+    from .systems.life.run import life
+    from .systems.life.size_classes import SizeClasses
     from .systems.mixed_film import mixed_film
+    from .systems.oil_filter import Filter
     from .systems.stribeck import stribeck
     from .views import plot
 # isort: on
@@ -98,8 +108,10 @@ __all__ = [
     "Angular",
     "Contact",
     "Ellipticity",
+    "Filter",
     "Finish",
     "Histogram",
+    "Ingress",
     "Limit",
     "LogNormal",
     "Material",
@@ -107,9 +119,12 @@ __all__ = [
     "Mixture",
     "Monodisperse",
     "Objective",
+    "OilCircuit",
+    "OilDirt",
     "Particles",
     "PowerLaw",
     "Roughness",
+    "SizeClasses",
     "Sphere",
     "Suspension",
     "TruncatedGaussian",
@@ -121,6 +136,7 @@ __all__ = [
     "assess",
     "cite",
     "compare",
+    "coupled",
     "critical_loads",
     "design",
     "distributions",
@@ -128,8 +144,10 @@ __all__ = [
     "equal_share_size",
     "errors",
     "explicit",
+    "feedback",
     "films",
     "heights",
+    "life",
     "load_study",
     "materials",
     "mixed_film",
@@ -152,6 +170,7 @@ __all__ = [
     "systems",
     "table",
     "transitions",
+    "until",
 ]
 
 # imported when first used, to keep the start quick
@@ -161,6 +180,7 @@ _MODULES = {
     "dust": "populations.measured.cleanliness",
     "errors": "errors",
     "explicit": "explicit",
+    "feedback": "systems.feedback",
     "films": "systems.film_formulas",
     "fractal": "systems.fractal",
     "heights": "populations.heights",
@@ -175,6 +195,7 @@ _MODULES = {
     "surfaces": "populations.measured.topography",
     "synthetic": "populations.measured.synthetic",
     "systems": "systems",
+    "until": "systems.life.until",
     "waviness": "systems.waviness",
 }
 """Modules by the names that users give them."""
@@ -187,13 +208,16 @@ _HOMES = {
     "Ellipticity": "populations.ellipticity",
     "Equilibrium": "equilibrium.columns",
     "ExponentialHeights": "populations.heights",
+    "Filter": "systems.oil_filter",
     "Finish": "populations.finish",
     "GaussianHeights": "populations.heights",
     "Heights": "populations.heights",
     "Histogram": "populations.distributions",
     "HistogramHeights": "populations.heights",
+    "Ingress": "systems.life.ingress",
     "InvalidValue": "errors",
     "JohnsonHeights": "populations.heights",
+    "LifeHistory": "systems.life.history",
     "Limit": "analysis.design.problem",
     "LogNormal": "populations.distributions",
     "Material": "populations.materials",
@@ -203,12 +227,15 @@ _HOMES = {
     "NoEquilibrium": "errors",
     "NoTransition": "errors",
     "Objective": "analysis.design.problem",
+    "OilCircuit": "systems.life.circuit",
+    "OilDirt": "systems.life.oil_dirt",
     "Particles": "populations.particles",
     "PowerLaw": "populations.distributions",
     "Propagation": "analysis.uncertainty.propagation",
     "RangeWarning": "errors",
     "Roughness": "populations.roughness",
     "Sensitivity": "analysis.sensitivity",
+    "SizeClasses": "systems.life.size_classes",
     "SlowWarning": "errors",
     "SpectralMoments": "populations.measured.spectra",
     "Sphere": "populations.shape",
@@ -226,9 +253,11 @@ _HOMES = {
     "assess": "analysis.assess",
     "cite": "contact.citations",
     "compare": "analysis.compare",
+    "coupled": "systems.coupled",
     "critical_loads": "equilibrium.critical_loads",
     "design": "analysis.design.design",
     "equal_share_size": "analysis.design.equal_share",
+    "life": "systems.life.run",
     "load_study": "study.whole",
     "materials": "populations.materials",
     "mixed_film": "systems.mixed_film",

@@ -13,16 +13,21 @@ from .equilibrium.transitions import Critical, Transitions, TurningPoint
 from .explicit.ensemble import Ensemble
 from .explicit.state import ExplicitState
 from .study.results import FilmResult, StudyResult
+from .systems.coupled import Coupled, CoupledState
+from .systems.life.history import LifeHistory
 from .systems.mixed_film import MixedFilm
 
 __all__ = [
     "Assessment",
     "Best",
+    "Coupled",
+    "CoupledState",
     "Critical",
     "Ensemble",
     "Equilibrium",
     "ExplicitState",
     "FilmResult",
+    "LifeHistory",
     "MixedFilm",
     "Propagation",
     "Sensitivity",

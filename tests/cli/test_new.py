@@ -17,6 +17,7 @@ FIRST = {
     **dict.fromkeys(("ball-bearing", "roller-bearing", "gear", "linear-guide"), "film"),
     "connector": "probability",
     "wafer-chuck": "plate",
+    "oil-circuit": "life",
 }
 """The command that answers what a kind is for, where it is not `solve`."""
 

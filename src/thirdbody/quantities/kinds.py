@@ -37,6 +37,9 @@ KINDS = {
     "kg/m**2": "a mass per area",
     "mol/m**3": "a molar concentration",
     "s": "a time",
+    "1/s": "a number per time",
+    "kg/s": "a mass per time",
+    "m**3/s": "a volume per time",
     "m/s": "a speed",
     "K": "a temperature",
     "W/m/K": "a thermal conductivity",
@@ -86,7 +89,7 @@ USUAL = frozenset(
 
 
 def is_usual(word: str) -> bool:
-    """Whether a name of a unit is one of those that are used here.
+    """Whether this library writes a unit under this name.
 
     >>> is_usual("nm"), is_usual("psi"), is_usual("furlong"), is_usual("parsec")
     (True, True, False, False)

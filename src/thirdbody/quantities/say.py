@@ -33,6 +33,7 @@ PREFIXED = {
     "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
     "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
     "Pa m^0.5": ((1e6, "MPa √m"),),
+    "kg": ((1.0, "kg"), (1e-3, "g"), (1e-6, "mg"), (1e-9, "µg")),
     "m^2": ((1.0, "m²"), (1e-6, "mm²"), (1e-12, "µm²")),
     "rad": ((math.pi / 180, "deg"),),
 }
@@ -140,7 +141,7 @@ def concentration_of(value: float | None, by: str) -> str:
 
 
 def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: float = 0.0) -> str:
-    """A share, with its error where it has one; finer near the whole.
+    """Text of a share, with its error if it has one; finer near the whole.
 
     >>> percent(0.1234), percent(0.99996), percent(1), percent(0.3, 0.02), percent(None)
     ('12.3 %', '99.996 %', '100 %', '30 % (± 2 %)', 'not known')

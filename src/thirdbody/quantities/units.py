@@ -37,6 +37,13 @@ EXAMPLES = {
     "m/s": '"0.5 m/s"',
     "Pa s": '"20 mPa s"',
     "1/Pa": '"20 / GPa"',
+    "s": '"1000 h"',
+    "m^2": '"0.5 m^2"',
+    "m^3": '"200 L"',
+    "m^3/s": '"60 L/min"',
+    "kg": '"50 g"',
+    "kg/s": '"125 mg/h"',
+    "1/s": '"1e6 / min"',
     "1": "0.5",
 }
 """How a value in each of the library's units may be written."""

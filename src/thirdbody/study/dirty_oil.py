@@ -36,7 +36,7 @@ SIDE = 2
 
 @dataclass(frozen=True, kw_only=True)
 class PopulationDents(Record):
-    """What one population of particles does in the film.
+    """Dents of one population of particles in the film.
 
     Attributes
     ----------

@@ -9,6 +9,7 @@ from .connector import CONNECTOR
 from .design import DESIGN
 from .explicit import EXPLICIT
 from .film import FILM
+from .life import LIFE
 from .load import BODY, LOAD
 from .outputs import OUTPUTS
 from .particles import PARTICLES
@@ -35,6 +36,7 @@ TABLES: tuple[Table, ...] = (
     FILM,
     CONNECTOR,
     PLATE,
+    LIFE,
     SWEEP,
     UNCERTAINTY,
     DESIGN,

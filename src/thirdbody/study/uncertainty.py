@@ -12,11 +12,11 @@ from .inputs import Input, inputs_of
 from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
 from .vocabulary import LOADS
 
-__all__ = ["UNCERTAINTY", "field_of_input"]
+__all__ = ["UNCERTAINTY", "field_of_input", "read_uncertain"]
 
 
 def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
-    """What is known of the inputs, by names like those of the file."""
+    """Distributions of the inputs, by names as in the file."""
     if not isinstance(given, dict) or not given:
         rule = "must be a table of inputs, e.g. "
         raise wrong(
@@ -27,7 +27,9 @@ def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
     def one(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Uncertain]:
         label, entry = told
         found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
-        return "+".join(name for name, _ in found), _uncertain(reader, where, found[0][1], entry)
+        return "+".join(name for name, _ in found), read_uncertain(
+            reader, where, found[0][1], entry
+        )
 
     ranges = _ranges(given).items()
     return dict(
@@ -53,7 +55,7 @@ def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
 def field_of_input(
     where: str, name: str, inputs: list[Input], whole: dict[str, Any]
 ) -> tuple[str, dict[str, Any]]:
-    """Dotted name of the field and what it is, for an input as the file calls it."""
+    """Dotted name of the field and its meaning, for an input as the file calls it."""
     name = name.strip()
     table, _, last = name.rpartition(".")
     if table == "load" and last in LOADS:
@@ -77,8 +79,8 @@ def field_of_input(
     raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
 
 
-def _uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
-    """One distribution: which it is follows from its keys."""
+def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
+    """One distribution; its keys decide which."""
     given = dict(entry) if isinstance(entry, dict) else {}
     spacing = given.pop("spacing", None)
     kind = next((kind for kind, names in KINDS.items() if set(names) == set(given)), None)
@@ -103,7 +105,7 @@ def _uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) ->
 
 
 def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
-    """Names of uncertain inputs, in quotes or as tables, and what is said of each."""
+    """Entries of uncertain inputs, from names in quotes or nested tables."""
     out: dict[str, Any] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name

@@ -24,6 +24,7 @@ from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from .connector import AskedConnector, connector_of
 from .film import on_body
+from .life import AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
 from .overrides import override
@@ -70,6 +71,8 @@ class Study:
         What the table [connector] says of contacts that close on dust.
     plate : AskedPlate, optional
         What the table [plate] says of a plate held on a chuck.
+    life : AskedLife, optional
+        What the table [life] says of an oil over time.
     explicit : dict, optional
         What the table [explicit] says of the surfaces with every particle at its place.
     faces : tuple of Topography, optional
@@ -98,6 +101,7 @@ class Study:
     film: FilmConditions | None = None
     connector: AskedConnector | None = None
     plate: AskedPlate | None = None
+    life: AskedLife | None = None
     explicit: dict[str, Any] | None = None
     faces: tuple[Topography, ...] = ()
     own_load: bool = True
@@ -157,7 +161,7 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 
 
 def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> list[Path]:
-    """The files that a study is read from: its own, and those that stand in it by name."""
+    """Files from which a study is read: its own, and those that it names."""
     own = Path(path)
     out, waiting = [own], [override(read(own), list(overrides))] if own.is_file() else []
     while waiting:
@@ -183,7 +187,7 @@ def read_tables(
     build: Callable[[Reader, dict[str, Any]], Asked],
     needs: Callable[[Table], bool],
 ) -> Asked:
-    """What a parsed file in ``folder`` asks for, built of its tables, of which some it needs."""
+    """Object that a parsed file in ``folder`` describes, built from its tables."""
     load_installed()
     data = with_nested_names(data)
     reader = Reader(folder, data)
@@ -222,6 +226,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     film = on_body(reader, film, bodies, given_forces, contact.E_ss)
     connector = connector_of(reader, values) if "connector" in own else None
     plate = plate_of(reader, values) if "plate" in own else None
+    life = life_of(reader, values) if "life" in own else None
     load, loads = loaded or ("pressure", np.array([_own_pressure(film, connector, plate, contact)]))
     forces = None
     if load == "force":
@@ -247,6 +252,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         film=film,
         connector=connector,
         plate=plate,
+        life=life,
         explicit=own.get("explicit"),
         faces=tuple(reader.faces),
         own_load=loaded is not None,

@@ -5,9 +5,12 @@ from . import bearing_sizes as bearing_sizes
 from . import chuck as chuck
 from . import connector as connector
 from . import contact_probability as contact_probability
+from . import coupled as coupled
+from . import feedback as feedback
 from . import film_conditions as film_conditions
 from . import fractal as fractal
 from . import interaction as interaction
+from . import life as life
 from . import load_sharing as load_sharing
 from . import mixed_film as mixed_film
 from . import oil_filter as oil_filter
@@ -22,9 +25,12 @@ __all__ = [
     "chuck",
     "connector",
     "contact_probability",
+    "coupled",
+    "feedback",
     "film_conditions",
     "fractal",
     "interaction",
+    "life",
     "load_sharing",
     "mixed_film",
     "oil_filter",

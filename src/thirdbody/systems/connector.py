@@ -262,7 +262,7 @@ class Connector(Value):
         return -math.expm1(self.contacts * math.log1p(-min(failure**self.parallel, 1 - 1e-16)))
 
     def bounds(self, load: float) -> tuple[float, float]:
-        """What the failure of one pair lies between, the load of each particle rounded.
+        """Bounds of the failure of one pair, the load of each particle rounded.
 
         Parameters
         ----------
@@ -299,7 +299,7 @@ def name_of(dust: Particles, i: int) -> str:
 
 
 class _Kind:
-    """One kind of dust in classes of size: how many are in the way, and what each carries."""
+    """One kind of dust in size classes: how many are in the way, and the load of each."""
 
     def __init__(self, plug: Connector, dust: Particles, name: str) -> None:
         self.name, self.material = name, dust.material
@@ -341,7 +341,7 @@ class _Kind:
         return float(self.within(1 - height / self.x).sum())
 
     def number_below(self, loads: Array, height: float) -> Array:
-        """Those of them that carry no more than these loads [N]."""
+        """Number of particles that carry at most these loads [N]."""
         eps, load = self.curve
         reach = 1 - height / self.x
         all_ = self.within(reach)

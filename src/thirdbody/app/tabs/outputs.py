@@ -199,7 +199,7 @@ class Outputs:
         if names_of_outputs(state) != self.asked:  # undone, or another study
             self._renewed()
         self.inputs.tell()
-        made, rows = await state.ask(_figures_and_rows, state.at)
+        made, rows = await state.ask(_figures_and_rows, state.operating_load)
         for name in [name for name in self.plots if name not in made]:
             self.plots.pop(name).widget.delete()
         groups = {name: group_of(name.split(" [")[0]) for name in made}

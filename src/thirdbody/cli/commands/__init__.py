@@ -7,6 +7,7 @@ COMMANDS = (
     "film",
     "probability",
     "plate",
+    "life",
     "explicit",
     "assess",
     "design",

@@ -27,6 +27,7 @@ KINDS = (
     "electrical",
     "connector",
     "wafer-chuck",
+    "oil-circuit",
     "two-body",
     "measured-surface",
 )
@@ -34,7 +35,7 @@ KINDS = (
 
 SIZED = ("ball-bearing",)
 """Kinds that have sizes of their own."""
-FIRST = re.compile(r"^#   thirdbody (solve|film|probability|plate)\b", re.MULTILINE)
+FIRST = re.compile(r"^#   thirdbody (solve|film|probability|plate|life)\b", re.MULTILINE)
 """What the head of a file says to type first."""
 SCHEMA = "study.schema.json"
 

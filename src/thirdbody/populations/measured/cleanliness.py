@@ -20,7 +20,7 @@ import re
 import tomllib
 from functools import cache
 from importlib import resources
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -31,6 +31,9 @@ from ...quantities.units import MICRONS, not_among, say
 from ..distributions import Distribution, PowerLaw
 from .concentration import OIL_DENSITY, Concentration, concentration, particles_in
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
 __all__ = [
     "CLASSES",
     "DUSTS",
@@ -39,10 +42,14 @@ __all__ = [
     "Concentration",
     "class_of",
     "concentration",
+    "counted_sizes",
     "dust_sizes",
     "iso4406_of",
+    "iso4406_of_counts",
+    "iso4406_range",
     "particles_in",
     "read_iso4406",
+    "sizes_above",
     "suspension_of_class",
     "suspension_of_iso4406",
 ]
@@ -59,10 +66,12 @@ DUSTS = ("A1", "A2", "A3", "A4", "A3-lot")
 CLASSES = ("00", "0", *(str(i) for i in range(1, 13)))
 """Classes of NAS 1638; SAE AS4059 has 000 besides."""
 
-LEVELS = ("low", "middle", "high")
+Level = Literal["low", "middle", "high"]
+LEVELS = get_args(Level)
 """Where in its range each number of an ISO 4406 code is taken."""
 
-LIMITS = ("coarse", "middle", "fine")
+Limit = Literal["coarse", "middle", "fine"]
+LIMITS = get_args(Limit)
 """Where between its printed limits a test dust is taken."""
 
 
@@ -91,6 +100,39 @@ def _falling(
         counts.insert(0, above[0] * math.expm1(slopes[0] * math.log(sizes[0] / smallest)))
         slopes.insert(0, slopes[0])
     return PowerLaw(edges=tuple(edges), counts=tuple(counts), slopes=tuple(slopes))
+
+
+@takes_units
+def sizes_above(sizes: ArrayLike, counts: ArrayLike, *, largest: float) -> Distribution:
+    """Sizes of particles that were counted above some sizes; power laws through the counts.
+
+    Beyond the last size the count falls as from 14 µm(c) on in every class of SAE AS4059.
+
+    Parameters
+    ----------
+    sizes : array (S,)
+        Increasing sizes [m].
+    counts : array (S,)
+        Particles larger than each [1], in any unit; falling.
+    largest : float
+        End of the sizes [m], above the last of them.
+
+    Raises
+    ------
+    InvalidValue
+        An end that is not above the sizes.
+
+    Examples
+    --------
+    >>> found = sizes_above([4e-6, 6e-6], [2000.0, 500.0], largest=70e-6)
+    >>> round(2000 * float(found.partial_moment(0, 6e-6, 1.0)), 6)
+    500.0
+    """
+    x = [float(size) for size in np.atleast_1d(np.asarray(sizes, float))]
+    if not largest > x[-1]:
+        rule = f"must be above {x[-1]:g} [m], the largest size that is counted"
+        raise InvalidValue(Problem("largest", rule, f"{largest:g}", hint=MICRONS))
+    return _falling(x, [float(n) for n in np.atleast_1d(np.asarray(counts, float))], None, largest)
 
 
 def _check_ends(kind: str, sizes: list[float], smallest: float | None, largest: float) -> None:
@@ -173,7 +215,11 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
 
 @takes_units
 def suspension_of_iso4406(
-    code: str, *, level: str = "middle", smallest: float | None = None, largest: float | None = None
+    code: str,
+    *,
+    level: Level = "middle",
+    smallest: float | None = None,
+    largest: float | None = None,
 ) -> tuple[float, Distribution]:
     r"""Particles per volume n [1/m³] and their sizes, from an ISO 4406 code.
 
@@ -233,7 +279,7 @@ def suspension_of_iso4406(
     return sum(found.counts), found
 
 
-def _within(most: list[float], number: int, level: str) -> float:
+def _within(most: list[float], number: int, level: Level) -> float:
     """A count per volume inside the range of a code number."""
     high = most[number]
     low = most[number - 1] if number else 0.0
@@ -268,11 +314,69 @@ def iso4406_of(*, density: float, diameter: Distribution) -> str:
     '15/0/0'
     """
     scale = _table("cleanliness")["iso4406"]
+    counts = np.array(_above(density, diameter, scale)) / scale["volume"]
+    return iso4406_of_counts(counts)
+
+
+@takes_units
+def iso4406_of_counts(counts: ArrayLike) -> str:
+    """The ISO 4406 code of counts from 4, 6 and 14 µm(c).
+
+    Parameters
+    ----------
+    counts : array (3,)
+        Particles per volume of fluid at and above each size [1/m³].
+
+    Returns
+    -------
+    str
+        As from `iso4406_of`; "-" for a count that is not known.
+
+    Examples
+    --------
+    >>> iso4406_of_counts([1803e6, 452e6, 57e6])
+    '18/16/13'
+    """
+    scale = _table("cleanliness")["iso4406"]
+    most = np.array(scale["most"]) * (1 + 1e-9)
     out = []
-    for count in _above(density, diameter, scale):
-        number = int(np.searchsorted(np.array(scale["most"]) * (1 + 1e-9), count))
-        out.append(str(number) if number < len(scale["most"]) else f">{number - 1}")
+    for count in np.asarray(counts, float) * scale["volume"]:
+        if math.isnan(count):
+            out.append("-")
+            continue
+        number = int(np.searchsorted(most, count))
+        out.append(str(number) if number < len(most) else f">{number - 1}")
     return "/".join(out)
+
+
+def counted_sizes() -> tuple[float, ...]:
+    """The sizes from which ISO 4406 counts, 4, 6 and 14 µm(c) [m].
+
+    Examples
+    --------
+    >>> counted_sizes()
+    (4e-06, 6e-06, 1.4e-05)
+    """
+    return tuple(1e-6 * size for size in _table("cleanliness")["iso4406"]["sizes"])
+
+
+def iso4406_range(number: int) -> tuple[float, float]:
+    """The counts that a number of an ISO 4406 code stands for [1/m³]: above one, up to another.
+
+    Parameters
+    ----------
+    number : int
+        From 0 to 28.
+
+    Examples
+    --------
+    >>> low, high = iso4406_range(18)
+    >>> f"{low / 1e6:g} to {high / 1e6:g} per mL"
+    '1300 to 2500 per mL'
+    """
+    scale = _table("cleanliness")["iso4406"]
+    most = [each / scale["volume"] for each in scale["most"]]
+    return (most[number - 1] if number else 0.0), most[number]
 
 
 def _above(density: float, diameter: Distribution, scale: dict[str, Any]) -> list[float]:
@@ -397,7 +501,9 @@ def dust_table(name: str) -> dict[str, Any]:
 
 
 @takes_units
-def dust_sizes(name: str, *, limit: str = "middle", smallest: float | None = None) -> Distribution:
+def dust_sizes(
+    name: str, *, limit: Limit = "middle", smallest: float | None = None
+) -> Distribution:
     r"""Sizes by number of an Arizona test dust, ISO 12103-1.
 
     The standard prints between which limits the volume below a size lies. Between two sizes the

@@ -10,7 +10,6 @@ many particles, so the smallest size must be said where the data do not end by t
 
 from __future__ import annotations
 
-import csv
 import math
 import os
 import re
@@ -26,7 +25,7 @@ from ...errors import InvalidValue, Problem
 from ...numerics.quadrature import gauss_legendre
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
-from ...quantities.files import read_bytes
+from ...quantities.csv_cells import numbered_cells
 from ...quantities.units import MICRONS, not_among, say, to_si
 from ...quantities.value import Value, choice
 from ..distributions import (
@@ -131,7 +130,7 @@ def _above(sizes: Distribution, smallest: float | None) -> float:
 def _reweight(
     sizes: Distribution, power: int, smallest: float | None, weighting: str
 ) -> Distribution:
-    """Sections of power laws, each with the number that its weight stands for."""
+    """Sections of power laws with numbers that follow from their weights."""
     lo, hi = sizes.support
     if isinstance(sizes, (LogNormal, Weibull)):
         hi = float(sizes.ppf(1 - _LEFT_OUT))
@@ -387,7 +386,7 @@ def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> Me
     """
     if weighting not in WEIGHTINGS:
         raise InvalidValue(not_among("weighting", weighting, WEIGHTINGS))
-    lines = _lines(Path(path))
+    lines = numbered_cells(Path(path), "a CSV file of sizes", most=_MOST_ROWS)
     head, names = lines[0]
     if len(names) not in (2, 3):
         raise InvalidValue(
@@ -414,50 +413,6 @@ def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> Me
     return MeasuredSizes(
         sizes=Histogram(edges=tuple(scaled), counts=tuple(amounts)), weighting=weighting
     )
-
-
-def _lines(path: Path) -> list[tuple[int, list[str]]]:
-    """Numbered lines of cells, without comments and empty lines."""
-    try:
-        text = read_bytes(path, "a CSV file of sizes").decode("utf-8-sig")
-    except FileNotFoundError:
-        raise InvalidValue(f"cannot read {path}: there is no such file") from None
-    except IsADirectoryError:
-        raise InvalidValue(f"cannot read {path}: it is a folder, not a CSV file") from None
-    except UnicodeDecodeError:
-        raise InvalidValue(
-            f"cannot read {path}: it is not UTF-8 text; save the sheet as CSV UTF-8"
-        ) from None
-    except InvalidValue:
-        raise
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or str(error)
-        raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
-    if "\0" in text:
-        raise InvalidValue(f"cannot read {path}: it is not text; save the sheet as CSV UTF-8")
-    kept = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), 1)
-        if line.strip(" ,;\t") and not line.lstrip().startswith("#")
-    ]
-    if not kept:
-        raise InvalidValue(f"{path} is empty; its first line must name the columns")
-    if len(kept) > _MOST_ROWS:
-        raise InvalidValue(f"{path} has {len(kept)} lines; a histogram has at most {_MOST_ROWS}")
-    parted = next((mark for mark in ";\t," if mark in kept[0][1]), ",")
-    out: list[tuple[int, list[str]]] = []
-    for number, line in kept:
-        try:
-            cells = next(csv.reader([line], delimiter=parted, skipinitialspace=True))
-        except csv.Error as error:
-            raise InvalidValue(f"{path}, line {number}: {error}") from None
-        cells = [cell.strip() for cell in cells]
-        while len(cells) > 1 and not cells[-1]:
-            cells.pop()
-        if parted != "," and out:
-            cells = [re.sub(r"^([+-]?\d*),(\d+)", r"\1.\2", cell) for cell in cells]
-        out.append((number, cells))
-    return out
 
 
 def _unit(path: object, line: int, names: list[str]) -> str:

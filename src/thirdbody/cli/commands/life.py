@@ -1,0 +1,102 @@
+"""``thirdbody life``: how dirty an oil becomes over time, and what reports of it say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...quantities.progress import heartbeat
+from ..answers import give_answer, read_question
+from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, argument, option
+from ..streams import TableFiles, figure_format, warn_of, write_figure
+
+__all__ = ["command", "warn_of"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path = argument(
+        "A study file with a table [life]; `thirdbody new oil-circuit` writes one.", "STUDY.toml"
+    )
+    reports: Path | None = option(
+        "--reports",
+        "Reports of the oil, time [h] and ISO 4406 code a line: print what enters it.",
+        "OIL.csv",
+    )
+    flow_for: str | None = option(
+        "--flow-for", "The least flow of each filter with which the oil comes to a code.", "CODE"
+    )
+    json: JsonFile = None
+    csv: Path | None = option("--csv", "Write one row per time.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    figure: Path | None = option("--figure", "Draw codes, masses and flows of dirt.", "FILE")
+    force: Force = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
+    """How dirty an oil becomes over time, and where its dirt goes."""
+    if options.reports is None:
+        _tell_history(options)
+    else:
+        _tell_reports(options, options.reports)
+
+
+def _tell_history(options: Options) -> None:
+    """The history of the oil."""
+    from ...populations.measured.cleanliness import read_iso4406
+    from ...study.run_life import load_life, run_life
+    from ...views.life_words import HEADS, MEANS, answer, last_words, least_flow_words, rows
+
+    if options.flow_for is not None:
+        read_iso4406(options.flow_for)
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    asked = read_question(load_life, options.study, options.settings, files, force=options.force)
+    if options.figure is not None:
+        figure_format(options.figure)
+        files.need(options.figure, force=options.force)
+    with heartbeat("life"):
+        found = run_life(asked)
+    drawn = None
+    if options.figure is not None:
+        from ...views.plot.life import life
+
+        drawn = life(found.history)
+    sized = [] if options.flow_for is None else least_flow_words(found, options.flow_for)
+    give_answer(
+        found,
+        files,
+        answer=[*answer(found), *sized],
+        heads=HEADS,
+        rows=rows(found),
+        means=MEANS,
+        last=last_words(found),
+    )
+    if options.figure is not None and drawn is not None:
+        write_figure(options.figure, drawn)
+
+
+def _tell_reports(options: Options, reports: Path) -> None:
+    """What reports of the oil say of what enters it."""
+    from ...errors import InvalidValue
+    from ...study.run_life import load_circuit, reports_of
+    from ...views.life_words import REPORT_HEADS, REPORT_MEANS, report_answer, report_rows
+
+    if options.figure is not None:
+        raise InvalidValue("--figure draws a history; with --reports there is none")
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    asked = read_question(load_circuit, options.study, options.settings, files, force=options.force)
+    with heartbeat("life"):
+        found = reports_of(asked, reports)
+    give_answer(
+        found,
+        files,
+        answer=report_answer(found.reports),
+        heads=REPORT_HEADS,
+        rows=report_rows(found.reports),
+        means=REPORT_MEANS,
+        last=[],
+    )

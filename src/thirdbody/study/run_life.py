@@ -1,0 +1,240 @@
+"""A study of an oil over time: how dirty it becomes, and where its dirt goes."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import RangeWarning
+from ..quantities.plain_data import plain_data
+from ..quantities.record import Record
+from ..systems.life.history import LifeHistory
+from ..systems.life.reports import OilReports, oil_reports, read_reports
+from ..systems.life.run import life
+from ..version import __version__
+from .life import CLEAN, AskedLife, life_of
+from .life_bands import LifeBands, propagate_life
+from .overrides import override
+from .toml import read
+from .whole import read_tables
+
+__all__ = ["LifeResult", "ReportsResult", "load_circuit", "load_life", "reports_of", "run_life"]
+
+NEEDED = frozenset({"life"})
+CITATIONS = (
+    "ISO 16889: multi-pass test of filters (β ratio)",
+    "ISO 4406: code of the level of contamination by solid particles",
+)
+
+
+def load_life(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
+    """The life that a study file asks for.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file with a table [life].
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+
+    Raises
+    ------
+    InvalidValue
+        Every mistake of the file.
+    """
+    data = override(read(Path(path)), list(overrides))
+    return read_tables(data, Path(path).parent, life_of, lambda t: t.name in NEEDED)
+
+
+def load_circuit(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
+    """The circuit of a study file whose ingress nobody needs to know.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file with a table [life].
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+
+    Raises
+    ------
+    InvalidValue
+        Every mistake of the file.
+    """
+    data = override(read(Path(path)), list(overrides))
+    given = data.get("life")
+    if isinstance(given, dict) and isinstance(given.get("oil"), dict):
+        given["oil"]["ingress"] = CLEAN
+    return read_tables(data, Path(path).parent, life_of, lambda t: t.name in NEEDED)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ReportsResult(Record, Mapping[str, Any]):
+    """What `reports_of` finds; indexed, it is the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedLife
+    reports : OilReports
+    """
+
+    asked: AskedLife
+    reports: OilReports
+
+    @property
+    def title(self) -> str:
+        """Of the study, where it has none "Reports of an oil"."""
+        return self.asked.title or "Reports of an oil"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What reading and computing warn of, one sentence each."""
+        return tuple(dict.fromkeys((*self.asked.notes, *self.asked.circuit.notes())))
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row a size, and their units."""
+        found = self.reports
+        columns = {name: getattr(found, name) for name in ("rate", "low", "high")}
+        data = {"size": plain_data(found.sizes)} | {k: plain_data(v) for k, v in columns.items()}
+        return data, {"size": "m"} | dict.fromkeys(columns, "1/s")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {
+            "title": self.asked.title,
+            "version": __version__,
+            "inputs": {"oil": self.asked.circuit.to_dict()},
+            **self.reports.to_dict(),
+            "is_constant": self.reports.is_constant,
+            "warnings": list(self.warnings),
+            "citations": list(CITATIONS),
+        }
+
+    def __getitem__(self, key: str) -> Any:
+        return self.to_dict()[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.to_dict())
+
+    def __len__(self) -> int:
+        return len(self.to_dict())
+
+
+def reports_of(asked: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
+    """What reports of an oil say of the dirt that enters the circuit of a study.
+
+    Parameters
+    ----------
+    asked : AskedLife
+        As `load_circuit` reads it.
+    file : path-like
+        As `thirdbody.systems.life.reports.read_reports` reads it.
+    """
+    times, reports, sizes = read_reports(Path(file))
+    found = oil_reports(times, reports, sizes=sizes, circuit=asked.circuit)
+    return ReportsResult(asked=asked, reports=found)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LifeResult(Record, Mapping[str, Any]):
+    """What `run_life` finds; indexed, it is the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedLife
+    history : LifeHistory
+    bands : LifeBands, optional
+        Where the study says what is known of its numbers.
+    """
+
+    asked: AskedLife
+    history: LifeHistory
+    bands: LifeBands | None = None
+
+    @property
+    def title(self) -> str:
+        """Of the study, where it has none "Life of an oil"."""
+        return self.asked.title or "Life of an oil"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What reading and computing warn of, one sentence each."""
+        return tuple(dict.fromkeys((*self.asked.notes, *self.history.warnings)))
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row a time, and their units."""
+        history = self.history
+        columns: dict[str, list[Any]] = {
+            "time": plain_data(history.times),
+            "code": list(history.codes),
+        }
+        units = {"time": "s", "code": ""}
+        for name, values in zip(("n_4", "n_6", "n_14"), history.counts.T, strict=True):
+            columns[name], units[name] = plain_data(values), "1/m^3"
+        columns["volume"], units["volume"] = plain_data(history.volume), "m^3"
+        for name, values in history.ledger.over_time().items():
+            columns[name], units[name] = plain_data(values), "kg"
+        for name, (about, values) in history.more.items():
+            columns[name], units[name] = plain_data(np.asarray(values)), about.unit
+        return columns, units
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {
+            "title": self.asked.title,
+            "version": __version__,
+            "inputs": {
+                "oil": self.asked.circuit.to_dict(),
+                "duration": self.asked.duration,
+                "until": [each.to_dict() for each in self.asked.until],
+            },
+            **self.history.to_dict(),
+            "flows": [
+                {"from": start, "to": end, "kg": mass} for start, end, mass in self.history.flows()
+            ],
+            "bands": None if self.bands is None else self.bands.to_dict(),
+            "warnings": list(self.warnings),
+            "citations": list(CITATIONS),
+        }
+
+    def __getitem__(self, key: str) -> Any:
+        return self.to_dict()[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.to_dict())
+
+    def __len__(self) -> int:
+        return len(self.to_dict())
+
+
+def run_life(asked: AskedLife) -> LifeResult:
+    """The history of an oil, as its study asks.
+
+    Parameters
+    ----------
+    asked : AskedLife
+        As `load_life` reads it.
+
+    Examples
+    --------
+    >>> from importlib import resources
+    >>> file = resources.files("thirdbody").joinpath("data/studies/oil-circuit.toml")
+    >>> found = run_life(load_life(file))
+    >>> found.history.codes[0], found.history.ledger.residual < 1e-9
+    ('20/18/15', True)
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
+        history = life(oil=asked.circuit, duration=asked.duration, until=asked.until)
+    bands = None
+    if asked.uncertainty:
+        bands = propagate_life(
+            asked.circuit, vary=asked.uncertainty, duration=asked.duration, until=asked.until
+        )
+    return LifeResult(asked=asked, history=history, bands=bands)

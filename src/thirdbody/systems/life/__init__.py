@@ -1,0 +1,25 @@
+"""The life of an oil and of a contact in it: particles that come, act and go, over time."""
+
+from . import circuit as circuit
+from . import history as history
+from . import ingress as ingress
+from . import ledger as ledger
+from . import linear_flow as linear_flow
+from . import oil_dirt as oil_dirt
+from . import oil_history as oil_history
+from . import run as run
+from . import size_classes as size_classes
+from . import until as until
+
+__all__ = [
+    "circuit",
+    "history",
+    "ingress",
+    "ledger",
+    "linear_flow",
+    "oil_dirt",
+    "oil_history",
+    "run",
+    "size_classes",
+    "until",
+]

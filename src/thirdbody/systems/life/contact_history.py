@@ -1,0 +1,409 @@
+"""Histories with a contact: what it adds to those of the oil, and those of a dry contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from ...quantities.plain_data import plain_data
+from ...quantities.record import Column, Record
+from .contact_course import coverage
+from .dry_loop import DryLoop
+from .film_loop import FilmLoop
+from .history import SETTLES_TO, LifeEvent, LifeHistory
+from .ledger import IN_OIL, Ledger
+from .linear_flow import generations, reproduction
+from .loop import SURFACES, Loop
+from .steady import describe_reproduction
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["ContactHistory", "DryHistory", "SteadyContact", "contact_columns", "steady_states"]
+
+COLUMNS: dict[str, Column] = {
+    "h": Column("h", "m", "separation from the mean plane"),
+    "sigma": Column("σ", "m", "roughness"),
+    "film_share": Column("s_f", "1", "share of the film in the load"),
+    "ss_share": Column("s_ss", "1", "share of the asperities in the load"),
+    "sa_share": Column("s_sa", "1", "share of the particles in the load"),
+    "mu_solids": Column("μ_s", "1", "friction of the solids over the load"),
+    "present": Column("N_c", "1", "loaded particles in one contact"),
+    "covered": Column("c_p", "1", "projected area of the particles over that of the contact"),
+    **{
+        f"{name}_{side}": Column(f"{symbol},{side}", unit, f"{meaning} {side}")
+        for side in SURFACES
+        for name, symbol, unit, meaning in (
+            ("wear", "w", "m", "wear depth of surface"),
+            ("wear_rate", "dw/dt", "m/s", "wear depth per time of surface"),
+            ("dents", "N_d", "1/m^2", "dents thrown per area of surface"),
+            ("thrown", "c", "1", "area of dents thrown per area of surface"),
+        )
+    },
+}
+"""What a contact adds to a history, over time."""
+NODES = 60
+"""Of the scan for steady states."""
+
+
+class SteadyContact(NamedTuple):
+    """A state in which the numbers no longer change; in ``steady()`` of a history."""
+
+    numbers: Array
+    """Particles per volume of oil [1/m³] or per area of a dry contact [1/m²], (K, M)."""
+    code: str
+    """ISO 4406 of the oil; "" of a dry contact."""
+    h: float
+    """Separation from the mean plane [m]."""
+    wear_rate: tuple[float, float]
+    """Wear depth per time of either surface, which goes on [m/s]."""
+    stable: bool
+    """Whether a small change dies out."""
+    time: float
+    """Until a hundredth of the way is left [s]; infinite where it is not stable."""
+
+
+def contact_columns(loop: Loop, times: Array, states: list[Array]) -> dict[str, Array]:
+    """`COLUMNS` of states, (T,) each."""
+    out: dict[str, list[float]] = {name: [] for name in COLUMNS}
+    for time, y in zip(times, states, strict=True):
+        if isinstance(loop, FilmLoop):
+            loop.now = float(time)
+        for name, value in _columns_of(loop, y).items():
+            out[name].append(value)
+    return {name: np.array(values) for name, values in out.items()}
+
+
+def _columns_of(loop: Loop, y: Array) -> dict[str, float]:
+    gap = loop.find_gap(y)
+    state, eta = loop.pressed(y, gap.d), loop.present(y, gap.d)
+    rates = loop.rates(y, gap.d)
+    change = rates.matrix @ y + rates.constant
+    assert isinstance(loop, DryLoop | FilmLoop)
+    p = loop.pressure
+
+    def total(name: str) -> float:
+        return float(loop.columns(state, name) @ eta)
+
+    spots = state.asperities
+    friction = state.bare * (spots["shear"] + spots["plough"])
+    friction += total("shear") + total("plough") + total("roll")
+    out = {
+        "h": gap.d + loop.tables.mean_plane(state.sigma),
+        "sigma": state.sigma,
+        "film_share": gap.film_share,
+        "ss_share": state.bare * spots["force"] / p,
+        "sa_share": total("load") / p,
+        "mu_solids": friction / p,
+        "present": total("loaded") * loop.one_area,
+        "covered": coverage(loop, y),
+    }
+    for side in SURFACES:
+        for name in ("wear", "dents", "thrown"):
+            out[f"{name}_{side}"] = float(y[loop.layout[f"{name}_{side}"]][0])
+        out[f"wear_rate_{side}"] = float(change[loop.layout[f"wear_{side}"]][0])
+    return out
+
+
+# ------------------------------------------------------------------ steady states
+def steady_states(loop: Loop, y: Array) -> tuple[SteadyContact, ...]:
+    """Every state in which the numbers no longer change, with roughness and wear as in a state."""
+    from scipy.optimize import brentq
+
+    low, high = _scanned(loop, y)
+    places = np.linspace(low, high, NODES + 1)
+    values = np.array([_imbalance(loop, y, place) for place in places])
+    out = []
+    for i in np.flatnonzero(np.isfinite(values[:-1]) & np.isfinite(values[1:])):
+        if values[i] * values[i + 1] < 0:
+            place = brentq(
+                lambda u: _imbalance(loop, y, u), places[i], places[i + 1], xtol=1e-16, rtol=1e-12
+            )
+            out.append(_steady_at(loop, y, float(place)))
+    return tuple(out)
+
+
+def _scanned(loop: Loop, y: Array) -> tuple[float, float]:
+    """Ends of the scan, in the unknown of the gap: from no particles on."""
+    clean = y.copy()
+    clean[loop.layout[loop.pool]] = 0.0
+    before = loop.last
+    loop.find_gap(clean)
+    low = loop.last
+    loop.last = before
+    if isinstance(loop, FilmLoop):
+        return max(low * (1 - 1e-9) - 1e-9, 0.0), 2 * max(low, before) + 0.5
+    sigma = loop.sigma_of(y)
+    return low - 1e-6 * sigma, float(loop.tables.tops[-1]) + 5 * sigma
+
+
+def _separation(loop: Loop, y: Array, place: float) -> float:
+    if isinstance(loop, FilmLoop):
+        return loop.separation(place, loop.sigma_of(y))
+    return place
+
+
+def _numbers(loop: Loop, y: Array, d: float) -> Array | None:
+    """Numbers that stay at a separation; None where they would grow for ever."""
+    pool = loop.layout[loop.pool]
+    state = y.copy()
+    for _ in range(3):  # the shadow of particles may leave nothing to asperities
+        rates = loop.rates(state, d)
+        matrix = rates.matrix[pool, pool]
+        if float(np.max(np.linalg.eigvals(matrix).real)) >= 0:
+            return None
+        state[pool] = np.linalg.solve(-matrix, rates.constant[pool])
+    return state
+
+
+def _imbalance(loop: Loop, y: Array, place: float) -> float:
+    """What the solids carry over what is left to them, less one; positive where n would grow."""
+    d = _separation(loop, y, place)
+    state = _numbers(loop, y, d)
+    if state is None:
+        return 1e3
+    assert isinstance(loop, DryLoop | FilmLoop)
+    eta = loop.shaped(loop.present(state, d))
+    share = loop.tables.load(d, eta=eta, sigma=loop.sigma_of(y))[0] / loop.pressure
+    left = -math.expm1(-place) if isinstance(loop, FilmLoop) else 1.0
+    return share - left
+
+
+def _steady_at(loop: Loop, y: Array, place: float) -> SteadyContact:
+    d, pool = _separation(loop, y, place), loop.layout[loop.pool]
+    state = _numbers(loop, y, d)
+    assert state is not None
+    loop.last = place
+    rates = loop.rates(state, d)
+    change = rates.matrix @ state + rates.constant
+    time = loop.now if isinstance(loop, FilmLoop) else 0.0
+    slowest = float(np.max(np.linalg.eigvals(loop.jacobian(time, state)[pool, pool]).real))
+    numbers = loop.shaped(state[pool]).T / _per(loop)
+    code = ""
+    if isinstance(loop, FilmLoop):
+        code = loop.tables.classes.iso4406(np.maximum(numbers.sum(axis=1), 0.0))
+    return SteadyContact(
+        numbers=numbers,
+        code=code,
+        h=d + loop.tables.mean_plane(loop.sigma_of(y)),
+        wear_rate=(
+            float(change[loop.layout["wear_1"]][0]),
+            float(change[loop.layout["wear_2"]][0]),
+        ),
+        stable=slowest < 0,
+        time=math.log(SETTLES_TO) / slowest if slowest < 0 else math.inf,
+    )
+
+
+def _per(loop: Loop) -> float:
+    """What numbers of the pool are divided by: the volume of the oil, or the area."""
+    return loop.volume_at(loop.now) if isinstance(loop, FilmLoop) else loop.setting.area
+
+
+# ------------------------------------------------------------------ who breeds whom
+def births_and_losses(loop: Loop, y: Array) -> tuple[Array, Array]:
+    """𝒢 and 𝓛 of a state [1/s] (J, J), in the order of the loop."""
+    rates = loop.rates(y, loop.find_gap(y).d)
+    pool = loop.layout[loop.pool]
+    return rates.births, rates.births - rates.matrix[pool, pool]
+
+
+def reproduction_of(births: Array, losses: Array) -> float:
+    """R_0; NaN where some particles are never removed."""
+    if not np.any(births):
+        return 0.0
+    if float(np.min(np.linalg.eigvals(losses).real)) <= 0:
+        return math.nan
+    return reproduction(losses, births)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactHistory(LifeHistory):
+    """A history of an oil and of contacts in it; made by `thirdbody.life`.
+
+    As `LifeHistory`, with `COLUMNS` of the contact in ``more``; ``births`` and ``losses`` are
+    those of the last state.
+    """
+
+    not_in_dict: ClassVar[tuple[str, ...]] = ("circuit", "terms", "loop", "last_state")
+
+    loop: FilmLoop
+    last_state: Array
+    losses: Array
+
+    @property
+    def _losses(self) -> Array:
+        return self.losses
+
+    @cached_property
+    def R0(self) -> float:
+        """Particles bred by one before it is removed, at the end of the history [1]."""
+        assert self.births is not None
+        return reproduction_of(self.births, self.losses)
+
+    @property
+    def reproduction(self) -> str:
+        """What R_0 means, in words."""
+        return describe_reproduction(self.R0)
+
+    def steady_with_contact(self) -> tuple[SteadyContact, ...]:
+        """Every state in which the oil no longer changes, debris counted; w and σ as at the end."""
+        self.loop.now = float(self.times[-1])
+        return steady_states(self.loop, self.last_state)
+
+    @property
+    def time_scales(self) -> dict[str, float]:
+        """How long things take [s], by name; NaN for what never ends."""
+        loop = self.loop
+        along, _ = loop.bodies.conjunction.semi_axes(
+            float(loop.bodies.w[0]), E=2 * loop.bodies.contact.E_ss
+        )
+        out = {"passage of a contact": 2 * float(along) / loop.speed}
+        out |= LifeHistory.time_scales.fget(self)  # type: ignore[attr-defined]
+        return out | wear_times(loop, self.last_state, self.more)
+
+    def to_dict(self) -> dict[str, object]:
+        """Everything, ready for JSON: None for what is not a finite number."""
+        out = LifeHistory.to_dict(self)
+        return out | {"reproduction": self.reproduction}
+
+
+def wear_times(loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]) -> dict[str, float]:
+    """How long it takes to wear σ, and to run in [s]."""
+    rate = max(float(more[f"wear_rate_{side}"][1][-1]) for side in SURFACES)
+    sigma, law = loop.sigma_of(y), loop.setting.running_in
+    out = {"wear of one σ": sigma / rate if rate > 0 else math.nan}
+    if law is not None:
+        both = sum(float(more[f"wear_rate_{side}"][1][-1]) for side in SURFACES)
+        slope = abs(law.slope(sigma, separation=float(more["h"][1][-1])))
+        left = abs(sigma - law.sigma_end)
+        out["running-in"] = left / (slope * both) if slope * both > 0 else math.nan
+    return out
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DryHistory(Record):
+    """A history of a dry or greased contact; made by `thirdbody.life`.
+
+    Attributes
+    ----------
+    times : array (T,)
+        [s].
+    numbers : array (T, K, M)
+        Particles per area of the contact, by class and material [1/m²].
+    materials : tuple of str
+        Names of the kinds of particles.
+    ledger : Ledger
+        Where the mass came from and where it went; its "oil" is the contact.
+    more : dict of str to tuple of Column and array (T,)
+        `COLUMNS` of the contact.
+    births, losses : array (J, J)
+        𝒢 and 𝓛 of the last state [1/s].
+    """
+
+    not_in_dict: ClassVar[tuple[str, ...]] = ("loop", "last_state")
+
+    loop: DryLoop
+    last_state: Array
+    times: Array
+    numbers: Array
+    materials: tuple[str, ...]
+    ledger: Ledger
+    births: Array
+    losses: Array
+    events: tuple[LifeEvent, ...] = ()
+    warnings: tuple[str, ...] = ()
+    more: Mapping[str, tuple[Column, Array]] = field(default_factory=dict)
+
+    @cached_property
+    def R0(self) -> float:
+        """Particles bred by one before it leaves, at the end of the history [1]."""
+        return reproduction_of(self.births, self.losses)
+
+    @property
+    def reproduction(self) -> str:
+        """What R_0 means, in words."""
+        return describe_reproduction(self.R0)
+
+    @property
+    def generations(self) -> Array:
+        """Next-generation matrix: daughters of row i of a particle of column j [1], (J, J)."""
+        return generations(self.losses, self.births)
+
+    def flows(self, *, rates: bool = False) -> list[tuple[str, str, float]]:
+        """The flow table: from where, to where, and how much [kg].
+
+        Parameters
+        ----------
+        rates : bool, optional
+            Mean over the history [kg/s] in the place of the whole mass [kg].
+        """
+        over = self.times[-1] - self.times[0] if rates else 1.0
+        here = {IN_OIL: "contact"}
+        return [
+            (here.get(start, start), here.get(end, end), mass / over)
+            for start, end, mass in self.ledger.rows()
+        ]
+
+    def steady(self) -> tuple[SteadyContact, ...]:
+        """Every state in which the numbers no longer change; wear and σ as at the end."""
+        return steady_states(self.loop, self.last_state)
+
+    @property
+    def time_scales(self) -> dict[str, float]:
+        """How long things take [s], by name; NaN for what never ends."""
+        loop = self.loop
+        crossing = loop.length / loop.setting.sliding_speed
+        out = {"residence of what is held": crossing, "residence of what rolls": 2 * crossing}
+        return out | wear_times(loop, self.last_state, self.more)
+
+    @property
+    def histories(self) -> xarray.Dataset:
+        """Everything over time, as labelled data."""
+        import xarray
+
+        data: dict[str, Any] = {
+            "eta": (
+                ("time", "class", "material"),
+                self.numbers,
+                {"units": "1/m^2", "long_name": "particles per area of the contact", "symbol": "η"},
+            )
+        }
+        for name, values in self.ledger.over_time().items():
+            shown = name.replace("in the oil", "in the contact")
+            data[shown] = ("time", values, {"units": "kg", "long_name": shown})
+        for name, (about, values) in self.more.items():
+            data[name] = ("time", values, about.labels)
+        low, high = self.loop.tables.classes.ends
+        coordinates = {
+            "time": ("time", self.times, {"units": "s", "long_name": "time"}),
+            "class": ("class", np.sqrt(low * high), {"units": "m", "long_name": "middle size"}),
+            "material": ("material", list(self.materials)),
+        }
+        return xarray.Dataset(
+            data, coords=coordinates, attrs={"warnings": "\n".join(self.warnings)}
+        )
+
+    def to_dict(self) -> dict[str, object]:
+        """Everything, ready for JSON: None for what is not a finite number."""
+        return {
+            "times": plain_data(self.times),
+            "edges": list(self.loop.tables.classes.edges),
+            "materials": list(self.materials),
+            "numbers": plain_data(self.numbers),
+            "ledger": self.ledger.to_dict(),
+            "events": [plain_data(each._asdict()) for each in self.events],
+            "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
+            "time_scales": plain_data(self.time_scales),
+            "R0": plain_data(self.R0),
+            "reproduction": self.reproduction,
+            "warnings": list(self.warnings),
+        }

@@ -1,0 +1,407 @@
+"""Runs of a history with a contact: arguments checked, tables made, the course, the record."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...contact.contact import Contact
+from ...errors import InvalidValue, Note, Problem
+from ...quantities.say import number
+from ..conjunctions import Line, Oil, Point
+from ..film_formulas import AbstractFilm
+from ..mixed_film import FEW, MOST, lubricated
+from .circuit import OilCircuit
+from .contact_course import DRAINED, ContactCourse, Visited
+from .contact_history import (
+    COLUMNS,
+    ContactHistory,
+    DryHistory,
+    births_and_losses,
+    contact_columns,
+)
+from .contact_tables import ContactTables, Kind
+from .debris import Debris
+from .dry_loop import ARRIVED, LEFT, DryLoop
+from .film_loop import FRESH, INGRESS, FilmLoop
+from .history import LifeHistory
+from .ingress import Ingress
+from .ledger import Ledger
+from .loop import FINER, Loop, Setting
+from .oil_history import run_oil_history, usual_times
+from .size_classes import SizeClasses, sizes_of
+from .surfaces import RunningIn
+from .until import Until
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ...populations.materials import Material
+    from ...populations.strength import WeibullStrength
+
+    Array = NDArray[np.float64]
+
+__all__ = ["run_dry_history", "run_film_history"]
+
+CROWDED = 0.3
+"""Part of the area that particles may cover before they hinder each other."""
+
+
+# ------------------------------------------------------------------ what is common
+def wears(contact: Contact) -> bool:
+    """Whether the Wear of a contact takes anything away."""
+    wear: Any = next((each for each in contact.outputs if each.name == "wear"), None)
+    names = ("K_ss", "K_ss_ep", "K_ss_e", "K_sa", "K_sa_ep", "K_sa_e", "f_ab", "f_roll")
+    return wear is not None and any(getattr(wear, name) for name in names)
+
+
+def _check(contact: Contact, debris: Debris | None, running_in: RunningIn | None) -> None:
+    problems: list[Problem] = []
+    if not isinstance(contact, Contact):
+        raise InvalidValue(Problem("contact", "must be a Contact", repr(contact)))
+    if wears(contact) and debris is None:
+        rule = "is missing: surfaces wear, and what they lose has sizes that nobody can predict"
+        hint = "Debris.from_report, or Debris.boundary_lubricated() as an estimate"
+        problems.append(Problem("debris", rule, hint=hint))
+    if not isinstance(debris, Debris | None):
+        problems.append(Problem("debris", "must be Debris, or None", repr(debris)))
+    if not isinstance(running_in, RunningIn | None):
+        problems.append(Problem("running_in", "must be RunningIn, or None", repr(running_in)))
+    elif running_in is not None and running_in.sigma_end == 0 and running_in.length is None:
+        pass
+    if debris is not None and isinstance(debris, Debris):
+        pair = contact.surfaces
+        for side, each in ((1, pair.first), (2, pair.second)):
+            if each.density is None:
+                rule = "is missing: the mass of debris is counted [kg/m^3]"
+                hint = "give material.replace(density=...), e.g. 7850 for steel"
+                problems.append(Problem(f"density of surface {side}", rule, hint=hint))
+    if problems:
+        raise InvalidValue(*problems)
+
+
+def _debris_materials(contact: Contact, debris: Debris | None) -> dict[str, Material]:
+    if debris is None:
+        return {}
+    pair = contact.surfaces
+    return {
+        "debris 1": debris.material(pair.first, name="debris 1"),
+        "debris 2": debris.material(pair.second, name="debris 2"),
+    }
+
+
+def _span(contact: Contact, running_in: RunningIn | None) -> tuple[float, float] | None:
+    """Roughness from and to [m]; without an end it may fall to a fifth."""
+    if running_in is None:
+        return None
+    sigma = contact.roughness.sigma
+    return sigma, max(running_in.sigma_end, 0.2 * sigma)
+
+
+def _setting(
+    contact: Contact,
+    debris: Debris | None,
+    classes: SizeClasses,
+    *,
+    names: Sequence[str],
+    sliding_speed: float,
+    area: float,
+    worn_area: tuple[float, float] | None,
+    stays: float,
+    running_in: RunningIn | None,
+) -> Setting:
+    return Setting(
+        sliding_speed=sliding_speed,
+        area=area,
+        worn_area=(area, area) if worn_area is None else worn_area,
+        shares=np.zeros(classes.count) if debris is None else debris.shares(classes),
+        debris=(-1, -1) if debris is None else (names.index("debris 1"), names.index("debris 2")),
+        stays=stays,
+        running_in=running_in,
+    )
+
+
+def _start(loop: Loop, numbers: Array) -> Array:
+    y = np.zeros(loop.layout.count)
+    y[loop.layout[loop.pool]] = numbers
+    y[loop.layout["sigma"]] = loop.tables.contact.roughness.sigma
+    return y
+
+
+def _masses(loop: Loop) -> Array:
+    """Density of each kind [kg/m³]."""
+    return np.array([kind.material.density or math.nan for kind in loop.tables.kinds])
+
+
+def _ledger(loop: Loop, seen: Visited, came: Sequence[str], went: Sequence[str]) -> Ledger:
+    states, density = seen.states, _masses(loop)
+
+    def flow(name: str) -> Array:
+        return np.array([float(loop.flow(y, name) @ density) for y in states])
+
+    pool = np.array(
+        [
+            float(loop.shaped(y[loop.layout[loop.pool]] * loop.volumes).sum(axis=1) @ density)
+            for y in states
+        ]
+    )
+    stored = np.array([float(loop.stored(y) @ density) for y in states])
+    columns_in = {name: flow(name) for name in (*came, "worn 1", "worn 2")}
+    columns_out = {name: flow(name) for name in (*went, FINER)}
+    if FRESH in columns_in:
+        columns_in[FRESH] = columns_in[FRESH] + np.array(seen.filled) @ density
+        columns_out[DRAINED] = np.array(seen.drained) @ density
+    if loop.setting.stays > 0:
+        columns_out["embedded"] = stored - pool
+    return Ledger(in_oil=pool, came=columns_in, went=columns_out)
+
+
+def _notes(
+    loop: Loop,
+    more: dict[str, Array],
+    debris: Debris | None,
+    *,
+    worn_area: object,
+    entry_ratio: float | None,
+) -> list[Note]:
+    out = [] if debris is None else debris.notes(loop.tables.classes)
+    fewest = float(np.min(more["present"]))
+    if fewest < 1:
+        what = (
+            f"a contact holds {number(fewest, 2)} loaded particles on average: the history tells "
+            "mean rates; modes and shares of the particles mean nothing at a moment"
+        )
+        out.append(Note(what, code="life.single", effect=0.0))
+    if entry_ratio == 1:
+        what = "entry ratio 1 is not known to be right: surfaces that lasted show far fewer dents"
+        action = "count dents, and take life.entry_ratio_from_dents"
+        out.append(Note(what, code="life.entry", action=action))
+    if worn_area is None:
+        what = "wear depths are those of the contact area alone, as if no other place came into it"
+        action = "give worn_area, the area of each surface that is worn in turn"
+        out.append(Note(what, code="life.worn_area", action=action))
+    if (most := float(np.max(more["covered"]))) > CROWDED:
+        what = f"particles cover up to {number(most, 2)} of the contact: they hinder each other"
+        out.append(Note(what, code="life.crowded", action="sums of single particles end there"))
+    if loop.setting.stays > 0:
+        what = (
+            "a part of the deep particles stays embedded, as the user says; nobody can predict it"
+        )
+        out.append(Note(what, code="life.stays"))
+    law = loop.setting.running_in
+    if law is not None:
+        how = "over the length that is given" if law.length is not None else "by what is removed"
+        what = f"the roughness runs in {how}, towards an end that no theory gives"
+        out.append(Note(what, code="life.running_in"))
+    if loop.tables.error > 1e-4:
+        what = f"the tables of the contact are good to {number(loop.tables.error, 2)} only"
+        out.append(Note(what, code="life.tables", effect=loop.tables.error))
+    return out
+
+
+def _more(columns: dict[str, Array], leave_out: Sequence[str]) -> dict[str, Any]:
+    return {
+        name: (COLUMNS[name], values) for name, values in columns.items() if name not in leave_out
+    }
+
+
+def _by_class(loop: Loop, matrix: Array) -> Array:
+    """A matrix of the loop in the order of classes and materials, (J, J)."""
+    order = np.arange(len(loop.volumes)).reshape(loop.kinds, loop.classes).T.ravel()
+    return matrix[np.ix_(order, order)]
+
+
+# ------------------------------------------------------------------ in a film
+def run_film_history(
+    contact: Contact,
+    *,
+    oil: OilCircuit,
+    conjunction: Point | Line,
+    lubricant: Oil,
+    load: float,
+    speed: float,
+    slide_roll: float,
+    contacts: float,
+    entry_ratio: float,
+    debris: Debris | None,
+    running_in: RunningIn | None,
+    stays: float,
+    worn_area: tuple[float, float] | None,
+    particle_friction: float | None,
+    entry_height: str,
+    strengths: dict[Material, WeibullStrength],
+    film: AbstractFilm | None,
+    hertz: str,
+    duration: float,
+    until: Sequence[Until],
+    times: ArrayLike | None,
+) -> LifeHistory:
+    """The history of an oil and of alike contacts in it; arguments as in `thirdbody.life`."""
+    _check(contact, debris, running_in)
+    if contact.populations:
+        rule = "are those of the oil: remove them from the contact"
+        raise InvalidValue(Problem("contact.particles", rule))
+    more_materials = _debris_materials(contact, debris)
+    others = () if debris is None else (debris.diameter,)
+    classes = oil.size_classes(*others)
+    terms = oil.terms(classes=classes, materials=more_materials)
+    bodies = lubricated(
+        contact, conjunction, lubricant, np.array([load]), film, slide_roll, hertz, (FEW, MOST)
+    )
+    names = list(terms.materials)
+    kinds = [
+        Kind(name=name, material=each, strength=strengths.get(each))
+        for name, each in terms.materials.items()
+    ]
+    tables = ContactTables(contact, classes, kinds, sigma=_span(contact, running_in))
+    area = contacts * float(conjunction.hertz(load, E=2 * contact.E_ss).area)
+    setting = _setting(
+        contact, debris, classes, names=names, sliding_speed=slide_roll * speed, area=area,
+        worn_area=worn_area, stays=stays, running_in=running_in,
+    )  # fmt: skip
+    loop = FilmLoop(
+        tables, setting, bodies=bodies, speed=speed, contacts=contacts, entry_ratio=entry_ratio,
+        friction=particle_friction, height=entry_height, terms=terms, volume=oil.volume,
+    )  # fmt: skip
+    alone = None
+    if debris is None and stays == 0 and not strengths:
+        # nothing comes from the contact: the oil runs as it does alone, exactly
+        alone = run_oil_history(oil, duration=duration, until=_of_oil(until), times=times)
+        times = alone.times
+        duration = float(alone.times[-1])
+    if times is None:
+        shortest = 1e-2 * oil.volume / max(float(np.max(terms.loss)), 1e-300)
+        times = usual_times(duration, shortest=shortest)
+    start = _start(loop, oil.volume * terms.start.T.ravel())
+    course = ContactCourse(
+        loop, start, duration=duration, times=np.asarray(times, float),
+        until=() if alone is not None else until, circuit=oil,
+    )  # fmt: skip
+    seen = course.run()
+    columns = contact_columns(loop, np.array(seen.times), seen.states)
+    notes = _notes(loop, columns, debris, worn_area=worn_area, entry_ratio=entry_ratio)
+    births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
+    moments = np.array(seen.times)
+    numbers = np.array([loop.shaped(y[loop.layout["oil"]]).T for y in seen.states])
+    volume = loop.volume + loop.growth * moments
+    numbers = numbers / volume[:, None, None]
+    events, warned = course.events, tuple(oil.notes())
+    ledger = _ledger(loop, seen, (INGRESS, FRESH), loop.removals)
+    if alone is not None:
+        place = np.searchsorted(moments, alone.times).clip(max=len(moments) - 1)
+        columns = {name: values[place] for name, values in columns.items()}
+        moments, numbers, volume = alone.times, alone.numbers, alone.volume
+        ledger, events = alone.ledger, list(alone.events)
+    return ContactHistory(
+        circuit=oil,
+        terms=terms,
+        times=moments,
+        volume=volume,
+        numbers=numbers,
+        ledger=ledger,
+        events=tuple(events),
+        warnings=(*warned, *notes),
+        more=_more(columns, ()),
+        births=births,
+        losses=losses,
+        loop=loop,
+        last_state=seen.states[-1],
+    )
+
+
+def _of_oil(until: Sequence[Until]) -> tuple[Until, ...]:
+    from .contact_until import ContactUntil
+
+    return tuple(each for each in until if not isinstance(each, ContactUntil))
+
+
+# ------------------------------------------------------------------ dry
+def run_dry_history(
+    contact: Contact,
+    *,
+    pressure: float,
+    sliding_speed: float,
+    length: float,
+    area: float,
+    arrivals: Sequence[Ingress],
+    loss: float,
+    moving: int,
+    debris: Debris | None,
+    running_in: RunningIn | None,
+    stays: float,
+    worn_area: tuple[float, float] | None,
+    classes: SizeClasses | None,
+    duration: float,
+    until: Sequence[Until],
+    times: ArrayLike | None,
+) -> DryHistory:
+    """The history of a dry or greased contact; arguments as in `thirdbody.life`."""
+    _check(contact, debris, running_in)
+    if wrong := [each for each in arrivals if not isinstance(each, Ingress) or each.rate is None]:
+        rule = "must be Ingress with a rate [1/s], particles into the whole contact"
+        raise InvalidValue(Problem("arrivals", rule, repr(wrong[0])))
+    dirt: dict[Material, WeibullStrength | None] = {}
+    for population in contact.populations:
+        dirt[population.material] = population.strength
+    for each in arrivals:
+        dirt.setdefault(each.material, None)
+    kinds = [
+        Kind(name=f"{each.name or 'particles'} {i + 1}" if i else each.name or "particles",
+             material=each, strength=strength)
+        for i, (each, strength) in enumerate(dirt.items())
+    ]  # fmt: skip
+    kinds += [Kind(name=n, material=m) for n, m in _debris_materials(contact, debris).items()]
+    names = [kind.name for kind in kinds]
+    diameters = [*(each.diameter for each in (*contact.populations, *arrivals))]
+    if debris is not None:
+        diameters.append(debris.diameter)
+    if classes is None:
+        ends = [sizes_of(each) for each in diameters] or [(0.25e-6, 64e-6)]
+        classes = SizeClasses.covering(min(a for a, _ in ends), max(b for _, b in ends))
+    tables = ContactTables(contact, classes, kinds, sigma=_span(contact, running_in))
+    setting = _setting(
+        contact, debris, classes, names=names, sliding_speed=sliding_speed, area=area,
+        worn_area=worn_area, stays=stays, running_in=running_in,
+    )  # fmt: skip
+    place = {material: i for i, material in enumerate(dirt)}
+    coming = np.zeros((len(kinds), classes.count))
+    for each in arrivals:
+        assert each.rate is not None
+        count = classes.numbers_of if each.kept == "number" else classes.numbers_by_volume
+        coming[place[each.material]] += count(each.rate, each.diameter)
+    present = np.zeros((len(kinds), classes.count))
+    for population in contact.populations:
+        present[place[population.material]] += classes.numbers_of(
+            population.areal_density * area, population.diameter
+        )
+    loop = DryLoop(
+        tables, setting, pressure=pressure, length=length, arrivals=coming.ravel(), loss=loss,
+        moving=moving,
+    )  # fmt: skip
+    if times is None:
+        times = usual_times(duration, shortest=0.1 * length / sliding_speed)
+    course = ContactCourse(
+        loop, _start(loop, present.ravel()), duration=duration, times=np.asarray(times, float),
+        until=until,
+    )  # fmt: skip
+    seen = course.run()
+    columns = contact_columns(loop, np.array(seen.times), seen.states)
+    births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
+    numbers = np.array([loop.shaped(y[loop.layout["contact"]]).T for y in seen.states]) / area
+    absent = ("film_share", *(f"{name}_{side}" for name in ("dents", "thrown") for side in (1, 2)))
+    return DryHistory(
+        loop=loop,
+        last_state=seen.states[-1],
+        times=np.array(seen.times),
+        numbers=numbers,
+        materials=tuple(names),
+        ledger=_ledger(loop, seen, (ARRIVED,), (LEFT,)),
+        births=births,
+        losses=losses,
+        events=tuple(course.events),
+        warnings=tuple(_notes(loop, columns, debris, worn_area=worn_area, entry_ratio=None)),
+        more=_more(columns, absent),
+    )

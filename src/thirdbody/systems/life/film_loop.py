@@ -1,0 +1,204 @@
+r"""Contacts in an oil film: the oil brings particles, the contacts return debris to it.
+
+.. math:: \frac{dN_{km}}{dt} = r_{km} + q_{in} n^{in}_{km} - \sum_f L_{f,km}\frac{N_{km}}{V}
+          + g_{km} + \text{pieces} - \text{embedded}, \qquad
+          p_{ss} + p_{sa} = \bar p\,(1 - 1/\gamma)
+
+with N = V n, the terms of `OilCircuit`, and the gap that the film leaves under its own part of the
+load, as `thirdbody.mixed_film` has it. Passage of the contacts is short against all else: what
+stands in them is ε times a layer of oil.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ...errors import NoEquilibrium
+from ...numerics.chebyshev import PiecewiseChebyshev
+from ..mixed_film import Lubricated, height_of, mean_gap
+from .circuit import OilTerms
+from .contact_tables import ContactTables, Pressed
+from .entry import oil_layer
+from .loop import Gap, Loop, Rates, Setting
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["FilmLoop"]
+
+INGRESS, FRESH = "ingress", "fresh oil"
+LONGEST = 60.0
+"""Largest ln γ of the tables."""
+CLOSE = 1e-5
+"""Half the bracket that is tried first about the ln γ of the state before."""
+
+
+class FilmLoop(Loop):
+    """Lubricated contacts and the oil that goes through them.
+
+    Parameters
+    ----------
+    tables : ContactTables
+    setting : Setting
+        Its area is that of all contacts together.
+    bodies : Lubricated
+        Bodies, oil, film formula and the load of one contact.
+    speed : float
+        Mean entrainment speed u [m/s].
+    contacts : float
+        How many contacts there are.
+    entry_ratio : float
+        ε [1].
+    friction : float or None
+        μ of a particle on the surfaces, which bounds the sizes dragged in [1]; None for no bound.
+    height : {"size", "film"}
+        As in `oil_layer`.
+    terms : OilTerms
+        What comes into the oil and goes out, for the kinds of the tables.
+    volume : float
+        Of the oil at the beginning [m³].
+    """
+
+    pool = "oil"
+
+    def __init__(
+        self,
+        tables: ContactTables,
+        setting: Setting,
+        *,
+        bodies: Lubricated,
+        speed: float,
+        contacts: float,
+        entry_ratio: float,
+        friction: float | None,
+        height: str,
+        terms: OilTerms,
+        volume: float,
+    ):
+        self.removals = tuple(terms.removal)
+        super().__init__(tables, setting, (INGRESS, FRESH, *self.removals))
+        self.bodies, self.speed, self.contacts = bodies, speed, contacts
+        self.entry_ratio, self.friction, self.height = entry_ratio, friction, height
+        self.terms, self.volume, self.growth = terms, volume, terms.growth
+        self.pressure = float(bodies.p[0])
+        _, across = bodies.conjunction.semi_axes(float(bodies.w[0]), E=2 * bodies.contact.E_ss)
+        self.width = 2 * float(across)
+        """Of one contact across the motion [m]."""
+        u = np.array([speed])
+        self.log_film = PiecewiseChebyshev(
+            lambda x: np.log([float(bodies.thickness(u, np.exp(each))[0]) for each in x])[:, None],
+            np.array([0.0, 1.0, 4.0, 12.0, 30.0, LONGEST]),
+            tolerance=1e-12,
+        )
+        self.last = 0.0
+        self.now = 0.0
+
+    @property
+    def one_area(self) -> float:
+        return self.setting.area / self.contacts
+
+    # ------------------------------------------------------------------ film
+    def volume_at(self, time: float) -> float:
+        """Volume of the oil [m³]."""
+        return self.volume + self.growth * time
+
+    def film_at(self, x: float) -> float:
+        """Film thickness at ln γ [m]."""
+        return math.exp(float(self.log_film(np.array([x]))[0, 0]))
+
+    def separation(self, x: float, sigma: float) -> float:
+        """d that the film leaves at ln γ [m]."""
+        h = float(height_of(self.film_at(x), sigma=sigma))
+        d = h - self.tables.mean_plane(sigma)
+        rough = self.tables.roughness_at(sigma)
+        return max(d, -3.0 * rough.sigma_s)
+
+    def film_of(self, d: float, sigma: float) -> float:
+        """Mean gap at a separation [m]."""
+        return float(mean_gap(d + self.tables.mean_plane(sigma), sigma=sigma))
+
+    def find_gap(self, y: Array) -> Gap:
+        sigma = self.sigma_of(y)
+
+        def excess(x: float) -> float:
+            d = self.separation(x, sigma)
+            eta = self.shaped(self.present(y, d))
+            return self.tables.load(d, eta=eta, sigma=sigma)[0] / self.pressure + math.expm1(-x)
+
+        x = self._root(excess)
+        self.last = x
+        d = self.separation(x, sigma)
+        state = self.pressed(y, d)
+        step = 1e-5 * (1 + x)
+        below = max(x - step, 0.0)
+        stiff = (excess(x + step) - excess(below)) / (x + step - below)
+        opens = (self.separation(x + step, sigma) - self.separation(below, sigma)) / (
+            x + step - below
+        )
+        slopes = -self.slope_over_unknowns(y, state) / self.pressure / stiff * opens
+        return Gap(d, slopes, math.exp(-x))
+
+    def _root(self, excess: object) -> float:
+        f = excess
+        assert callable(f)
+        low, high = max(self.last - CLOSE, 0.0), self.last + CLOSE
+        if f(low) < 0:
+            low, high = max(low - 1e-2, 0.0), low
+        if f(low) < 0:
+            low = 0.0
+            if f(0.0) <= 0:
+                return 0.0
+        while f(high) > 0:
+            if high >= LONGEST:
+                raise NoEquilibrium(
+                    f"no equilibrium at speed = {self.speed:g} m/s: at every gap that this film "
+                    "leaves, asperities and particles carry more than the load"
+                )
+            low, high = high, min(high + 100 * (high - low), LONGEST)
+        return float(brentq(f, low, high, xtol=1e-15, rtol=1e-14))
+
+    # ------------------------------------------------------------------ particles
+    def layers(self, d: float, sigma: float) -> Array:
+        """ε times the layer of oil that brings each number [m]: (J,)."""
+        film = self.film_of(d, sigma)
+        largest = math.inf
+        if self.friction is not None:
+            largest = film + 2 * self.friction**2 * self.bodies.conjunction.R
+        layer = oil_layer(self.tables.classes, film=film, largest=largest, height=self.height)
+        return self.entry_ratio * np.tile(layer, self.kinds)
+
+    def standing(self, y: Array, d: float) -> Array:
+        sigma = self.sigma_of(y)
+        return self.pieces(d, sigma) * (self.layers(d, sigma) / self.volume_at(self.now))
+
+    def passes(self, side: int) -> float:
+        return self.contacts * self.speed * self.width / self.setting.worn_area[side - 1]
+
+    def add_exchange(self, out: Rates, y: Array, state: Pressed) -> None:
+        pool, terms = self.layout[self.pool], self.terms
+        volume = self.volume_at(self.now)
+        self.add_source(out, INGRESS, terms.ingress.T.ravel())
+        self.add_source(out, FRESH, (terms.make_up * terms.fresh).T.ravel())
+        mine = np.arange(pool.start, pool.stop)
+        for name in self.removals:
+            rate = terms.removal[name].T.ravel() / volume
+            out.matrix[mine, mine] -= rate
+            self.add_flow(out, name, pool, rate)
+        swept = self.contacts * self.speed * self.width
+        passing = swept * self.layers(state.d, state.sigma) / volume
+        self.add_retention(out, passing, state)
+        self.add_passage(out, passing, pieces=self.pieces(state.d, state.sigma))
+
+    def derivative(self, time: float, y: Array) -> Array:
+        self.now = time
+        return super().derivative(time, y)
+
+    def jacobian(self, time: float, y: Array) -> Array:
+        self.now = time
+        return super().jacobian(time, y)

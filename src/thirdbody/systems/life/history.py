@@ -1,0 +1,235 @@
+"""A history: the particles of an oil over time, where they came from and where they went."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from ...populations.measured.cleanliness import counted_sizes
+from ...quantities.plain_data import plain_data
+from ...quantities.record import Column, Record
+from .circuit import OilCircuit, OilTerms
+from .ledger import Ledger
+from .linear_flow import dirt_gain, generations, reproduction
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["LifeEvent", "LifeHistory", "SteadyOil"]
+
+SETTLES_TO = 0.01
+"""Part of the way to the steady state that is left when it counts as reached."""
+
+
+class LifeEvent(NamedTuple):
+    """Something that happened; in ``events`` of a history."""
+
+    time: float
+    """When [s]."""
+    name: str
+    """What, in a word or two."""
+    sentence: str
+    """What, as a sentence without its stop."""
+
+
+class SteadyOil(NamedTuple):
+    """Oil that no longer changes; made by ``steady`` of a history."""
+
+    numbers: Array
+    """Particles per volume [1/m³], (K, M); NaN where they grow for ever."""
+    code: str
+    """ISO 4406; "-" for a count that grows for ever."""
+    time: float
+    """Until a hundredth of the way is left, of the slowest class that is counted [s]."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LifeHistory(Record):
+    """A history of oil, and of what acts in it; made by `thirdbody.life`.
+
+    Attributes
+    ----------
+    circuit : OilCircuit
+    terms : OilTerms
+        What comes into the oil and goes out of it, no filter full.
+    times : array (T,)
+        [s].
+    volume : array (T,)
+        Of the oil V [m³].
+    numbers : array (T, K, M)
+        Particles per volume, by class and material n_km [1/m³].
+    ledger : Ledger
+        Where the mass came from and where it went.
+    events : tuple of LifeEvent
+    warnings : tuple of str
+        What is to be said of it, a sentence each.
+    more : dict of str to tuple of Column and array (T,)
+        What a contact in the oil adds.
+    births : array (J, J), optional
+        𝒢 of classes and materials, row by row of ``numbers`` [1/s]; None where nothing is bred.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> quartz = tb.materials["quartz"]
+    >>> oil = tb.OilCircuit(
+    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> history = tb.life(oil=oil, duration=1800.0)
+    >>> history.codes[0], history.codes[-1]
+    ('18/16/13', '5/3/0')
+    """
+
+    not_in_dict: ClassVar[tuple[str, ...]] = ("circuit", "terms")
+
+    circuit: OilCircuit
+    terms: OilTerms
+    times: Array
+    volume: Array
+    numbers: Array
+    ledger: Ledger
+    events: tuple[LifeEvent, ...] = ()
+    warnings: tuple[str, ...] = ()
+    more: Mapping[str, tuple[Column, Array]] = field(default_factory=dict)
+    births: Array | None = None
+
+    @cached_property
+    def counts(self) -> Array:
+        """Particles per volume from 4, 6 and 14 µm(c) [1/m³], (T, 3)."""
+        return self.terms.classes.counted(self.numbers.sum(axis=-1))
+
+    @cached_property
+    def codes(self) -> tuple[str, ...]:
+        """ISO 4406 code at each time."""
+        classes = self.terms.classes
+        return tuple(classes.iso4406(each) for each in self.numbers.sum(axis=-1))
+
+    @property
+    def mass_per_volume(self) -> Array:
+        """Mass of particles per volume of oil [kg/m³], (T, M)."""
+        return np.einsum("tkm,km->tm", self.numbers, self.terms.masses)
+
+    def flows(self, *, rates: bool = False) -> list[tuple[str, str, float]]:
+        """The flow table: from where, to where, and how much [kg].
+
+        Parameters
+        ----------
+        rates : bool, optional
+            Mean over the history [kg/s] in the place of the whole mass [kg].
+        """
+        over = self.times[-1] - self.times[0] if rates else 1.0
+        return [(start, end, mass / over) for start, end, mass in self.ledger.rows()]
+
+    # -------------------------------------------------------------------------- what it tends to
+    def steady(self) -> tuple[SteadyOil, ...]:
+        """The states in which the oil no longer changes; one, stable, without a contact."""
+        numbers = self.circuit.steady()
+        classes = self.terms.classes
+        leaving = (self.terms.loss + self.terms.growth) / self.circuit.volume
+        counts = classes.above(counted_sizes()[:1])[0] > 0
+        inside = counts[:, None] & (self.terms.source + self.terms.start > 0) & (leaving > 0)
+        slowest = float(np.min(leaving, where=inside, initial=math.inf))
+        time = -math.log(SETTLES_TO) / slowest if math.isfinite(slowest) else math.nan
+        return (SteadyOil(numbers, classes.iso4406(numbers.sum(axis=1)), time),)
+
+    @property
+    def _losses(self) -> Array:
+        """𝓛 of classes and materials [1/s], (J, J)."""
+        return np.diag((self.terms.loss / self.circuit.volume).ravel())
+
+    @cached_property
+    def R0(self) -> float:
+        """Particles bred by one before it is removed [1]."""
+        return 0.0 if self.births is None else reproduction(self._losses, self.births)
+
+    @property
+    def generations(self) -> Array:
+        """Next-generation matrix: daughters of row i of a particle of column j [1], (J, J)."""
+        losses = self._losses
+        return generations(losses, np.zeros_like(losses) if self.births is None else self.births)
+
+    @property
+    def dirt_gain(self) -> float:
+        """Particles in the steady state over those without debris [1]."""
+        if self.births is None:
+            return 1.0
+        source = (self.terms.source / self.circuit.volume).ravel()
+        return dirt_gain(self._losses, self.births, source)
+
+    @property
+    def time_scales(self) -> dict[str, float]:
+        """How long things take [s], by name; NaN for what never ends."""
+        volume, terms = self.circuit.volume, self.terms
+        out: dict[str, float] = {}
+        flow = sum(each.flow or 0.0 for each in self.circuit.filters)
+        if flow > 0:
+            out["oil through the filters once"] = volume / flow
+        for size, part in zip(counted_sizes(), terms.classes.above(counted_sizes()), strict=True):
+            held = np.flatnonzero(part > 0)
+            loss = float(terms.loss[held[0]].max()) if len(held) else 0.0
+            name = f"removal of particles of {size * 1e6:.0f} µm"
+            out[name] = volume / loss if loss > 0 else math.nan
+        return out
+
+    @property
+    def histories(self) -> xarray.Dataset:
+        """Everything over time, as labelled data: codes, counts, numbers by class, masses."""
+        import xarray
+
+        classes = self.terms.classes
+        data: dict[str, Any] = {
+            "code": ("time", list(self.codes), {"long_name": "ISO 4406 code"}),
+            "count": (
+                ("time", "size"),
+                self.counts,
+                {"units": "1/m^3", "long_name": "particles per volume from a size on"},
+            ),
+            "n": (
+                ("time", "class", "material"),
+                self.numbers,
+                {"units": "1/m^3", "long_name": "particles per volume of oil", "symbol": "n"},
+            ),
+            "volume": ("time", self.volume, Column("V", "m^3", "volume of the oil").labels),
+        }
+        for name, values in self.ledger.over_time().items():
+            data[name] = ("time", values, {"units": "kg", "long_name": name})
+        for name, (about, values) in self.more.items():
+            data[name] = ("time", values, about.labels)
+        low, high = classes.ends
+        coordinates = {
+            "time": ("time", self.times, {"units": "s", "long_name": "time"}),
+            "size": ("size", list(counted_sizes()), {"units": "m", "long_name": "size"}),
+            "class": ("class", np.sqrt(low * high), {"units": "m", "long_name": "middle size"}),
+            "material": ("material", list(self.terms.materials)),
+        }
+        attributes = {"warnings": "\n".join(self.warnings)}
+        return xarray.Dataset(data, coords=coordinates, attrs=attributes)
+
+    def to_dict(self) -> dict[str, object]:
+        """Everything, ready for JSON: None for what is not a finite number."""
+        steady = self.steady()
+        return {
+            "times": plain_data(self.times),
+            "codes": list(self.codes),
+            "counts": plain_data(self.counts),
+            "edges": list(self.terms.classes.edges),
+            "materials": list(self.terms.materials),
+            "numbers": plain_data(self.numbers),
+            "volume": plain_data(self.volume),
+            "ledger": self.ledger.to_dict(),
+            "events": [plain_data(each._asdict()) for each in self.events],
+            "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
+            "steady": [plain_data(each._asdict()) for each in steady],
+            "time_scales": plain_data(self.time_scales),
+            "R0": plain_data(self.R0),
+            "dirt_gain": plain_data(self.dirt_gain),
+            "warnings": list(self.warnings),
+        }

@@ -1,0 +1,277 @@
+"""An oil over time in words: codes, time scales, flows of dirt, what was not known."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ..quantities.say import join_words, number, percent, value_of
+from ..systems.life.sizing import least_flow
+
+if TYPE_CHECKING:
+    from ..study.run_life import LifeResult
+    from ..systems.life.history import LifeHistory
+    from ..systems.life.reports import OilReports
+
+__all__ = [
+    *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
+    *("answer", "band_words", "breeding", "duration_of", "events", "facts", "flow_of"),
+    *("last_words", "least_flow_words", "mass_of", "report_answer", "report_rows", "rows"),
+]
+
+HEADS = ("time", "ISO 4406", "from 4 µm", "from 6 µm", "from 14 µm", "dirt")
+MEANS = {
+    "from 4 µm": "particles per mL of oil",
+    "dirt": "mass of particles per volume of oil",
+}
+REPORT_HEADS = ("from", "particles enter", "lowest", "highest")
+REPORT_MEANS = {
+    "from": "size from which is counted",
+    "lowest": "end of the band in which it lies nine times of ten",
+}
+MINUTE, HOUR, DAY, YEAR = 60.0, 3600.0, 86400.0, 365.25 * 86400
+ENDS = ((2 * MINUTE, 1.0, "s"), (2 * HOUR, MINUTE, "min"), (20_000 * HOUR, HOUR, "h"))
+NEVER = "for ever"
+MATTERS, RUNS_AWAY = 0.3, 1.0
+"""R₀ from which debris matters, and from which nothing holds it."""
+LARGEST_FLOWS = 3
+
+
+def duration_of(seconds: float, digits: int = 3) -> str:
+    """A time as people say it.
+
+    >>> duration_of(30.0), duration_of(202.7), duration_of(3.6e6), duration_of(1e12)
+    ('30 s', '3.38 min', '1000 h', '3.17×10⁴ years')
+    >>> duration_of(float("nan"))
+    'for ever'
+    """
+    if not math.isfinite(seconds):
+        return NEVER
+    for end, unit, name in ENDS:
+        if seconds < end:
+            size = seconds / unit
+            whole = len(f"{size:.0f}")
+            return f"{number(size, max(digits, whole))} {name}"
+    return f"{number(seconds / YEAR, digits)} years"
+
+
+def mass_of(kilograms: float) -> str:
+    """A mass as people say it.
+
+    >>> mass_of(0.05), mass_of(1.3e-6), mass_of(2.0), mass_of(0.0)
+    ('50 g', '1.3 mg', '2 kg', '0 g')
+    """
+    return value_of(kilograms, "kg", 3) if kilograms else "0 g"
+
+
+def flow_of(kilograms_per_second: float) -> str:
+    """A mass per hour.
+
+    >>> flow_of(125e-6 / 3600)
+    '125 mg/h'
+    """
+    return f"{mass_of(kilograms_per_second * HOUR)}/h"
+
+
+def breeding(R0: float) -> str:
+    """What one particle of debris breeds, in a sentence.
+
+    >>> breeding(7e-5)
+    'one particle of debris breeds 7×10⁻⁵ others before it is removed: wear does not feed itself'
+    >>> breeding(1.2)
+    'one particle of debris breeds 1.2 others before it is removed: wear feeds itself'
+    """
+    verdict = "wear does not feed itself"
+    if R0 >= RUNS_AWAY:
+        verdict = "wear feeds itself"
+    elif R0 > MATTERS:
+        verdict = "debris matters, so its hardness and sizes decide"
+    return f"one particle of debris breeds {number(R0, 3)} others before it is removed: {verdict}"
+
+
+def answer(found: LifeResult) -> list[str]:
+    """How dirty the oil becomes, what it tends to, and where most of its dirt goes."""
+    history = found.history
+    end = duration_of(float(history.times[-1]))
+    out = [f"The oil goes from {history.codes[0]} to {history.codes[-1]} in {end}."]
+    if stopped := _stop(found):
+        out[0] = f"{stopped}: the oil has gone from {history.codes[0]} to {history.codes[-1]}."
+    out += [_tends(history)]
+    if history.births is not None:
+        said = breeding(history.R0)
+        out.append(f"{said[0].upper()}{said[1:]}.")
+    out.append(_largest_flows(history))
+    return out
+
+
+def _stop(found: LifeResult) -> str:
+    """What ended the history before its time."""
+    history = found.history
+    if history.times[-1] >= found.asked.duration * (1 - 1e-12) or not history.events:
+        return ""
+    last = history.events[-1]
+    return f"After {duration_of(last.time)} {last.sentence}"
+
+
+def _tends(history: LifeHistory) -> str:
+    """What the oil comes to, and how soon."""
+    steady = history.steady()
+    if not steady:
+        return "It comes to no state in which it no longer changes."
+    if "-" not in steady[0].code:
+        soon = duration_of(steady[0].time)
+        return f"Left alone it comes to {steady[0].code}, all but a hundredth of it in {soon}."
+    counts = zip(steady[0].code.split("/"), ("4", "6", "14"), strict=True)
+    grow = [f"{size} µm" for part, size in counts if part == "-"]
+    rest = "" if len(grow) == 3 else f", and to {steady[0].code} with the larger ones"
+    return (
+        f"The count from {join_words(grow)} on grows for ever: nothing takes the smallest of these "
+        f"particles out{rest}."
+    )
+
+
+def _largest_flows(history: LifeHistory) -> str:
+    """The largest flows of dirt."""
+    some = [row for row in history.flows() if row[2] > 0][:LARGEST_FLOWS]
+    if not some:
+        return "No dirt moves."
+    shown = [f"{mass_of(mass)} from {start} to {end}" for start, end, mass in some]
+    return f"Most of the dirt: {join_words(shown)}."
+
+
+def events(history: LifeHistory) -> list[str]:
+    """What happened, a sentence each; of many alike the first and the last."""
+    out = [f"After {duration_of(each.time)}: {each.sentence}." for each in history.events]
+    if len(out) <= 6:
+        return out
+    return [*out[:3], f"... {len(out) - 4} more events ...", out[-1]]
+
+
+def rows(found: LifeResult) -> list[list[str]]:
+    """The table: a row a time."""
+    history = found.history
+    dirt = history.mass_per_volume.sum(axis=1)
+    out = []
+    for i, time in enumerate(history.times):
+        counts = [number(float(each) / 1e6, 3) for each in history.counts[i]]
+        out.append(
+            [
+                duration_of(float(time)),
+                history.codes[i],
+                *counts,
+                f"{number(1e3 * dirt[i], 3)} mg/L",
+            ]
+        )
+    return out
+
+
+def band_words(found: LifeResult) -> list[str]:
+    """Bands of code and times, and what moves the oil most."""
+    bands = found.bands
+    if bands is None:
+        return []
+    low, high = bands.codes[0], bands.codes[-1]
+    part = percent(max(bands.probabilities) - min(bands.probabilities))
+    end = duration_of(found.asked.duration)
+    out = [f"With what is known of its numbers the oil is at {low} to {high} after {end} ({part})."]
+    for name, times in bands.times.items():
+        first, last = (_time_or_censored(float(t), found) for t in (times[0], times[-1]))
+        came = percent(bands.reached[name])
+        out.append(f"{name[0].upper()}{name[1:]}: after {first} to {last}; it comes in {came}.")
+    most = bands.swings[0]
+    out.append(
+        f"Most uncertain: {most.name}, which alone moves the count from 6 µm by a factor of "
+        f"{number(most.factor, 3)}."
+    )
+    return out
+
+
+def _time_or_censored(seconds: float, found: LifeResult) -> str:
+    """A time, or how long nobody saw it come."""
+    if math.isfinite(seconds):
+        return duration_of(seconds)
+    return f"more than {duration_of(found.asked.duration)}"
+
+
+def least_flow_words(found: LifeResult, code: str) -> list[str]:
+    """How much flow each filter needs for a code, a sentence each."""
+    circuit = found.asked.circuit
+    out = []
+    for i, name in enumerate(circuit.filter_names()):
+        if circuit.filters[i].line:
+            continue
+        flow = least_flow(circuit, code=code, which=i)
+        if math.isnan(flow):
+            out.append(f"No flow through {name} is enough for {code}: it holds too few of them.")
+        elif flow == 0:
+            out.append(f"The oil comes to {code} without {name} too.")
+        else:
+            enough = f"{number(6e4 * flow, 3)} L/min"
+            out.append(f"A flow of {enough} through {name} is enough for {code}.")
+    return out or [f"No filter of its own line can be sized for {code}."]
+
+
+def last_words(found: LifeResult) -> list[str]:
+    """Events, time scales, and what was not known."""
+    history = found.history
+    scales = [f"{name} {duration_of(time)}" for name, time in history.time_scales.items()]
+    out = [*band_words(found), *events(history)]
+    if scales:
+        out.append(f"Time scales: {', '.join(scales)}.")
+    unknown = ["the ingress"]
+    if any(each.service == 1 for each in history.circuit.filters):
+        unknown.append("whether the filters hold in service what their data sheets say")
+    out.append(
+        f"What nobody can predict: {join_words(unknown)}. Vary them, or give reports of the oil: "
+        "thirdbody life STUDY.toml --reports oil.csv."
+    )
+    return out
+
+
+def facts(history: LifeHistory) -> dict[str, str]:
+    """Named numbers of a history."""
+    steady = history.steady()
+    return {
+        "at the end": history.codes[-1],
+        "without end": steady[0].code if steady else "-",
+        "dirt in the oil": mass_of(float(history.ledger.in_oil[-1])),
+        "volume": f"{number(1e3 * float(history.volume[-1]), 3)} L",
+    }
+
+
+# ------------------------------------------------------------------------------ reports
+def report_answer(found: OilReports) -> list[str]:
+    """What the reports say, in sentences."""
+    out = [
+        f"Between the reports {flow_of(found.mass_rate)} of dirt from "
+        f"{value_of(float(found.sizes[0]), 'm')} on entered the oil: {flow_of(found.mass_low)} to "
+        f"{flow_of(found.mass_high)}, if every count lies somewhere in the range of its code."
+    ]
+    if found.is_constant is None:
+        out.append("Two reports fit any ingress: whether it is constant, a third one says.")
+    elif found.is_constant:
+        out.append(f"A constant ingress fits them ({_misfit(found)}).")
+    else:
+        out.append(
+            f"A constant ingress does not fit them ({_misfit(found)}): it changed, or the filters "
+            "do not hold what their data sheets say."
+        )
+    return out
+
+
+def _misfit(found: OilReports) -> str:
+    chi2, more = number(found.chi2, 3), f"{found.degrees} degrees of freedom"
+    return f"χ² = {chi2} with {more}, as large by chance {number(100 * found.probability, 2)} %"
+
+
+def report_rows(found: OilReports) -> list[list[str]]:
+    """A row a size."""
+    return [
+        [
+            value_of(float(size), "m"),
+            *(f"{number(60 * float(each), 3)} /min" for each in (rate, low, high)),
+        ]
+        for size, rate, low, high in zip(
+            found.sizes, found.rate, found.low, found.high, strict=True
+        )
+    ]

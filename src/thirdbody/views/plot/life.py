@@ -1,0 +1,242 @@
+"""Figures of an oil over time: codes and masses, and where the dirt goes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyBboxPatch, PathPatch
+from matplotlib.path import Path
+from matplotlib.ticker import MaxNLocator
+
+from .style import OKABE_ITO
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ...systems.life.history import LifeHistory
+
+__all__ = ["draw_flows", "draw_history", "flows", "histories", "life"]
+
+HOUR = 3600.0
+SIZES = {"4 µm": "blue", "6 µm": "vermilion", "14 µm": "green"}
+DASHES = ("-", "--", "-.")
+LEAST = 0.01
+"""Particles per mL that the code number 0 ends at."""
+THINNEST = 0.004
+"""Width of the thinnest arrow, in parts of the height."""
+
+
+def draw_history(axes: Axes, history: LifeHistory) -> None:
+    """Draw the numbers of the code over time as steps, and the counts behind them.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    history : LifeHistory
+    """
+    hours = _hours(history)
+    codes = [[_code_number(part) for part in code.split("/")] for code in history.codes]
+    smooth = np.log2(np.maximum(history.counts / 1e6, 1e-9) / LEAST)
+    styles = zip(SIZES.items(), np.transpose(codes), smooth.T, DASHES, strict=True)
+    for (name, colour), numbers, exact, dash in styles:
+        axes.plot(hours, exact, color=OKABE_ITO[colour], lw=0.6, alpha=0.6)
+        axes.step(hours, numbers, dash, where="post", color=OKABE_ITO[colour], label=f"from {name}")
+    for event in history.events:
+        axes.axvline(max(event.time / HOUR, hours[0]), color="0.8", lw=0.8, zorder=0)
+    axes.set(xlabel="Time [h]", ylabel="ISO 4406 number", xscale="log")
+    axes.set_ylim(max(axes.get_ylim()[0], -1.0), None)
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+    counts = axes.twinx()
+    counts.set_yscale("log")
+    counts.set_ylim(*(LEAST * 2.0**end for end in axes.get_ylim()))
+    counts.set_ylabel("Particles per mL of oil")
+    axes.margins(x=0)
+    axes.legend(frameon=False)
+
+
+def _hours(history: LifeHistory) -> Any:
+    """Times [h]; the first, which no logarithm has, where the second one is in the logarithm."""
+    hours = history.times / HOUR
+    if len(hours) > 2 and hours[0] == 0:
+        hours = np.append(hours[1] ** 2 / hours[2], hours[1:])
+    return hours
+
+
+def _code_number(part: str) -> float:
+    return float(part.removeprefix(">")) if part != "-" else np.nan
+
+
+def draw_masses(axes: Axes, history: LifeHistory) -> None:
+    """Draw what came and where it went over time.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    history : LifeHistory
+    """
+    hours = _hours(history)
+    colours = [
+        OKABE_ITO[name] for name in ("vermilion", "orange", "blue", "green", "purple", "sky")
+    ]
+    columns = {**history.ledger.came, **history.ledger.went, "in the oil": history.ledger.in_oil}
+    for i, (name, values) in enumerate(columns.items()):
+        dash = "-" if name in history.ledger.came else ":" if name == "in the oil" else "--"
+        axes.plot(hours, 1e3 * values, dash, color=colours[i % len(colours)], label=name, lw=1.6)
+    axes.set(xlabel="Time [h]", ylabel="Mass since the beginning [g]", xscale="log", yscale="log")
+    axes.margins(x=0)
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(low, 1e-6 * high), high)
+    axes.legend(frameon=False)
+
+
+def histories(history: LifeHistory) -> Figure:
+    """Counts and codes over time, and the masses of the ledger below.
+
+    Parameters
+    ----------
+    history : LifeHistory
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> quartz = tb.materials["quartz"]
+    >>> oil = tb.OilCircuit(
+    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> figure = histories(tb.life(oil=oil, duration=1800.0))
+    >>> len(figure.axes)
+    2
+    """
+    figure = Figure(figsize=(6.4, 6.4), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True)
+    draw_history(above, history)
+    draw_masses(below, history)
+    above.set_xlabel("")
+    return figure
+
+
+# ------------------------------------------------------------------------------ flows
+def _band(start: tuple[float, float], end: tuple[float, float], width: float) -> PathPatch:
+    """A band of constant height from one place to another."""
+    (x0, y0), (x1, y1), middle = start, end, 0.5 * (start[0] + end[0])
+    upper = [(x0, y0 + width), (middle, y0 + width), (middle, y1 + width), (x1, y1 + width)]
+    lower = [(x1, y1), (middle, y1), (middle, y0), (x0, y0)]
+    curve = [Path.MOVETO, Path.CURVE4, Path.CURVE4, Path.CURVE4]
+    back = [Path.LINETO, Path.CURVE4, Path.CURVE4, Path.CURVE4]
+    return PathPatch(Path([*upper, *lower], curve + back), lw=0)
+
+
+def draw_flows(axes: Axes, history: LifeHistory) -> None:
+    """Draw where the dirt came from and where it went; widths are masses.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    history : LifeHistory
+    """
+    from ..life_words import mass_of
+
+    ledger = history.ledger
+    came = {"in the oil before": float(ledger.in_oil[0])} | {
+        name: float(values[-1]) for name, values in ledger.came.items()
+    }
+    went = {name: float(values[-1]) for name, values in ledger.went.items()} | {
+        "in the oil now": float(ledger.in_oil[-1])
+    }
+    whole = max(sum(came.values()), sum(went.values()))
+    axes.set_axis_off()
+    axes.set(xlim=(0, 1), ylim=(-0.04, 1.04))
+    if whole <= 0:
+        axes.text(0.5, 0.5, "no dirt moves", ha="center", va="center")
+        return
+    high = 0.62
+    middle = 0.5 - 0.5 * high
+    axes.add_patch(
+        FancyBboxPatch(
+            (0.46, middle), 0.08, high, boxstyle="round,pad=0.0,rounding_size=0.01",
+            fc=OKABE_ITO["yellow"], ec="0.3", lw=0.8, zorder=3,
+        )
+    )  # fmt: skip
+    axes.text(0.5, middle + high + 0.02, "oil", ha="center", va="bottom")
+    colours = [OKABE_ITO[name] for name in ("sky", "vermilion", "orange", "purple", "black")]
+    others = [OKABE_ITO[name] for name in ("blue", "green", "purple", "orange", "sky", "black")]
+    for masses, left, palette in ((came, True, colours), (went, False, others)):
+        shown = {name: mass for name, mass in masses.items() if mass > 0}
+        widths = [high * mass / sum(shown.values()) for mass in shown.values()]
+        drawn = [max(width, THINNEST) for width in widths]
+        apart = (0.98 - sum(drawn)) / max(len(shown), 1)
+        outside, at_oil = 0.99 - 0.5 * apart, middle + high
+        for i, (name, mass) in enumerate(shown.items()):
+            at_oil -= widths[i]
+            outside -= drawn[i]
+            x0, x1 = (0.24, 0.46) if left else (0.54, 0.76)
+            ends = ((x0, outside), (x1, at_oil)) if left else ((x0, at_oil), (x1, outside))
+            band = _band(*ends, drawn[i])
+            band.set(facecolor=palette[i % len(palette)], alpha=0.7, zorder=2)
+            axes.add_patch(band)
+            x, side = (0.23, "right") if left else (0.77, "left")
+            label = f"{name}, {mass_of(mass)}"
+            axes.text(x, outside + 0.5 * drawn[i], label, ha=side, va="center", fontsize=9)
+            outside -= apart
+
+
+def flows(history: LifeHistory) -> Figure:
+    """Where the dirt came from and where it went over a history; widths are masses.
+
+    Parameters
+    ----------
+    history : LifeHistory
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> quartz = tb.materials["quartz"]
+    >>> oil = tb.OilCircuit(
+    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> len(flows(tb.life(oil=oil, duration=1800.0)).axes)
+    1
+    """
+    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
+    draw_flows(figure.subplots(), history)
+    return figure
+
+
+def life(history: LifeHistory) -> Figure:
+    """Counts, codes and masses over time, and the flows of dirt.
+
+    Parameters
+    ----------
+    history : LifeHistory
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> quartz = tb.materials["quartz"]
+    >>> oil = tb.OilCircuit(
+    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> len(life(tb.life(oil=oil, duration=1800.0)).axes)
+    3
+    """
+    figure = Figure(figsize=(6.4, 9.6), layout="constrained")
+    above, below, last = figure.subplots(3, 1, height_ratios=(1, 1, 1))
+    draw_history(above, history)
+    draw_masses(below, history)
+    draw_flows(last, history)
+    above.set_xlabel("")
+    return figure

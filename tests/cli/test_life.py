@@ -1,0 +1,280 @@
+"""``thirdbody life``: an oil over time from the shell, and what reports of it say."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli
+from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
+from thirdbody.systems.life.sizing import least_flow
+
+HOUR = 3600.0
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def said(done):
+    assert done.exit_code == 0, done.stderr
+    return " ".join(done.stdout.split())
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    assert run("new", "oil-circuit").exit_code == 0
+    return tmp_path
+
+
+def setting(*keys):
+    return [word for key in keys for word in ("--set", key)]
+
+
+# ------------------------------------------------------------------------------ the history
+def test_codes_flows_and_events_are_told():
+    told = said(run("life", "oil-circuit.toml"))
+    history = run_life(load_life("oil-circuit.toml")).history
+    assert f"The oil goes from {history.codes[0]} to {history.codes[-1]} in 2000 h" in told
+    assert f"it comes to {history.steady()[0].code}" in told
+    assert "return filter is full with 50 g, and is changed" in told
+    assert "After 1500 h: the oil is changed" in told
+    assert "oil through the filters once 3.33 min" in told
+    assert "What nobody can predict: the ingress" in told
+    assert told.index("The oil goes") < told.index("time ISO 4406") < told.index("Time scales")
+
+
+def test_every_line_fits_80_columns():
+    assert max(map(len, run("life", "oil-circuit.toml").stdout.splitlines())) <= 80
+
+
+def test_json_and_csv_hold_the_same_numbers():
+    done = run("life", "oil-circuit.toml", "--json", "--csv", "rows.csv")
+    data = json.loads(done.stdout)
+    with Path("rows.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["time [s]"]) for row in rows] == data["times"]
+    assert [row["code"] for row in rows] == data["codes"]
+    counts = np.array(data["counts"])
+    assert [float(row["n_4 [1/m^3]"]) for row in rows] == counts[:, 0].tolist()
+    assert {"title", "version", "inputs", "ledger", "flows", "steady", "warnings"} <= data.keys()
+    assert data["ledger"]["residual"] < 1e-9
+    assert data["R0"] == 0
+
+
+def test_the_flow_table_balances():
+    data = json.loads(run("life", "oil-circuit.toml", "--json").stdout)
+    came = sum(row["kg"] for row in data["flows"] if row["to"] == "oil")
+    went = sum(row["kg"] for row in data["flows"] if row["from"] == "oil")
+    stored = data["ledger"]["in the oil"][-1] - data["ledger"]["in the oil"][0]
+    assert came - went == pytest.approx(stored, abs=1e-9 * came)
+
+
+def test_the_table_alone_is_enough():
+    """An oil needs no surfaces."""
+    text = Path("oil-circuit.toml").read_text("utf-8").split("# The contact that")[0]
+    Path("short.toml").write_text(text, "utf-8")
+    assert run("life", "short.toml").stdout == run("life", "oil-circuit.toml").stdout
+    done = run("solve", "short.toml")
+    assert done.exit_code == 2
+    assert "surfaces is missing" in done.stderr
+
+
+def test_what_is_waited_for_ends_it():
+    told = said(run("life", "oil-circuit.toml", *setting('life.until.iso4406="16/14/11"')))
+    asked = load_life("oil-circuit.toml", ['life.until.iso4406="16/14/11"'])
+    history = run_life(asked).history
+    assert history.times[-1] < HOUR
+    assert "16" in history.codes[-1]
+    assert (
+        f"the oil reaches 16/14/11: the oil has gone from 20/18/15 to {history.codes[-1]}" in told
+    )
+    full = said(run("life", "oil-circuit.toml", *setting("life.until.filter_full=true")))
+    assert "return filter is full with 50 g, and is changed: the oil has gone" in full
+
+
+def test_a_count_that_grows_for_ever_is_told():
+    beta = 'life.filters.0.beta={ "6 um" = 75 }'
+    Path("one.toml").write_text(
+        Path("oil-circuit.toml").read_text("utf-8")
+        .replace('beta = { "2 um" = 2, "4 um" = 5, "7 um" = 75, "14 um" = 1000 }', 'beta = { "6 um" = 75 }')
+        .replace('settling_area = "0.5 m^2"', "")
+    )  # fmt: skip
+    told = said(run("life", "one.toml"))
+    assert "The count from 4 µm on grows for ever" in told, beta
+
+
+def test_the_figure_is_drawn_and_files_of_others_stay():
+    assert run("life", "oil-circuit.toml", "--figure", "oil.png").exit_code == 0
+    assert Path("oil.png").read_bytes()[:4] == b"\x89PNG"
+    Path("mine.csv").write_text("mine")
+    done = run("life", "oil-circuit.toml", "--csv", "mine.csv")
+    assert (done.exit_code, Path("mine.csv").read_text()) == (2, "mine")
+
+
+def test_the_same_study_gives_the_same_bytes():
+    first, second = (run("life", "oil-circuit.toml", "--json").stdout for _ in "ab")
+    assert first == second
+
+
+# ------------------------------------------------------------------------------ reports
+CODES = "time [h],ISO 4406\n0,20/18/15\n250,16/13/10\n500,16/14/10\n750,16/13/10\n"
+
+
+def test_reports_say_what_enters():
+    Path("oil.csv").write_text(CODES)
+    told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    found = reports_of(load_circuit("oil-circuit.toml"), "oil.csv").reports
+    assert f"{3600e6 * found.mass_rate:.3g} mg/h of dirt from 4 µm on entered the oil" in told
+    assert "A constant ingress fits them (χ² = " in told
+    assert "4 µm" in told.split("lowest")[1]
+    data = json.loads(run("life", "oil-circuit.toml", "--reports", "oil.csv", "--json").stdout)
+    assert data["rate"] == found.rate.tolist()
+    assert data["is_constant"] is True
+
+
+def test_two_reports_cannot_say_whether_it_is_constant():
+    Path("oil.csv").write_text("".join(CODES.splitlines(keepends=True)[:3]))
+    told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    assert "Two reports fit any ingress" in told
+
+
+def test_a_study_takes_its_ingress_from_reports():
+    Path("oil.csv").write_text(CODES)
+    text = Path("oil-circuit.toml").read_text("utf-8")
+    old = 'ingress  = { test_dust = "A3-lot", rate = "125 mg/h" }'
+    assert old in text
+    Path("from.toml").write_text(text.replace(old, 'ingress = { reports = "oil.csv" }'), "utf-8")
+    done = run("life", "from.toml")
+    assert "it comes to 16/1" in said(done)
+    assert "from its reports" in done.stderr
+
+
+# ------------------------------------------------------------------------------ mistakes
+MISTAKES = [
+    (['life.filters.0.flow="60 L"'], "a volume, but a volume per time"),
+    (['life.filters.0.beta={ "4 um" = 0.5 }'], "must be >= 1"),
+    (['life.filters.0.beta={ "4 um" = 75, "10 um" = 5 }'], "beta must not fall"),
+    (["life.filters.0.beta={}"], "must be a table of sizes"),
+    (['life.filters.0.capacity="50 um"'], "a length, but a mass"),
+    (['life.oil.start="13/16/18"'], "impossible"),
+    (['life.oil.material="unobtainium"'], "is not a material"),
+    (['life.oil.material="SiO2"'], "density is missing"),
+    (['life.oil.ingress={ test_dust = "A9", rate = "1 mg/h" }'], "must be one of"),
+    (['life.oil.ingress={ test_dust = "A3" }'], "needs rate beside test_dust"),
+    (['life.oil.ingress={ rate = "1 mg/h" }'], "says not how many particles"),
+    (['life.oil.ingress={ iso4406 = "18/16/13", test_dust = "A3" }'], "keep one of them"),
+    (['life.oil.ingress={ counts = { "4 um" = "1e3 / s", "6 um" = "1e4 / s" } }'], "must fall"),
+    (['life.oil.ingress="125 mg/h"'], "must be a table"),
+    (['life.oil.ingress={ reports = "none.csv" }'], "there is no such file"),
+    (['life.oil.leak="1 L/min"'], "the leak has emptied the circuit"),
+    (['life.oil.viscosity="30 mm"'], "is a length"),
+    (['life.until.iso4406="18"'], "must be three numbers"),
+    (['life.duration="-1 h"'], "must be > 0"),
+    (['life.durations="1 h"'], "did you mean duration?"),
+]
+
+
+@pytest.mark.parametrize(("keys", "words"), MISTAKES)
+def test_mistakes_get_one_sentence_and_nothing_is_written(keys, words):
+    before = sorted(Path().iterdir())
+    done = run(
+        "life", "oil-circuit.toml", *setting(*keys), "--csv", "rows.csv", "--figure", "a.png"
+    )
+    assert done.exit_code == 2, done.stdout
+    assert words in " ".join(done.stderr.split())
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+    assert sorted(Path().iterdir()) == before
+
+
+def test_what_nobody_can_predict_has_no_default():
+    text = Path("oil-circuit.toml").read_text("utf-8")
+    for key in ("ingress  =", "start    =", "volume   =", "material ="):
+        line = next(each for each in text.splitlines() if each.startswith(key))
+        Path("less.toml").write_text(text.replace(line + "\n", ""), "utf-8")
+        done = run("life", "less.toml")
+        assert done.exit_code == 2
+        assert f"life.oil.{key.rstrip(' =')} is missing" in " ".join(done.stderr.split())
+    done = run("life", "less.toml", "--figure", "a.xyz")
+    assert done.exit_code == 2
+
+
+def test_fresh_oil_must_be_said():
+    text = Path("oil-circuit.toml").read_text("utf-8")
+    line = next(each for each in text.splitlines() if each.startswith("fresh_oil"))
+    Path("less.toml").write_text(text.replace(line + "\n", ""), "utf-8")
+    done = run("life", "less.toml")
+    assert done.exit_code == 2
+    assert "fresh_oil is missing: oil_changes brings fresh oil" in " ".join(done.stderr.split())
+
+
+def test_filters_beyond_their_data_sheets_are_warned_of():
+    """P above 1: the clipped part, and what lies below the first size."""
+    text = Path("oil-circuit.toml").read_text("utf-8").replace(
+        'beta = { "2 um" = 2, "4 um" = 5, "7 um" = 75, "14 um" = 1000 }',
+        'beta = { "5 um" = 2, "10 um" = 75 }',
+    )  # fmt: skip
+    Path("steep.toml").write_text(text, "utf-8")
+    done = run("life", "steep.toml")
+    told = " ".join(done.stderr.split())
+    assert "holds nothing up to 5.05 µm, where more would pass than comes" in told
+    assert "holds nothing below 5 µm" in told
+
+
+def test_a_study_is_loaded_with_its_oil():
+    study = tb.load_study("oil-circuit.toml")
+    assert study.life.circuit.volume == pytest.approx(0.2)
+    assert study.life.circuit.filters[0].beta(4e-6) == pytest.approx(5, rel=1e-12)
+
+
+# ------------------------------------------------------------------------------ bands, sizes
+def test_what_is_known_of_the_numbers_becomes_bands():
+    Path("known.toml").write_text(
+        Path("oil-circuit.toml").read_text("utf-8")
+        + """
+[life.until]
+iso4406 = "13/11/7"
+[life.uncertainty]
+ingress = { median = 1, gsd = 2 }
+"oil.volume" = { low = "180 L", high = "220 L" }
+""",
+        "utf-8",
+    )
+    asked = load_life("known.toml", ['life.duration="2 h"', "life.oil.oil_changes=[]"])
+    assert asked.uncertainty["volume"].first == pytest.approx(0.18)
+    bands = run_life(asked).bands
+    assert 0 < bands.reached["code 13/11/7"] < 1  # censored where much enters
+    assert np.isinf(bands.times["code 13/11/7"][-1])
+    assert bands.swings[0].name == "ingress"
+    keys = setting('life.duration="2 h"', "life.oil.oil_changes=[]")
+    told = said(run("life", "known.toml", *keys))
+    assert f"the oil is at {bands.codes[0]} to {bands.codes[-1]} after 2 h (90 %)" in told
+    assert "to more than 2 h; it comes in" in told
+    assert "Most uncertain: ingress" in told
+
+
+def test_the_flow_that_is_enough_for_a_code():
+    asked = load_life("oil-circuit.toml")
+    flow = least_flow(asked.circuit, code="16/14/11")
+    told = said(run("life", "oil-circuit.toml", "--flow-for", "16/14/11"))
+    assert f"A flow of {6e4 * flow:.3g} L/min through return filter is enough for 16/14/11" in told
+    for factor, reached in ((1.001, True), (0.999, False)):
+        circuit = asked.circuit.replace(**{"filters.0.flow": factor * flow})
+        numbers = [int(part) for part in circuit.steady_code().split("/")]
+        assert all(a <= b for a, b in zip(numbers, (16, 14, 11), strict=True)) is reached
+    none = said(run("life", "oil-circuit.toml", "--flow-for", "0/0/0"))
+    assert "16/14/11" not in none
+
+
+def test_the_book_shows_what_is_printed():
+    text = (Path(__file__).parents[2] / "docs" / "life.md").read_text("utf-8")
+    shown = text.split("```text\n")[1].split("```")[0]
+    printed = [line.rstrip() for line in run("life", "oil-circuit.toml").stdout.splitlines()]
+    assert shown.splitlines() == printed[2:]

@@ -1,0 +1,321 @@
+"""Contacts whose friction acts back: closed forms, brute force, time, and mistakes."""
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+from scipy import optimize
+from steel_and_dust import DUSTY, STEEL, TWO_BODY
+
+import thirdbody as tb
+from thirdbody import feedback
+from thirdbody.errors import InvalidValue, RangeWarning
+from thirdbody.systems.coupled import coupled
+
+TAU, COLD, MELT = 580e6, 293.0, 1793.0
+PATH = feedback.ThermalPath(h_1=5e3, h_2=5e3, T_1=COLD, T_2=COLD)
+RUBBING = TWO_BODY.replace(outputs=tb.outputs.Friction(tau_ss=TAU))
+DUSTY_RUBBING = DUSTY.replace(outputs=tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6))
+
+
+def softening(exponent=1.0, **changes):
+    return feedback.Softening(**dict(T_melt=MELT, T_0=COLD, exponent=exponent) | changes)
+
+
+def asked(contact=RUBBING, *, pressure=5e6, sliding_speed=2.0, laws=None, **options):
+    """`coupled`, of which the warnings are looked at elsewhere."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        return coupled(
+            contact,
+            **dict(pressure=pressure, sliding_speed=sliding_speed, cooling=PATH) | options,
+            feedback=[softening()] if laws is None else laws,
+        )
+
+
+def friction_at(contact, T, *, pressure=5e6, exponent=1.0):
+    """μ of a contact whose surfaces are at T, without `coupled`."""
+    share = 1 - ((T - COLD) / (MELT - COLD)) ** exponent
+    first, second = contact.surfaces.first, contact.surfaces.second
+    pair = tb.MaterialPair(first.replace(H=first.H * share), second.replace(H=second.H * share))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        return tb.solve(contact.replace(surfaces=pair), pressure=pressure).outputs["mu"]
+
+
+# ------------------------------------------------------------------ closed forms
+@pytest.fixture(scope="module")
+def plastic():
+    """All but stiff surfaces: every asperity is plastic, and μ = τ/H."""
+    stiff = STEEL.replace(E=1e20)
+    return RUBBING.replace(surfaces=tb.MaterialPair(stiff, stiff))
+
+
+@pytest.mark.parametrize("exponent", [0.7, 1.0, 2.0])
+def test_fold_of_plastic_surfaces(plastic, exponent):
+    """v ∝ θ(1 − θ^m) has its maximum at θ = (1 + m)^(−1/m)."""
+    theta = (1 + exponent) ** (-1 / exponent)
+    heat = (MELT - COLD) * theta * (1 - theta**exponent) * 1e4 * STEEL.H / TAU
+    found = asked(plastic, laws=[softening(exponent)])
+    assert found.seizure_speed == pytest.approx(heat / 5e6, rel=1e-8)
+    assert found.seizure_load == pytest.approx(heat / 2.0, rel=1e-8)
+    assert "heats without a stop" in found.speed_limit
+
+
+def test_both_states_of_plastic_surfaces(plastic):
+    """With m = 1 the temperatures are the roots of a quadratic, and the gain is θ/(1 − θ)."""
+    found = asked(plastic, sliding_speed=3.0, limits="speed")
+    q = 3.0 * 5e6 * TAU / STEEL.H / 1e4 / (MELT - COLD)
+    low, high = sorted(np.roots([1, -1, q]).real)
+    rises = [(each.T - COLD) / (MELT - COLD) for each in found.states]
+    np.testing.assert_allclose(rises, [low, high], rtol=1e-9)
+    gains = [each.loop_gain for each in found.states]
+    np.testing.assert_allclose(gains, [low / (1 - low), high / (1 - high)], rtol=1e-5)
+    assert [each.stable for each in found.states] == [True, False]
+    assert found.load_limit == "not asked for"
+
+
+def test_strength_that_follows_the_hardness_has_no_fold(plastic):
+    """With τ = m k(H) friction stays, the temperature rises with the speed, and nothing ends."""
+    follows = plastic.replace(outputs=tb.outputs.Friction(m_ss=0.5))
+    found = asked(follows, limits="speed")
+    assert math.isnan(found.seizure_speed)
+    # half of the area touches at H = 2 p, 1790 K
+    assert found.speed_limit.startswith("not known: beyond")
+    assert found.branch["T"][-1] == pytest.approx(1790.0, abs=0.5)
+    (only,) = found.states
+    mu = 0.5 / (3 * math.sqrt(3))
+    assert only.T == pytest.approx(COLD + mu * 5e6 * 2.0 / 1e4, rel=1e-9)
+    assert only.loop_gain == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(("alpha", "growth"), [(9.0, 0.0), (25.0, 0.0), (3.0, 0.05)])
+def test_junctions_obey_their_yield_criterion(alpha, growth):
+    law = feedback.JunctionGrowth(alpha=alpha)
+    p = law.hardness(5e9, tau=TAU, growth=growth)
+    assert p**2 + alpha * (TAU + growth * p) ** 2 == pytest.approx(25e18, rel=1e-14)
+
+
+def test_junction_growth_alone(plastic):
+    """Friction of plastic surfaces is τ/√(H² − ατ²), at any speed."""
+    found = asked(plastic, laws=[feedback.JunctionGrowth(alpha=9)], cooling=None)
+    (only,) = found.states
+    H = math.sqrt(STEEL.H**2 - 9 * TAU**2)
+    assert only.H_1 == pytest.approx(H, rel=1e-14)
+    assert only.mu == pytest.approx(TAU / H, rel=1e-6)
+    assert math.isnan(only.T)
+    assert only.stable
+    assert found.speed_limit.startswith("none")
+
+
+def test_junctions_make_softening_worse(plastic):
+    """v ∝ θ √((1 − θ)² − a²), a² = ατ²/H_0²: its maximum by another search."""
+    a = 3 * TAU / STEEL.H
+    best = optimize.minimize_scalar(
+        lambda x: -x * math.sqrt(max((1 - x) ** 2 - a * a, 0.0)), bounds=(0, 1 - a),
+        method="bounded", options={"xatol": 1e-12},
+    )  # fmt: skip
+    laws = [softening(), feedback.JunctionGrowth(alpha=9)]
+    found = asked(plastic, laws=laws, limits="speed")
+    speed = -best.fun * (MELT - COLD) * 1e4 * STEEL.H / TAU / 5e6
+    assert found.seizure_speed == pytest.approx(speed, rel=1e-8)
+
+
+# ------------------------------------------------------------------ by other ways
+@pytest.mark.parametrize(
+    "contact",
+    [RUBBING, pytest.param(DUSTY_RUBBING, marks=pytest.mark.slow)],
+    ids=["clean", "dusty"],
+)
+def test_states_by_brute_force(contact):
+    """Every change of sign of T_out − T over 60 temperatures, and no other state."""
+    v = 3.0
+
+    def miss(T):
+        return COLD + friction_at(contact, T) * 5e6 * v / 1e4 - T
+
+    grid = np.linspace(COLD + 1.0, COLD + 0.97 * (MELT - COLD), 60)
+    values = [miss(T) for T in grid]
+    exact = [
+        optimize.brentq(miss, grid[i], grid[i + 1], xtol=1e-9)
+        for i in range(len(grid) - 1)
+        if values[i] * values[i + 1] < 0
+    ]
+    found = asked(contact, sliding_speed=v, limits="speed")
+    np.testing.assert_allclose([each.T for each in found.states], exact, rtol=1e-9)
+
+
+def test_time_tells_the_stable_state_from_the_other():
+    """dT/dt = T_out − T runs back to the first state, and away from the second."""
+    found = asked(sliding_speed=3.0, limits="speed")
+    cold, hot = (each.T for each in found.states)
+
+    def after(T):
+        for _ in range(40):
+            T += 0.5 * (COLD + friction_at(RUBBING, T) * 5e6 * 3.0 / 1e4 - T)
+            if T > COLD + 0.98 * (MELT - COLD):
+                return math.inf
+        return T
+
+    assert after(cold + 30.0) == pytest.approx(cold, abs=0.01)
+    assert after(hot - 5.0) == pytest.approx(cold, abs=0.5)
+    assert after(hot + 5.0) == math.inf
+
+
+def test_loop_gain_is_one_at_the_fold():
+    end = asked(limits="speed").seizure_speed
+    near = asked(sliding_speed=end * (1 - 1e-6), limits="speed")
+    assert [each.loop_gain for each in near.states] == pytest.approx([1, 1], abs=5e-3)
+    assert asked(sliding_speed=end * (1 + 1e-6), limits="speed").states == ()
+
+
+@pytest.mark.slow
+def test_flash_adds_the_mean_rise_of_the_spots():
+    bodies = STEEL.replace(thermal_conductivity=50, density=7850, specific_heat=480)
+    hot = DUSTY_RUBBING.replace(
+        surfaces=tb.MaterialPair(bodies, bodies),
+        particles=DUSTY.populations[0].replace(
+            material=tb.materials["SiO2"].replace(thermal_conductivity=1.4)
+        ),
+    )
+    laws = [softening(), softening(body="particles", T_melt=1900.0)]
+    found = asked(hot, sliding_speed=1.0, laws=laws, flash=True, limits="speed")
+    only = found.states[0]
+    share = (only.T_particles - COLD) / (1900.0 - COLD)
+    softer = bodies.replace(H=bodies.H * (MELT - only.T) / (MELT - COLD))
+    dust = hot.populations[0]
+    state = tb.solve(
+        hot.replace(
+            surfaces=tb.MaterialPair(softer, softer),
+            particles=dust.replace(material=dust.material.replace(H=dust.material.H * (1 - share))),
+            outputs=(*hot.outputs, tb.outputs.FlashTemperature(v=1.0, A_n=1e-6)),
+        ),
+        pressure=5e6,
+    )
+    bulk = COLD + state.outputs["mu"] * 5e6 / 1e4
+    on = state.particle_load_share
+    rise = (1 - on) * state.outputs["dT_ss_load"] + on * state.outputs["dT_sa_load"]
+    assert only.T_bulk == pytest.approx(bulk, abs=1e-6)
+    assert only.T == pytest.approx(bulk + rise, abs=1e-6)
+    assert only.T_particles == pytest.approx(bulk + state.outputs["dT_sa_load"], abs=1e-6)
+
+
+def test_oil_that_thins():
+    """The film at the temperature that its own friction makes."""
+    oil = tb.films.Oil(eta=0.05, alpha=2e-8, eyring_stress=5e6)
+    run = tb.systems.film_conditions.FilmConditions(
+        conjunction=tb.films.Point(R=9.5e-3), oil=oil, load=20.0, speed=(0.5,), slide_roll=0.5
+    )
+    cooling = feedback.ThermalPath(h_1=1e6, h_2=1e6, T_1=40.0, T_2=40.0)
+    thin = feedback.Thinning.between(0.05, T_1=40.0, eta_2=0.0068, T_2=100.0)
+    found = asked(
+        RUBBING, pressure=None, sliding_speed=None, film=run, laws=[thin], cooling=cooling,
+        limits="speed",
+    )  # fmt: skip
+    (only,) = found.states
+    warm = oil.replace(eta=0.05 * math.exp(-math.log(0.05 / 0.0068) / 60 * (only.T - 40.0)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        film = tb.mixed_film(
+            RUBBING, conjunction=run.conjunction, oil=warm, load=20.0, speed=0.5, slide_roll=0.5
+        )
+    heat = film.mu * run.nominal_pressure(RUBBING) * 0.25
+    assert only.T == pytest.approx(40.0 + heat / 2e6, abs=1e-7)
+    assert only.T > 41.0
+
+
+def test_half_spaces_are_those_of_the_moving_source():
+    from thirdbody.effects.single.heat import body_conductance
+
+    bodies = STEEL.replace(thermal_conductivity=50, density=7850, specific_heat=480)
+    hot = RUBBING.replace(surfaces=tb.MaterialPair(bodies, bodies))
+    cooling = feedback.HalfSpaces(A_n=1e-6, T_1=300.0, T_2=290.0)
+    (only, *_) = asked(hot, cooling=cooling, limits="speed").states
+    b, D = math.sqrt(1e-6 / math.pi), 50 / (7850 * 480)
+    G = [body_conductance(b, k=50.0, D=D, v=v) for v in (0.0, 2.0)]
+    T = (only.mu * 5e6 * 2.0 * 1e-6 + G[0] * 300 + G[1] * 290) / sum(G)
+    assert pytest.approx(T, abs=1e-7) == only.T
+
+
+# ------------------------------------------------------------------ symmetry and mistakes
+def test_celsius_and_kelvin_give_the_same():
+    one = asked(limits="speed")
+    law = feedback.Softening(T_melt=MELT - 273.15, T_0=COLD - 273.15, exponent=1.0)
+    path = PATH.replace(T_1=COLD - 273.15, T_2=COLD - 273.15)
+    other = asked(laws=[law], cooling=path, limits="speed")
+    assert other.seizure_speed == pytest.approx(one.seizure_speed, rel=1e-9)
+    assert [each.T + 273.15 for each in other.states] == pytest.approx([s.T for s in one.states])
+
+
+def test_a_guess_is_said():
+    with pytest.warns(RangeWarning, match="alpha = 9 is a guess"):
+        coupled(RUBBING, pressure=5e6, sliding_speed=1.0, feedback=[feedback.JunctionGrowth()])
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"pressure": None}, "pressure is missing"),
+        ({"sliding_speed": -1.0}, "sliding_speed = -1 must be a number > 0"),
+        ({"contact": TWO_BODY}, "needs outputs.Friction"),
+        ({"laws": []}, "feedback is empty"),
+        ({"cooling": None}, "cooling is missing"),
+        ({"cooling": feedback.HalfSpaces(A_n=1e-6, T_1=1.0, T_2=1.0)}, "thermal_conductivity"),
+        ({"laws": [softening(body="particles")]}, "the contact has none"),
+        ({"laws": [feedback.Thinning(beta=0.03, T_0=40.0)]}, "there is no film"),
+        ({"laws": [softening(T_melt=250.0, T_0=0.0)]}, "both in K, or both in °C"),
+        ({"laws": [feedback.JunctionGrowth(alpha=90)]}, "grow without end"),
+        (
+            {
+                "contact": TWO_BODY.replace(outputs=tb.outputs.Friction(tau_ss=TAU, alpha_T=9.0)),
+                "laws": [feedback.JunctionGrowth(alpha=9)],
+            },
+            "leave alpha_T out",
+        ),
+    ],
+)
+def test_mistakes_are_named(options, words):
+    with pytest.raises(InvalidValue, match=words):
+        asked(**options)
+
+
+def test_melting_below_the_reference_is_refused():
+    with pytest.raises(InvalidValue, match="T_melt = 200 must be above T_0"):
+        softening(T_melt=200.0)
+
+
+# ------------------------------------------------------------------ the page
+@pytest.mark.slow
+@pytest.mark.parametrize("density", [1e9, 1e10, 1e11])
+def test_particles_of_the_page(density):
+    """The table of docs/feedback.md, to its printed digits."""
+    mu, speed = {1e9: (0.18, 6.1), 1e10: (0.28, 5.4), 1e11: (0.16, 9.3)}[density]
+    dust = tb.Particles(
+        material=tb.materials["Al2O3"], areal_density=density,
+        diameter=tb.TruncatedGaussian(mean=500e-9, std=50e-9),
+    )  # fmt: skip
+    outputs = tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6)
+    contact = TWO_BODY.replace(particles=dust, outputs=outputs)
+    found = asked(contact, sliding_speed=1.0, laws=[softening(1.03)], limits="speed")
+    assert round(found.states[0].mu, 2) == mu
+    assert round(found.seizure_speed, 1) == speed
+
+
+def test_constants_of_the_page():
+    rows = [
+        ({"exponent": 0.7}, {}, 4.9),
+        ({"exponent": 1.5}, {}, 7.8),
+        ({"exponent": 1.03, "T_melt": 1400.0}, {}, 4.6),
+        ({"exponent": 1.03}, {"tau": 300e6}, 12),
+        ({"exponent": 1.03}, {"tau": 800e6}, 4.6),
+        ({"exponent": 1.03}, {"alpha": 3.0}, 5.8),
+        ({"exponent": 1.03}, {"alpha": 25.0}, 3.1),
+    ]
+    for law, more, speed in rows:
+        laws = [softening(**law)]
+        if "alpha" in more:
+            laws.append(feedback.JunctionGrowth(alpha=more["alpha"]))
+        outputs = tb.outputs.Friction(tau_ss=more.get("tau", TAU))
+        found = asked(TWO_BODY.replace(outputs=outputs), laws=laws, limits="speed")
+        assert float(f"{found.seizure_speed:.2g}") == speed, (law, more)

@@ -1,0 +1,194 @@
+"""Ingress from oil reports: the inverse of the course of the oil."""
+
+import math
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.systems.life.reports import approach_of_reports, oil_reports, read_reports
+
+QUARTZ = tb.materials["quartz"]
+HOUR = 3600.0
+SIZES, RATES = (4e-6, 6e-6, 14e-6), np.array([2e5, 6e4, 4e3])
+START = tb.OilDirt.from_iso4406("21/19/16", material=QUARTZ)
+FILTER = tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=2e-5)
+FINE = tb.SizeClasses.covering(4e-6, 90e-6, per_octave=48)
+
+
+def circuit(**changes):
+    """200 L that its filter turns over in three hours."""
+    dust = tb.Ingress.from_counts(sizes=SIZES, counts=RATES, material=QUARTZ)
+    given = dict(volume=0.2, start=START, ingress=dust, filters=FILTER, classes=FINE)
+    return tb.OilCircuit(**given | changes)
+
+
+def reported(times, **changes):
+    """Exact counts at the times."""
+    history = tb.life(oil=circuit(**changes), duration=max(times), times=times)
+    return history.counts[np.isin(history.times, times)]
+
+
+# ------------------------------------------------------------------------------ closed forms
+def test_three_reports_give_rate_and_end():
+    """Reference 12."""
+    found = approach_of_reports([10000, 22092.95, 30529.91], step=HOUR)
+    assert f"{found.rate:.4g}" == "0.0001"
+    assert found.limit == pytest.approx(50000, rel=1e-5)
+    n = 5e4 - 4e4 * np.exp(-1e-4 * HOUR * np.arange(3))
+    exact = approach_of_reports(list(n), step=HOUR)
+    assert (exact.rate, exact.limit) == pytest.approx((1e-4, 5e4), rel=1e-10)
+    with pytest.raises(tb.InvalidValue, match="come to no end"):
+        approach_of_reports([1.0, 2.0, 3.5], step=HOUR)
+
+
+def test_one_size_without_filter_is_a_difference():
+    """r = V Δn/Δt, whatever lies beyond the size."""
+    bare = circuit(filters=(), classes=None)
+    found = oil_reports([0.0, 1e6], [[1e9], [3e9]], sizes=[6e-6], circuit=bare)
+    assert found.rate[0] == pytest.approx(0.2 * 2e9 / 1e6, rel=1e-9)
+    assert found.degrees == 0
+    assert found.is_constant is None
+    assert math.isnan(found.probability)
+
+
+# ------------------------------------------------------------------------------ inverse pairs
+CASES = [
+    dict(),
+    dict(filters=()),
+    dict(make_up=2e-7, leak=1e-7, fresh_oil=tb.OilDirt.from_iso4406("17/15/12", material=QUARTZ)),
+    dict(fresh_oil=tb.OilDirt.from_iso4406("17/15/12", material=QUARTZ), oil_changes=(5 * HOUR,)),
+    dict(settling_area=2.0, viscosity=0.02, density=870.0),
+]
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("hours", [[0, 3], [0, 3, 8], [0, 1, 4, 9, 30]])
+def test_exact_reports_give_the_ingress_back(case, hours):
+    times = np.array(hours) * HOUR
+    found = oil_reports(times, reported(times, **case), circuit=circuit(**case))
+    np.testing.assert_allclose(found.rate, RATES, rtol=0.03)
+    np.testing.assert_allclose(found.fitted, found.counts, rtol=0.02)
+    assert found.start.number == pytest.approx(START.number, rel=0.02)
+    assert found.is_constant in (True, None)
+    again = reported(times, **case | dict(ingress=found.ingress, start=found.start))
+    np.testing.assert_allclose(again, found.counts, rtol=0.02)
+
+
+def test_mass_is_that_of_the_ingress():
+    times = np.array([0, 3, 8]) * HOUR
+    found = oil_reports(times, reported(times), circuit=circuit())
+    assert found.mass_rate == pytest.approx(found.ingress.mass_rate, rel=0.05)
+    assert found.mass_low < found.mass_rate < found.mass_high
+
+
+# ------------------------------------------------------------------------------ bands
+def coded(counts):
+    """The codes of counts, as a laboratory tells them."""
+    return [tb.dust.iso4406_of_counts(each) for each in counts]
+
+
+def test_the_band_of_codes_holds_what_is_true():
+    """Volumes at random move every count somewhere else in its range."""
+    inside, widths = [], []
+    rng = np.random.default_rng(7)
+    times = np.array([0, 24, 48, 72]) * HOUR
+    exact = reported(times)
+    for _ in range(40):
+        factor = math.exp(rng.uniform(-1, 1))
+        found = oil_reports(times, coded(exact * factor), circuit=circuit())
+        inside += list((found.low < RATES * factor) & (found.high > RATES * factor))
+        widths.append(found.high / found.low)
+    assert 0.8 < np.mean(inside) < 0.99
+    assert 1.6 < np.median(widths) < 2.1
+
+
+def test_more_reports_make_the_band_narrower_where_they_differ():
+    def width(count):
+        times = np.linspace(0, 10, count) * HOUR
+        bare = dict(filters=(), start=tb.OilDirt.from_iso4406("21/19/16", material=QUARTZ))
+        found = oil_reports(times, reported(times, **bare), circuit=circuit(**bare))
+        return np.log(found.high / found.low)[0]
+
+    two, nine = width(2), width(9)
+    assert two > 1.1 * nine
+    assert nine > 0.8 * math.log(2)  # all may be off alike
+
+
+def test_ingress_that_doubles_does_not_fit_a_constant_one():
+    times = np.array([0, 24, 48, 72, 96]) * HOUR
+    counts = reported(times)
+    counts[3:] *= 8
+    found = oil_reports(times, coded(counts), circuit=circuit())
+    assert found.is_constant is False
+    assert found.degrees == 9
+    steady = oil_reports(times, coded(reported(times)), circuit=circuit())
+    assert steady.is_constant is True
+
+
+def test_a_clean_start_and_no_dirt_that_enters():
+    times = np.array([0, 4]) * HOUR
+    counts = reported(times, ingress=())
+    found = oil_reports(times, counts, circuit=circuit())
+    assert np.all(found.rate < 0.02 * RATES)
+
+
+def test_codes_without_the_first_count():
+    found = oil_reports([0.0, 9e5], ["-/18/15", "-/16/13"], circuit=circuit(classes=None))
+    assert found.sizes.tolist() == [6e-6, 14e-6]
+
+
+def test_the_same_reports_give_the_same_band():
+    one, two = (oil_reports([0.0, 9e5], ["20/18/15", "18/16/13"], circuit=circuit()) for _ in "ab")
+    assert one.to_dict() == two.to_dict()
+
+
+# ------------------------------------------------------------------------------ mistakes
+@pytest.mark.parametrize(
+    ("times", "reports", "more", "words"),
+    [
+        ([0.0], ["20/18/15"], {}, "two reports or more"),
+        ([1.0, 0.0], ["20/18/15"] * 2, {}, "increase"),
+        ([0.0, 1.0], ["20/18/15"] * 3, {}, "one for each of 2"),
+        ([0.0, 1.0], ["20/18"] * 2, {}, "two numbers"),
+        ([0.0, 1.0], [[1.0, 2.0]] * 2, {}, "3 counts each"),
+        ([0.0, 1.0], [[1.0, -2.0, 3.0]] * 2, {}, "above 0"),
+        ([0.0, 1.0], ["20/18/15"] * 2, {"width": 1.0}, "width"),
+    ],
+)
+def test_mistakes(times, reports, more, words):
+    with pytest.raises(tb.InvalidValue, match=words):
+        oil_reports(times, reports, circuit=circuit(), **more)
+
+
+def test_files_of_codes_and_of_counts(tmp_path):
+    file = tmp_path / "oil.csv"
+    file.write_text("# of the laboratory\ntime [d];ISO 4406\n0;20/18/15\n10,5;18/16/13\n")
+    times, codes, sizes = read_reports(file)
+    assert times.tolist() == [0.0, 10.5 * 24 * HOUR]
+    assert (codes, sizes) == (["20/18/15", "18/16/13"], None)
+    file.write_text("time [h],>4 um(c) [1/mL],6 um [1/mL]\n0,5000,1000\n")
+    times, counts, sizes = read_reports(file)
+    assert sizes.tolist() == [4e-6, 6e-6]
+    np.testing.assert_allclose(counts, [[5e9, 1e9]], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "is empty"),
+        ("time [h]\n0\n", "one of codes"),
+        ("time,code\n0,18/16/13\n", "has no unit"),
+        ("time [h],code\n", "no reports below"),
+        ("time [h],code\n0,18/16/13,4\n", "line 2: 3 values"),
+        ("time [h],code\n0,13/16/18\n", "line 2: .*impossible"),
+        ("time [um],code\n0,18/16/13\n", "line 2: .*is a length"),
+        ("time [h],a [1/mL],b [1/mL]\n0,1,2\n", "must be a size"),
+        ("time [h],code\nx,18/16/13\n", "line 2"),
+    ],
+)
+def test_files_with_mistakes(tmp_path, text, words):
+    file = tmp_path / "oil.csv"
+    file.write_text(text)
+    with pytest.raises(tb.InvalidValue, match=words):
+        read_reports(file)
