@@ -263,7 +263,9 @@ class SurvivalCurve:
 
     def __init__(self, curve: ParticleCurve, strength: WeibullStrength, tops: Array):
         self.average, self.lowest = curve.average, curve.lowest
-        self.breakages = [Breakage.of_material(strength, curve.material, float(top)) for top in tops]
+        self.breakages = [
+            Breakage.of_material(strength, curve.material, float(top)) for top in tops
+        ]
         self.tension = self.breakages[0].tension(curve.one)
         low = self.average.sizes.support[0]
         kinks = [float(eps) for eps in self.tension.kinks]
