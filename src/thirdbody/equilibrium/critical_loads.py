@@ -141,8 +141,8 @@ class Shares:
             self.top, self.bottom = ends
             return
         twice = {name: np.repeat(values, 2) for name, values in vary.items()}
-        ends = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
-        first, last = ({n: ends[n][i::2] for n in ("d", "h")} for i in range(2))
+        states = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
+        first, last = ({n: states[n][i::2] for n in ("d", "h")} for i in range(2))
         own = {name: values for name, values in vary.items() if name.startswith("roughness.")}
         rough = contact.with_arrays(own).roughness if own else contact.roughness
         # a load that no contact carries is replaced by the deepest one that the model knows
@@ -228,7 +228,7 @@ def _spline_loads(
     if not (like.enough and np.all(np.isfinite(ends))):
         return None
     top, bottom = expected_ends(like, ends)
-    deepest = like.of(known.deepest)
+    deepest = like.extend_to_all(known.deepest)
     shares = Shares(contact, vary, count, np.stack([top, np.maximum(bottom, deepest)]))
 
     def states(x: Array, which: NDArray[np.intp]) -> Array:
@@ -240,7 +240,7 @@ def _spline_loads(
 
     x = np.linspace(0.0, 1.0, SPLINE_NODES)
     exact = at_nodes(x[::EXACT_EVERY], np.arange(count))
-    alike = np.moveaxis(like.of(np.moveaxis(at_nodes(x, probes), 0, 1)), 0, 1)
+    alike = np.moveaxis(like.extend_to_all(np.moveaxis(at_nodes(x, probes), 0, 1)), 0, 1)
     first, last = (np.logaddexp(*exact[1:, :, end]) for end in (0, -1))
     reach = (first < math.log(WINDOW[0])) & ((last > math.log(WINDOW[1])) | (bottom <= deepest))
     rows = np.flatnonzero(reach & np.all(np.isfinite(exact), axis=(0, 2)))

@@ -95,7 +95,7 @@ class Likeness:
             self.basis.append(column / left)
         return left > ALIKE * size
 
-    def of(self, values: Array) -> Array:
+    def extend_to_all(self, values: Array) -> Array:
         """Values (N, ...) of all contacts from those of the probes (M, ...)."""
         basis = np.stack(self.basis)
         powers = np.einsum("km,m...->k...", basis[:, self.probes], values)
@@ -108,7 +108,7 @@ def expected_ends(like: Likeness, ends: Array) -> Array:
     From those of the probes ``ends`` (2, M), as far beyond as they are missed: they say where
     nodes are laid, and the loads at these whether they reach far enough.
     """
-    out = like.of(ends.T).T
+    out = like.extend_to_all(ends.T).T
     miss = np.max(np.abs(out[:, like.probes] - ends), axis=1)
     beyond = BEYOND * miss + LEAST_BEYOND * np.mean(ends[0] - ends[1])
     return np.asarray(out + beyond[:, None] * [[1.0], [-1.0]])
@@ -165,9 +165,8 @@ class SplineLoads:
             return np.asarray((3 * a * u + 2 * b) * u + c)
         return np.asarray(((a * u + b) * u + c) * u + value)
 
-    def at(self, what: int, rows: Any, x: Array, slope: int = 0) -> Array:
-        """Of the area, the equality or the load, values or slopes of rows at x; the area's second
-        slopes."""
+    def values_at(self, what: int, rows: Any, x: Array, slope: int = 0) -> Array:
+        """Values or slopes of area, equality or load of rows at x; of the area second slopes."""
         if what == AREA:
             return self._terms(0, rows, x, slope)
         one, two = (self._terms(k, rows, x, slope) for k in (1, 2))
@@ -175,17 +174,17 @@ class SplineLoads:
             return one - two
         if not slope:
             return np.logaddexp(one, two)
-        part = expit(self.at(EQUAL, rows, x))
+        part = expit(self.values_at(EQUAL, rows, x))
         return part * one + (1 - part) * two
 
     def root(
         self, what: int, rows: Rows, level: float, low: Any, high: Any, slope: int = 0
     ) -> Array:
         """x between two at which rows pass a level."""
-        begin = self.at(what, rows, low, slope) >= level
+        begin = self.values_at(what, rows, low, slope) >= level
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            same = (self.at(what, rows, middle, slope) >= level) == begin
+            same = (self.values_at(what, rows, middle, slope) >= level) == begin
             low, high = np.where(same, middle, low), np.where(same, high, middle)
         return np.asarray(0.5 * (low + high))
 
@@ -194,7 +193,7 @@ class SplineLoads:
         """Fill in what is known: from splines alone, then from states at what they tell."""
         passages = []
         for name, what, level in PASSAGES:
-            miss = self.at(what, np.arange(self.count)[:, None], self.x) - level
+            miss = self.values_at(what, np.arange(self.count)[:, None], self.x) - level
             above, doubt = miss >= 0, CLEAR + self.error[what]
             changes = above[:, 1:] != above[:, :-1]
             number = np.count_nonzero(changes, axis=1)
@@ -221,8 +220,10 @@ class SplineLoads:
         shares = np.array([what for _, what, _ in PASSAGES])[into]
         level = np.array([level for *_, level in PASSAGES])[into]
         by_area = shares == AREA
-        slope = np.where(by_area, self.at(AREA, rows, x, 1), self.at(EQUAL, rows, x, 1))
-        steep = self.at(LOAD, rows, x, 1)
+        slope = np.where(
+            by_area, self.values_at(AREA, rows, x, 1), self.values_at(EQUAL, rows, x, 1)
+        )
+        steep = self.values_at(LOAD, rows, x, 1)
         wavy = SLOPE_OF_ERROR / self.between * np.max(self.error, axis=0)[rows]
         old = np.full((3, len(x)), np.nan)
         left = np.arange(len(x))
@@ -256,7 +257,7 @@ class SplineLoads:
         load, word = np.full(self.count, np.nan), np.full(self.count, FOUND, dtype="<U12")
         self.loads["F_tpca.A"] = load, word
         every = np.arange(self.count)
-        size = expit(self.at(AREA, every[:, None], self.x))
+        size = expit(self.values_at(AREA, every[:, None], self.x))
         top = np.argmax(size, axis=1)
         most, ends = size[every, top], np.maximum(size[:, 0], size[:, -1])
         # ends of 0.9 of the peak, which decide, are not told from others by a spline
@@ -270,8 +271,10 @@ class SplineLoads:
         sides = np.concatenate([x - PEAK_STEP, x + PEAK_STEP])
         area, *loads = self.states(sides, np.tile(rows, 2))
         (low, high), log_F = np.split(area, 2), np.logaddexp(*loads)
-        step = -(high - low) / (2 * PEAK_STEP) / self.at(AREA, rows, x, 2)
-        load[rows] = np.exp(np.mean(np.split(log_F, 2), axis=0) + self.at(LOAD, rows, x, 1) * step)
+        step = -(high - low) / (2 * PEAK_STEP) / self.values_at(AREA, rows, x, 2)
+        load[rows] = np.exp(
+            np.mean(np.split(log_F, 2), axis=0) + self.values_at(LOAD, rows, x, 1) * step
+        )
         self.known[rows[~(np.abs(step) < PEAK_MISS)]] = False
 
 
