@@ -10,6 +10,7 @@ from ..contact.contact import Contact
 from ..populations.materials import materials
 from ..quantities.record import Record
 from ..quantities.say import percent, value_of
+from ..systems.film_conditions import FilmConditions
 from .dirty_oil import DirtyOil, dirty_oil
 from .what_ifs import HARDNESS, TWICE
 from .whole import Study
@@ -75,17 +76,14 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
             "half and twice as many, one class of ISO 4406 each way",
             "count your oil, and what it is that was counted",
             "number",
-            tuple(_with_number(study, factor) for factor in (1 / TWICE, TWICE)),
+            (_with_number(study, 1 / TWICE), _with_number(study, TWICE)),
         ),
         (
             f"the viscosity at the inlet, {value_of(film.oil.eta, 'Pa s', 3)}",
             f"{percent(1 - 1 / VISCOSITY)} less and {percent(VISCOSITY - 1)} more",
             "measure the running temperature",
             "film.oil.eta",
-            tuple(
-                replace(study, film=film.replace(oil=film.oil.replace(eta=film.oil.eta * factor)))
-                for factor in (1 / VISCOSITY, VISCOSITY)
-            ),
+            (_with_viscosity(study, film, 1 / VISCOSITY), _with_viscosity(study, film, VISCOSITY)),
         ),
     ]
     for i, part in enumerate(found.populations):
@@ -134,6 +132,12 @@ def _with_parts(study: Study, parts: tuple[Any, ...]) -> Study:
     contact = study.contact
     several = isinstance(contact.particles, tuple)
     return replace(study, contact=contact.replace(particles=parts if several else parts[0]))
+
+
+def _with_viscosity(study: Study, film: FilmConditions, factor: float) -> Study:
+    """The study with another viscosity of the oil."""
+    oil = film.oil.replace(eta=film.oil.eta * factor)
+    return replace(study, film=film.replace(oil=oil))
 
 
 def _with_number(study: Study, factor: float) -> Study:

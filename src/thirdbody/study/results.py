@@ -118,9 +118,9 @@ class StudyResult(_Result):
     @cached_property
     def what_ifs(self) -> tuple[WhatIf, ...]:
         """What the answer hangs on at the central state, the most first."""
-        return (
-            what_ifs_of_states(self.study, self.states, self.central) if self.solved_states else ()
-        )
+        if not self.solved_states:
+            return ()
+        return what_ifs_of_states(self.study, self.states, self.central)
 
     def need_state(self) -> None:
         """Refuse a result without a single state.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,10 @@ from ..contact.contact import Contact
 from ..errors import RangeWarning
 from ..quantities.record import Record
 from ..quantities.say import value_of
-from .whole import Study
+
+if TYPE_CHECKING:
+    from ..equilibrium.columns import Equilibrium
+    from .whole import Study
 
 __all__ = ["WhatIf", "what_ifs_of_states"]
 
@@ -76,7 +79,7 @@ class _Ends(NamedTuple):
     code: str
 
 
-def what_ifs_of_states(study: Study, states: Any, at: int) -> tuple[WhatIf, ...]:
+def what_ifs_of_states(study: Study, states: Equilibrium, at: int) -> tuple[WhatIf, ...]:
     """What the load share of particles at one load of a study hangs on, the most first.
 
     Of contacts without particles, or where nearly the whole load is on them, it is the real area.
@@ -88,9 +91,9 @@ def what_ifs_of_states(study: Study, states: Any, at: int) -> tuple[WhatIf, ...]
     ----------
     study : Study
     states : Equilibrium
-        Those of the study.
+        Its states.
     at : int
-        Number of the state that counts.
+        The one that counts.
 
     Returns
     -------
@@ -102,10 +105,10 @@ def what_ifs_of_states(study: Study, states: Any, at: int) -> tuple[WhatIf, ...]
     own = study.connector is not None or study.plate is not None
     if own or any(each.strength is not None for each in contact.populations):
         return ()
-    pressure = float(states.pressure[at])
+    pressure = float(np.ravel(states.pressure)[at])
     if not pressure > 0:
         return ()
-    share = float(states.particle_load_share[at])
+    share = float(np.ravel(states.particle_load_share)[at])
     of = "A_t" if contact.two_body or share > SATED else "particle_load_share"
     ends = list(_ends(contact, study.uncertainty.inputs if study.uncertainty else {}))
     found = _at_ends(contact, pressure, ends, of)
@@ -126,8 +129,13 @@ def what_ifs_of_states(study: Study, states: Any, at: int) -> tuple[WhatIf, ...]
 
 def _ends(contact: Contact, stated: dict[str, Any]) -> Iterator[_Ends]:
     """Every input that is varied."""
-    known = {name: (each.at(0.0), each.at(1.0)) for name, each in stated_ranges(contact).items()}
-    known |= {name: (each.at(ENDS[0]), each.at(ENDS[1])) for name, each in stated.items()}
+    known = {
+        name: (each.quantile(0.0), each.quantile(1.0))
+        for name, each in stated_ranges(contact).items()
+    }
+    known |= {
+        name: (each.quantile(ENDS[0]), each.quantile(ENDS[1])) for name, each in stated.items()
+    }
     bodies = ("surfaces.first", "surfaces.second")
     alike = contact.surfaces.alike
     hardness = ["+".join(f"{name}.H" for name in bodies)] if alike else [f"{n}.H" for n in bodies]
@@ -165,7 +173,7 @@ def _of_particles(contact: Contact) -> Iterator[_Ends]:
     )
     seats = tuple(name for name in inputs(contact) if name.endswith("particle_law.zeta_mean"))
     if getattr(contact.particle_law, "seat", "") == "rough" and seats:
-        usual = float(contact.part(seats[0].rpartition(".")[0]).zeta_mean)
+        usual = float(contact.value_at(seats[0].rpartition(".")[0]).zeta_mean)
         yield _Ends(
             seats,
             ((usual + SEATS[0], usual + SEATS[1]),) * len(seats),
@@ -184,7 +192,7 @@ def _range(
     value = moved.values[0]
     low, high = ends if isinstance(ends, tuple) else (value / ends, value * ends)
     unit = declared(contact, moved.names[0])["unit"]
-    at = [moved.at((end - value) / moved.scales[0]) for end in (low, high)]
+    at = [moved.numbers_at((end - value) / moved.scales[0]) for end in (low, high)]
     return _Ends(
         moved.names,
         tuple((float(at[0][name]), float(at[1][name])) for name in moved.names),

@@ -19,7 +19,8 @@ def test_the_next_generation_to_its_printed_digits():
 
 def test_without_births_nothing_is_bred_and_the_gain_is_one():
     found = next_generation(np.zeros((3, 3)), losses=[1e-3, 2e-3, 5e-4], sources=[1.0, 2.0, 3.0])
-    assert found.R0 == 0 and found.dirt_gain == 1
+    assert found.R0 == 0
+    assert found.dirt_gain == 1
     assert "no particle breeds" in found.sentence
 
 

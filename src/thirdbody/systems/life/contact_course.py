@@ -98,9 +98,7 @@ class ContactCourse:
                 atol[place] = least
             elif name.startswith("flow"):
                 atol[place] = 1e-3 * least * float(np.mean(loop.volumes))
-            elif name.startswith("wear"):
-                atol[place] = 1e-6 * sigma
-            elif name == "sigma":
+            elif name.startswith("wear") or name == "sigma":
                 atol[place] = 1e-6 * sigma
             else:
                 atol[place] = 1e-9 if name.startswith("thrown") else 1.0

@@ -288,10 +288,10 @@ class ContactTables:
         most = np.max(np.abs(curve.series.coefficients).sum(axis=1), axis=0)
         return np.column_stack([most * self.tops[:, None] ** curve.powers, np.ones(len(self.tops))])
 
-    def _survival(self, kind: Kind, curve: ParticleCurve) -> list[SurvivalCurve] | None:
+    def _survival(self, kind: Kind, curve: ParticleCurve) -> SurvivalCurve | None:
         if kind.strength is None:
             return None
-        return [SurvivalCurve(curve, kind.strength, float(top)) for top in self.tops]
+        return SurvivalCurve(curve, kind.strength, self.tops)
 
     def _place(self, i: int) -> int:
         """The first of the kinds with the same curve and strength."""
@@ -333,24 +333,22 @@ class ContactTables:
 
     def _of_kind(self, i: int, gap: Array, sigmas: Array) -> Array:
         """Quantities and the broken part of one kind at mean gaps (N,): (N, S, K, Q + 1)."""
-        curve, survival = self.curves[i], self.survival[i]
+        curve = self.curves[i]
         out = np.zeros((len(gap), len(sigmas), len(self.tops), len(NAMES) + 1))
         for k, top in enumerate(self.tops):
-            own = None if survival is None else survival[k]
-            out[:, :, k] = self._of_class(curve, own, gap / top, sigmas / top)
+            out[:, :, k] = self._of_class(i, k, gap / top, sigmas / top)
         out[..., :-1] *= self.tops[:, None] ** curve.powers
         if self.law.shadow == "covered":
             covered = math.pi / 4 * curve.one.breadth * self.classes.mean_power(2)
             out[..., NAMES.index("shadow")] = covered
         return out
 
-    def _of_class(
-        self, curve: ParticleCurve, survival: SurvivalCurve | None, gap: Array, sigmas: Array
-    ) -> Array:
+    def _of_class(self, i: int, k: int, gap: Array, sigmas: Array) -> Array:
         """Quantities of a class with upper edge 1, averaged over its seats: (N, S, Q + 1)."""
+        curve, survival = self.curves[i], self.survival[i]
 
         def values(local: Array) -> Array:
-            broken = np.zeros(len(local)) if survival is None else survival(local)
+            broken = np.zeros(len(local)) if survival is None else survival.of_class(k, local)
             return np.column_stack([curve(local), broken])
 
         if not self.rough_seat:

@@ -84,7 +84,7 @@ class Gap(NamedTuple):
 
 
 class Rates(NamedTuple):
-    """Rates at one gap, affine in the unknowns."""
+    """Rates at one gap, affine in the unknowns; but for what wear sets free, which is frozen."""
 
     matrix: Array
     """M [1/s] (n, n)."""
@@ -92,6 +92,8 @@ class Rates(NamedTuple):
     """r (n,)."""
     births: Array
     """𝒢 of the numbers, daughters by parents [1/s] (J, J)."""
+    release: Array
+    """Change of M y with y through the rate at which surfaces wear [1/s] (n, n)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +172,12 @@ class Loop(ABC):
 
     @abstractmethod
     def passes(self, side: int) -> float:
-        """Times per second that each place of a surface meets the particles [1/s]; 0 of a dry one."""
+        """Times per second that a place of a surface meets the particles [1/s]; 0 of a dry one."""
+
+    @property
+    def breaks(self) -> bool:
+        """Whether particles of some kind break."""
+        return any(kind.strength is not None for kind in self.tables.kinds)
 
     @property
     def one_area(self) -> float:
@@ -213,7 +220,8 @@ class Loop(ABC):
     def rates(self, y: Array, d: float) -> Rates:
         """M and r at a separation; y says where asperities are out of reach, and how fast wears."""
         count, J = self.layout.count, len(self.volumes)
-        out = Rates(np.zeros((count, count)), np.zeros(count), np.zeros((J, J)))
+        square = np.zeros((2, count, count))
+        out = Rates(square[0], np.zeros(count), np.zeros((J, J)), square[1])
         state = self.pressed(y, d)
         standing = self.standing(y, d)
         rows = [self._wear_row(state, standing, side) for side in SURFACES]
@@ -227,10 +235,9 @@ class Loop(ABC):
         return out
 
     def pieces(self, d: float, sigma: float) -> Array:
-        """Numbers of which one of each number is made once all that breaks at d is broken: (J, J)."""
-        J = len(self.volumes)
-        out = np.eye(J)
-        if all(kind.strength is None for kind in self.tables.kinds):
+        """Numbers of pieces for one of each number once all that breaks at d is broken: (J, J)."""
+        out = np.eye(len(self.volumes))
+        if not self.breaks:
             return out
         broken = self.tables.broken(d, sigma)
         for i, kind in enumerate(self.tables.kinds):
@@ -319,7 +326,12 @@ class Loop(ABC):
             free = 2 * depth_rate / self.sizes
             bound = np.arange(*self.layout[f"bound_{side}"].indices(self.layout.count))
             out.matrix[bound, bound] -= free
-            out.matrix[np.arange(pool.start, pool.stop), bound] += free
+            mine = np.arange(pool.start, pool.stop)
+            out.matrix[mine, bound] += free
+            if depth_rate > 0:
+                each = 2 / self.sizes * y[bound] / self.setting.worn_area[side - 1]
+                out.release[bound] -= np.multiply.outer(each, row)
+                out.release[mine] += np.multiply.outer(each, row)
 
     def add_flow(self, out: Rates, name: str, columns: slice, numbers: Array) -> None:
         """Book volume that goes a way per number of a block [1/s]: (J,)."""
@@ -331,14 +343,14 @@ class Loop(ABC):
             out.matrix[place.start + kind, at] += numbers[mine] * self.volumes[mine]
 
     def add_passage(self, out: Rates, numbers: Array, *, pieces: Array) -> None:
-        """Particles of the pool pass a gap and come out as pieces, numbers per one and time: (J,)."""
+        """Pass particles of the pool through a gap that breaks them, (J,) per one and time."""
         pool = self.layout[self.pool]
         change = (pieces - np.eye(len(numbers))) * numbers
         out.matrix[pool, pool] += change
         self.add_flow(out, FINER, pool, -(self.volumes @ change) / self.volumes)
 
     def add_retention(self, out: Rates, numbers: Array, state: Pressed) -> Array:
-        """Embed a part of what passes, numbers per one and time (J,); returns that part [1]: (J,)."""
+        """Embed a part of what passes, (J,) per one and time; returns that part [1]: (J,)."""
         if self.setting.stays == 0:
             return np.zeros_like(numbers)
         pool = self.layout[self.pool]
@@ -387,7 +399,7 @@ class Loop(ABC):
         step = STEP * self.sigma_of(y)
         there = self.rates(y, gap.d + step)
         slope = (there.matrix @ y + there.constant - value) / step
-        out = here.matrix + np.multiply.outer(slope, gap.slopes)
+        out = here.matrix + here.release + np.multiply.outer(slope, gap.slopes)
         law, place = self.setting.running_in, self.layout["sigma"].start
         if law is not None:
             moved = y.copy()
