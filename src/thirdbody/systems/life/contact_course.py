@@ -98,9 +98,7 @@ class ContactCourse:
                 atol[place] = least
             elif name.startswith("flow"):
                 atol[place] = 1e-3 * least * float(np.mean(loop.volumes))
-            elif name.startswith("wear"):
-                atol[place] = 1e-6 * sigma
-            elif name == "sigma":
+            elif name.startswith("wear") or name == "sigma":
                 atol[place] = 1e-6 * sigma
             else:
                 atol[place] = 1e-9 if name.startswith("thrown") else 1.0
@@ -301,4 +299,3 @@ def coverage(loop: Loop, y: Array) -> float:
     eta = loop.present(y, loop.find_gap(y).d if loop.pool == "oil" else 0.0)
     squares = np.tile(loop.tables.classes.mean_power(2), loop.kinds)
     return float(np.pi / 4 * (eta @ squares))
-

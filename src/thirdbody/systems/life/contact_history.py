@@ -276,9 +276,7 @@ class ContactHistory(LifeHistory):
         return out | {"reproduction": self.reproduction}
 
 
-def wear_times(
-    loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]
-) -> dict[str, float]:
+def wear_times(loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]) -> dict[str, float]:
     """How long it takes to wear σ, and to run in [s]."""
     rate = max(float(more[f"wear_rate_{side}"][1][-1]) for side in SURFACES)
     sigma, law = loop.sigma_of(y), loop.setting.running_in

@@ -187,7 +187,9 @@ def _notes(
         what = f"particles cover up to {number(most, 2)} of the contact: they hinder each other"
         out.append(Note(what, code="life.crowded", action="sums of single particles end there"))
     if loop.setting.stays > 0:
-        what = "a part of the deep particles stays embedded, as the user says; nobody can predict it"
+        what = (
+            "a part of the deep particles stays embedded, as the user says; nobody can predict it"
+        )
         out.append(Note(what, code="life.stays"))
     law = loop.setting.running_in
     if law is not None:
@@ -281,9 +283,7 @@ def run_film_history(
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states)
     notes = _notes(loop, columns, debris, worn_area=worn_area, entry_ratio=entry_ratio)
-    births, losses = (
-        _by_class(loop, each) for each in births_and_losses(loop, seen.states[-1])
-    )
+    births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
     moments = np.array(seen.times)
     numbers = np.array([loop.shaped(y[loop.layout["oil"]]).T for y in seen.states])
     volume = loop.volume + loop.growth * moments
@@ -389,9 +389,7 @@ def run_dry_history(
     )  # fmt: skip
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states)
-    births, losses = (
-        _by_class(loop, each) for each in births_and_losses(loop, seen.states[-1])
-    )
+    births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
     numbers = np.array([loop.shaped(y[loop.layout["contact"]]).T for y in seen.states]) / area
     absent = ("film_share", *(f"{name}_{side}" for name in ("dents", "thrown") for side in (1, 2)))
     return DryHistory(

@@ -286,9 +286,7 @@ class ContactTables:
         """The largest value of every column of a kind: (K, Q + 1)."""
         curve = self.curves[i]
         most = np.max(np.abs(curve.series.coefficients).sum(axis=1), axis=0)
-        return np.column_stack(
-            [most * self.tops[:, None] ** curve.powers, np.ones(len(self.tops))]
-        )
+        return np.column_stack([most * self.tops[:, None] ** curve.powers, np.ones(len(self.tops))])
 
     def _survival(self, kind: Kind, curve: ParticleCurve) -> SurvivalCurve | None:
         if kind.strength is None:
@@ -300,8 +298,7 @@ class ContactTables:
         alike = [
             j
             for j in range(i + 1)
-            if self.curves[j] is self.curves[i]
-            and self.kinds[j].strength == self.kinds[i].strength
+            if self.curves[j] is self.curves[i] and self.kinds[j].strength == self.kinds[i].strength
         ]
         key = (alike[0], 0)
         return self._distinct.setdefault(key, len(self._distinct))
@@ -364,9 +361,7 @@ class ContactTables:
             return out
         weighted = weight[:, None] * values(local)
         for j, width in enumerate(widths):
-            near = np.searchsorted(
-                local, [gap.min() - REACH * width, gap.max() + REACH * width]
-            )
+            near = np.searchsorted(local, [gap.min() - REACH * width, gap.max() + REACH * width])
             mine = slice(*near)
             z = (gap[:, None] - local[mine]) / width
             density = np.exp(-0.5 * z * z) / (width * math.sqrt(2 * math.pi))

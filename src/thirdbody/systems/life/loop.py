@@ -172,8 +172,7 @@ class Loop(ABC):
 
     @abstractmethod
     def passes(self, side: int) -> float:
-        """Times per second that each place of a surface meets the particles [1/s]; 0 of a dry one.
-        """
+        """Times per second that each place of a surface meets the particles [1/s]; 0 of a dry one."""
 
     @property
     def breaks(self) -> bool:
@@ -319,9 +318,7 @@ class Loop(ABC):
                 each = self.columns(state, f"{column}_{side}")
                 out.matrix[self.layout[f"{name}_{side}"], pool] += rate * (each @ standing)
 
-    def _add_release(
-        self, out: Rates, y: Array, rows: list[tuple[Array, float, float]]
-    ) -> None:
+    def _add_release(self, out: Rates, y: Array, rows: list[tuple[Array, float, float]]) -> None:
         """Embedded particles come free when their surface has worn by half their size."""
         pool = self.layout[self.pool]
         for side, (row, constant, _) in zip(SURFACES, rows, strict=True):

@@ -305,9 +305,7 @@ class _Model:
 
 
 # ------------------------------------------------------------------------------ reports
-def _counts_of(
-    reports: Sequence[str] | ArrayLike, sizes: ArrayLike | None
-) -> tuple[Array, Array]:
+def _counts_of(reports: Sequence[str] | ArrayLike, sizes: ArrayLike | None) -> tuple[Array, Array]:
     """Sizes [m] and counts [1/m³] of reports that are codes or counts."""
     given = list(reports) if not isinstance(reports, str) else [reports]  # type: ignore[arg-type]
     if given and all(isinstance(each, str) for each in given):
