@@ -85,8 +85,6 @@ def contact_columns(loop: Loop, times: Array, states: list[Array]) -> dict[str, 
 def _columns_of(loop: Loop, y: Array) -> dict[str, float]:
     gap = loop.find_gap(y)
     state, eta = loop.pressed(y, gap.d), loop.present(y, gap.d)
-    rates = loop.rates(y, gap.d)
-    change = rates.matrix @ y + rates.constant
     assert isinstance(loop, DryLoop | FilmLoop)
     p = loop.pressure
 
@@ -104,12 +102,12 @@ def _columns_of(loop: Loop, y: Array) -> dict[str, float]:
         "sa_share": total("load") / p,
         "mu_solids": friction / p,
         "present": total("loaded") * loop.one_area,
-        "covered": coverage(loop, y),
+        "covered": coverage(loop, eta),
     }
     for side in SURFACES:
         for name in ("wear", "dents", "thrown"):
             out[f"{name}_{side}"] = float(y[loop.layout[f"{name}_{side}"]][0])
-        out[f"wear_rate_{side}"] = float(change[loop.layout[f"wear_{side}"]][0])
+        out[f"wear_rate_{side}"] = loop.wear_rate(y, state, side)
     return out
 
 

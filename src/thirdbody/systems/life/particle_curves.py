@@ -132,7 +132,7 @@ class ParticleCurve:
         return replace(found, material=self.material, population=self.population)
 
     def _dent_kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """Which surfaces have a dent that stays, whether it has a shaft, and its end, as a number."""
+        """Where dents that stay set in, get a shaft, and end, as a number."""
         out = np.zeros(spots.x.shape, np.intp)
         for side, ends in zip((0, 1), self._deepest, strict=True):
             depth = self._depth_left(spots, side)
@@ -141,7 +141,7 @@ class ParticleCurve:
         return out
 
     def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
-        dents = self.contact.outputs[-1]
+        dents: Any = self.contact.outputs[-1]
         with np.errstate(all="ignore"):
             return dents._dent_left(spots, side, self.contact).depth
 
