@@ -3,7 +3,7 @@
 #   make demo     solve an example, redraw the figures of the paper, say where they are
 #   make test     the physics and the interfaces
 #   make check    types, style, layers, book, gallery, packaging, browser, planted slips, long studies
-#   make docs     the book, into docs/_build/html; it needs no network to be read
+#   make docs     the book, into docs/_build/html, a folder for a static host; it needs no network
 #   make oldest   make test with the oldest releases that pyproject.toml allows
 #   make coverage which lines make test runs
 #   make bench    speed, into benchmarks/results.md
@@ -93,7 +93,7 @@ coverage: $(VENV)/installed-test
 	$(PYTEST) $(QUICK) --cov --cov-report term:skip-covered
 
 docs: $(VENV)/installed-docs
-	$(RUN)/python -m sphinx -W -q -b html docs docs/_build/html
+	$(RUN)/python docs/versions.py docs/_build/html
 	@echo "Open $(abspath docs/_build/html)/index.html in a browser."
 
 bench: $(VENV)/installed-test
@@ -116,5 +116,5 @@ format: $(VENV)/installed-test
 
 clean:
 	rm -rf $(VENV) $(OLDEST) $(OUT) build dist src/*.egg-info .ruff_cache .mypy_cache .import_linter_cache .hypothesis .coverage
-	rm -rf docs/_build docs/gallery docs/api
+	rm -rf docs/_build docs/_cases docs/cases docs/gallery docs/api
 	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -77,7 +77,7 @@ def measured(z: Array, load: float, cap: float, bodies: Bodies, what: str) -> Ro
     """Solve once, and once more for the clock."""
     c = np.full(z.shape, cap)
     if len(bodies):
-        c *= 1 - covered_share(z, SPACING, bodies, Placed(bodies, z.shape, SPACING).at(z))
+        c *= 1 - covered_share(z, SPACING, bodies, Placed(bodies, z.shape, SPACING).at_particles(z))
     total = load * E_STAR * z.size * SPACING**2
 
     def once() -> Pressed:

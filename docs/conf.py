@@ -1,5 +1,6 @@
 """How the book of thirdbody is built: `make docs`, or sphinx-build -W docs docs/_build/html."""
 
+import shutil
 import sys
 from importlib.util import find_spec
 from pathlib import Path
@@ -33,9 +34,12 @@ exclude_patterns = [
     "_ext",
     "_templates",
     "**.ipynb_checkpoints",
-    "gallery/**.ipynb",
-    "gallery/**.py.md5",
-    "gallery/**.codeobj.json",
+    "_cases",
+    *(
+        f"{made}/**.{end}"
+        for made in ("gallery", "cases")
+        for end in ("ipynb", "py.md5", "codeobj.json")
+    ),
 ]
 templates_path = ["_templates"]
 default_role = "py:obj"
@@ -62,12 +66,24 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 
-# ---------------------------------------------------------------- the gallery
+# ---------------------------------------------------------------- the gallery, and the cases
+# the worked examples are files of their own for whoever runs them; the gallery wants a folder
+CASES = HERE / "_cases"
+CASES.mkdir(exist_ok=True)
+for _file in sorted((HERE.parent / "examples").glob("*.py")):
+    shutil.copyfile(_file, CASES / _file.name)
+shutil.copyfile(HERE.parent / "examples" / "additive.toml", CASES / "additive.toml")
+(CASES / "GALLERY_HEADER.rst").write_text(
+    "Worked programs\n===============\n\nEach draws a figure and ends in a sentence to act on.\n",
+    "utf-8",
+)
+
 sphinx_gallery_conf = {
-    "examples_dirs": ["../examples/gallery"],
-    "gallery_dirs": ["gallery"],
+    "examples_dirs": ["../examples/gallery", "_cases"],
+    "gallery_dirs": ["gallery", "cases"],
     "filename_pattern": r"\.py$",
     "image_scrapers": ("book.save_figures",),
+    "reset_modules": ("matplotlib", "book.set_colours"),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "capture_repr": (),
@@ -83,7 +99,7 @@ sphinx_gallery_conf = {
 
 # ---------------------------------------------------------------- HTML, complete in itself
 html_theme = "pydata_sphinx_theme"
-html_title = f"thirdbody {version}"
+html_title = "thirdbody"
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
 html_theme_options = {
@@ -92,6 +108,7 @@ html_theme_options = {
     "header_links_before_dropdown": 8,
     "navbar_align": "left",
     "secondary_sidebar_items": ["page-toc"],
+    "navbar_end": ["version.html", "theme-switcher", "navbar-icon-links"],
     "footer_start": ["copyright"],
     "footer_end": [],
     "pygments_light_style": "a11y-high-contrast-light",

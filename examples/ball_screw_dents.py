@@ -2,6 +2,9 @@
 Dust in a ball screw: which grains dent, and how deep
 =====================================================
 
+**In short**: fine quartz of a few micrometres already dents deeper than the roughness. A filter of
+10 µm stops the deep dents, which are few: wipers must keep the dust out.
+
 Fine test dust gets into the oil of a ball screw. The film between ball and groove is 0.3 µm high,
 the ground surfaces are 0.1 µm rough. Grains larger than the film are pressed into both surfaces;
 those that leave dents deeper than the roughness are the ones a filter or wiper must keep out.
@@ -41,15 +44,14 @@ def depth(x):
 
 
 # %%
-# How deep one grain goes: depth grows with size less film, the grain takes part of that itself, and
-# part of it recovers. The film does
-# not give way here, so these depths are upper bounds.
+# How deep one grain goes: the depth grows with size less film. The grain takes part of that itself,
+# and part of it recovers. The film does not give way here, so these depths are upper bounds.
 x = np.geomspace(film, 30e-6, 300)
 harmful = float(brentq(lambda y: float(depth(y)[0]) - roughness, film, 10e-6))
 
 # %%
-# How many there are on a square centimetre, deeper than a depth, after so many overrollings: the
-# grains larger than x make the dents deeper than depth(x). Where dents overlap, they stop adding.
+# How many dents on a square centimetre are deeper than a depth, after 100 000 overrollings. Grains
+# larger than x make the dents deeper than depth(x). Where dents overlap, they stop adding.
 larger = np.geomspace(sizes.support[0], 30e-6, 120)
 deeper = np.array([oil.above(y) for y in larger])
 count = dents_after(deeper, overrollings=passes, area=oil.dents().area) * 1e-4
@@ -74,7 +76,7 @@ two.axvline(roughness * 1e6, color="0.5", ls="--", lw=1)
 two.text(roughness * 1.1e6, 20, "roughness", fontsize=8, color="0.35")
 at = float(depth(mesh)[0]) * 1e6
 two.axvline(at, color="#D55E00", ls=":", lw=1.2)
-two.text(0.92 * at, 20, "grain of 10 µm", color="#D55E00", fontsize=8, ha="right")
+two.text(1.1 * at, 3e6, "grain of 10 µm", color="#D55E00", fontsize=8)
 two.set(
     xlabel="depth [µm]",
     ylabel="deeper dents per cm²\nafter 10⁵ overrollings",

@@ -2,6 +2,9 @@
 Dust in a ball screw: temperature of the contacts
 =================================================
 
+**In short**: the larger the grains, the hotter the hottest contact. At 1 m/s grains above about
+2 µm double the rise over clean steel.
+
 Quartz dust enters a stainless ball screw that runs dry for a moment. How much hotter than the
 steel around it is the hottest contact on a square millimetre, and which grains make it so?
 """

@@ -2,6 +2,9 @@
 A dusty electrical contact: resistance against load
 ===================================================
 
+**In short**: grains take load from the metal. A thousand of them on a square millimetre ask for
+more than ten times the force.
+
 Two bronze contacts of 1 mm² are closed over insulating quartz dust. The grains carry load and keep
 the metal apart. How hard must the contacts be pressed to conduct again?
 """

@@ -2,6 +2,9 @@
 Stribeck curve of a ball in clean and in dirty oil
 ==================================================
 
+**In short**: debris of a micrometre keeps the solids in contact up to several times the speed.
+Filter the oil, or run faster.
+
 A steel ball slides and rolls on a ground steel flat. How fast must it run until the oil keeps the
 bodies apart, and what do wear particles of 1 µm change?
 """

@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import threading
+import urllib.parse
 import warnings
 from pathlib import Path
 
@@ -28,11 +29,16 @@ from thirdbody.papers.horng2022 import READINGS, Curves
 pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
+sys.path.insert(0, str(DOCS / "_ext"))
+from facts import facts, insert_facts  # noqa: E402
+from pages import columns, commands, insert_generated, study_file  # noqa: E402
+from search import KEYWORDS, insert_keywords  # noqa: E402
+
 PAGES = sorted(DOCS.glob("*.md"))
 NOTEBOOKS = sorted((DOCS / "tutorials").glob("*.ipynb"))
 FENCE = re.compile(r"^```(\{?[\w-]*\}?).*?\n(.*?)^```$", re.S | re.M)
 # made by the build, so that no file of theirs is in the checkout
-MADE = ("gallery/", "api/")
+MADE = ("gallery/", "api/", "cases/")
 # run by tests of their own, with the files or the time that they need
 ELSEWHERE = {
     "add-a-law.md",
@@ -70,9 +76,10 @@ def test_code_of_the_page_runs(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     # what pages call a study of one's own
     shutil.copy(ROOT / "examples" / "dusty_ball_screw.toml", tmp_path / "study.toml")
-    names = {"tb": tb}
+    # a page begins with its own import, so that its first block runs when pasted
+    names = {}
     printed = None
-    for language, code in FENCE.findall(page.read_text("utf-8")):
+    for language, code in FENCE.findall(insert_facts(page.read_text("utf-8"))):
         if language == "python":
             printed = said(code, names)
         elif language == "" and printed:
@@ -83,14 +90,16 @@ def test_code_of_the_page_runs(page, tmp_path, monkeypatch):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_anchors_and_documents_exist(page):
     """Links to headings, {doc} and toctree entries and included files: not checked by Markdown."""
-    text = page.read_text("utf-8")
+    text = insert_generated(page.read_text("utf-8"))
     for file, anchor in re.findall(r"\]\(([\w./-]*)#([\w-]+)\)", text):
         target = (page.parent / file) if file else page
-        titles = re.findall(r"^#+ (.*)$", target.read_text("utf-8"), re.M)
+        whole = insert_generated(target.read_text("utf-8"))
+        titles = re.findall(r"^#+ (.*)$", whole, re.M)
+        labels = set(re.findall(r"^\(([\w-]+)\)=$", whole, re.M))
         slugs = {
             re.sub(r"[^\w\- ]", "", t.lower()).replace(" ", "-").replace("_", "-") for t in titles
         }
-        assert anchor in slugs, f"{page.name}: no heading #{anchor} in {target.name}"
+        assert anchor in slugs | labels, f"{page.name}: no heading #{anchor} in {target.name}"
     for file in re.findall(r"^```\{(?:literal)?include\} (\S+)$", text, re.M):
         assert (page.parent / file).is_file(), f"{page.name}: {file}"
     entries = re.findall(r"\{doc\}`(?:[^`<]*<)?([^`>]+)>?`", text)
@@ -102,6 +111,9 @@ def test_anchors_and_documents_exist(page):
             assert any(file.is_file() for file in found), f"{page.name}: {entry}"
         elif entry.startswith("gallery/") and entry != "gallery/index":
             source = ROOT / "examples" / f"{entry}.py"
+            assert source.is_file(), f"{page.name}: {entry}"
+        elif entry.startswith("cases/") and entry != "cases/index":
+            source = ROOT / "examples" / f"{entry.removeprefix('cases/')}.py"
             assert source.is_file(), f"{page.name}: {entry}"
 
 
@@ -452,17 +464,114 @@ def test_numbers_of_the_validation_page(measure):
     ("diameter", "case", "stated"), [(200e-9, "x067", 11), (300e-9, "x1", 6), (600e-9, "x2", 4)]
 )
 def test_agreement_with_explicit_particles(diameter, case, stated):
-    """One statement of both sets of runs, on three pages."""
-    text = {page: (DOCS / page).read_text("utf-8") for page in ("validation.md", "../README.md")}
-    assert all("| 4, 6, 11 % |" in each for each in text.values())
-    seat = " ".join((DOCS / "choose-a-seat.md").read_text("utf-8").split())
-    assert "within 4 % of the load share at x = 2σ, 6 % at x = σ, 11 % at x = 0.67σ" in seat
+    """What the book says of both sets of runs."""
     newer = [state for state in seats.comparison() if state["case"] == case]
     off = worst(
         [state["share_statistical"] for state in newer], [state["share"] for state in newer]
     )
     assert explicit(diameter) <= seats.STATED_AGREEMENT[diameter]
     assert stated / 100 - 0.01 < max(off, explicit(diameter)) <= stated / 100
+    assert facts()["agreement_share"] == "4, 6, 11 %"
+    assert facts()["agreement_separation"] == "0.035 σ"
+
+
+# ---------------------------------------------------------------- one statement of each number
+STATED = re.compile(r"4, 6,? (?:and )?11 %|0\.035 ?σ|\d+ lost, \d+ undecided|\d+ of 84\b")
+# pages of papers say their own numbers, which tests of the papers hold
+OF_PAPERS = {"reproduction.md", "errata.md", "equations.md", "changelog.md"}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_what_is_said_in_several_places_comes_from_one(page):
+    if page.name not in OF_PAPERS:
+        assert STATED.findall(page.read_text("utf-8")) == [], (
+            "write {{ name }}, see docs/_ext/facts.py"
+        )
+    insert_facts(page.read_text("utf-8"), page.name)
+
+
+def test_a_fact_that_is_none_is_an_error():
+    with pytest.raises(KeyError, match=r"a\.md: no fact nothing"):
+        insert_facts("{{ nothing }}", "a.md")
+
+
+def test_readme_says_what_the_book_says():
+    text = " ".join((ROOT / "README.md").read_text("utf-8").split())
+    said = facts()
+    for each in (
+        f"within {said['agreement_share']}",
+        f"within {said['agreement_separation']}",
+        f"{said['measurements_word']} published measurements",
+        said["measurements_verdict"],
+        f"{said['paper_statements']} statements",
+        f"{said['paper_published']} hold, {said['paper_consistent']} hold",
+        f"[{said['materials']} materials]",
+        f"real area above {said['area_close']}",
+        f"Version {'.'.join(said['version'].split('.')[:2])}.",
+    ):
+        assert each in text, each
+
+
+# ---------------------------------------------------------------- made from the program
+def test_the_reference_has_every_key_with_its_meaning():
+    from thirdbody.study.schema import study_schema
+
+    text = study_file()
+    for name, table in study_schema()["properties"].items():
+        for way in (table, *table.get("anyOf", [])):
+            for key in way.get("properties", {}):
+                part = text.split(f"(study-{name})=\n")[1].split("\n(study-")[0]
+                assert f"| `{key}` |" in part, f"{name}.{key}"
+    assert re.findall(r"^\| `\w+` \|  \|.*$", text, re.M) == []
+
+
+def test_the_reference_has_every_command_and_option():
+    import typer
+
+    from thirdbody.cli import app
+
+    text = commands()
+    for name, command in typer.main.get_command(app).commands.items():
+        part = text.split(f"## `thirdbody {name}`\n")[1].split("\n## ")[0]
+        for item in command.params:
+            if item.param_type_name == "option" and not item.hidden:
+                assert item.opts[0] in part, f"{name} {item.opts[0]}"
+
+
+def test_every_field_of_every_result_is_explained():
+    import dataclasses
+
+    text = columns()
+    for name in tb.results.__all__:
+        kind = getattr(tb.results, name)
+        part = text.split(f"## `{name}`\n")[1].split("\n## ")[0]
+        for item in dataclasses.fields(kind):
+            if not item.name.startswith("_"):
+                assert re.search(rf"^\| (?:`\w+`, )*`{item.name}`", part, re.M), (
+                    f"{name}.{item.name}"
+                )
+
+
+CONSOLE = re.compile(r"^```console\n(.*?)^```\n(.*?)^```text\n(.*?)^```$", re.S | re.M)
+ON_COMMAND = [page for page in PAGES if CONSOLE.search(page.read_text("utf-8"))]
+
+
+@pytest.mark.parametrize("page", ON_COMMAND, ids=lambda page: page.name)
+def test_commands_of_the_page_print_what_it_shows(page, tmp_path, monkeypatch):
+    import shlex
+
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.chdir(tmp_path)
+    for lines, between, shown in CONSOLE.findall(insert_facts(page.read_text("utf-8"))):
+        assert "```" not in between, page.name
+        for line in lines.splitlines():
+            command = [sys.executable, "-m", *shlex.split(line.removeprefix("$ "))]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            assert done.returncode == 0, done.stderr
+        printed = [line.rstrip() for line in done.stdout.splitlines()]
+        kept = iter(printed)
+        for line in shown.splitlines():
+            assert line == "..." or line.rstrip() in kept, f"{line!r} is not in\n{done.stdout}"
 
 
 SECTIONS = {
@@ -519,10 +628,10 @@ def book(tmp_path_factory):
             pytest.skip(f"{name} is not installed; pip install -e '.[docs]'")
     # in a copy: the build writes pages of the gallery and of the API beside its sources
     folder = tmp_path_factory.mktemp("book")
-    ignore = shutil.ignore_patterns("_build", "gallery.*", "__pycache__")
+    ignore = shutil.ignore_patterns("_build", "_cases", "gallery.*", "__pycache__")
     for part in ("docs", "examples", "benchmarks", "src"):
         shutil.copytree(ROOT / part, folder / part, ignore=ignore)
-    for made in ("gallery", "api"):
+    for made in ("gallery", "api", "cases", "_cases"):
         shutil.rmtree(folder / "docs" / made, ignore_errors=True)
     for file in ROOT.glob("*.md"):
         shutil.copy(file, folder)
@@ -575,6 +684,102 @@ def test_the_search_of_the_book_finds_an_equation_by_its_number(book):
         assert section.bounding_box()["y"] < page.viewport_size["height"]
         browser.close()
     assert [url for url in asked if not url.startswith((address, "data:", "blob:"))] == []
+
+
+# what people type, and the page that they want
+SEARCHES = {
+    "install": "install",
+    "quickstart": "start",
+    "FAQ": "faq",
+    "no equilibrium": "faq",
+    "NaN": "faq",
+    "gasket": "faq",
+    "fretting": "faq",
+    "ISO 4406": "dust",
+    "ISO4406": "dust",
+    "4406": "dust",
+    "NAS 1638": "dust",
+    "test dust": "dust",
+    "debris": "dust",
+    "bearing": "bearings",
+    "6205": "bearings",
+    "ISO 281": "bearings",
+    "ball screw": "cases",
+    "additive": "cases",
+    "connector": "connector",
+    "relay": "connector",
+    "contact resistance": "conductance",
+    "wafer": "wafer",
+    "EHL": "lubrication",
+    "Stribeck": "lubrication",
+    "Hertz": "bodies",
+    "friction": "friction",
+    "wear": "wear",
+    "Ra": "surfaces",
+    "Greenwood-Williamson": "choose-a-law",
+    "Abaqus": "tables",
+    "Excel": "files",
+    "Tamaas": "others",
+    "BibTeX": "cite",
+    "error bars": "uncertainty",
+    "study file": "study-file",
+    "command line": "commands",
+    "columns": "columns",
+    "glossary": "glossary",
+    "what's new": "changes",
+    "Equation 9": "equations",
+}
+
+
+@pytest.mark.slow
+def test_the_search_of_the_book_leads_to_the_page(book):
+    """In a real browser: the first result for each of the words that people type."""
+    api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    if chromium is None:
+        pytest.skip("needs chromium")
+    first = {}
+    with api.sync_playwright() as playwright, served(book) as address:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        page = browser.new_page()
+        for words in SEARCHES:
+            page.goto(f"{address}/search.html?q={urllib.parse.quote_plus(words)}")
+            link = page.locator("#search-results ul.search li > a").first
+            link.wait_for(timeout=30_000)
+            first[words] = link.get_attribute("href").partition(".html")[0]
+        browser.close()
+    assert first == SEARCHES
+
+
+def test_every_keyword_leads_to_one_page_that_exists():
+    words = [word.lower() for several in KEYWORDS.values() for word in several]
+    assert len(words) == len(set(words))
+    assert [page for page in KEYWORDS if not (DOCS / f"{page}.md").is_file()] == []
+    text = insert_keywords("# A title\n\nwords\n", "faq")
+    assert text.startswith("# A title\n\n```{index} ! FAQ, ")
+    assert insert_keywords("# A title\n", "no-such-page") == "# A title\n"
+
+
+# ---------------------------------------------------------------- versions beside each other
+def test_the_switch_lists_the_versions_of_the_folder(tmp_path):
+    made = importlib.util.spec_from_file_location("versions_of_book", DOCS / "versions.py")
+    versions = importlib.util.module_from_spec(made)
+    made.loader.exec_module(versions)
+    for version in ("0.9.0", "0.10.0"):
+        (tmp_path / version).mkdir()
+        (tmp_path / version / "objects.inv").touch()
+    (tmp_path / "not-a-book").mkdir()
+    versions.add_switch(tmp_path, "0.2.0")
+    switch = (tmp_path / "versions.js").read_text("utf-8")
+    assert switch == 'window.BOOK_VERSIONS = ["0.10.0", "0.9.0", "0.2.0"];\n'
+    assert 'url=0.2.0/index.html"' in (tmp_path / "index.html").read_text("utf-8")
+
+
+@pytest.mark.slow
+def test_every_page_shows_its_version(book):
+    shown = f"<span>version {tb.__version__}</span>"
+    for name in ("index", "theory", "api/thirdbody.solve"):
+        assert shown in (book / f"{name}.html").read_text("utf-8")
 
 
 @contextlib.contextmanager

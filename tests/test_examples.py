@@ -56,26 +56,13 @@ def test_figure_goes_to_the_folder_when_nothing_is_told(tmp_path, monkeypatch):
     assert [file.name for file in tmp_path.iterdir()] == ["electrical_contact.png"]
 
 
-def test_readme_says_what_the_contact_does(capsys):
-    """The snippet under "What the contact does" prints the block below it."""
-    text = (ROOT / "README.md").read_text("utf-8")
-    first = re.search(r"^```python\n(.*?)^```$", text, re.S | re.M)[1]
-    part = text.split("## What the contact does\n")[1].split("\n## ")[0]
-    code, shown = re.search(r"^```python\n(.*?)^```\n\n```\n(.*?)^```$", part, re.S | re.M).groups()
-    names = {}
-    exec(first, names)
-    capsys.readouterr()
-    exec(code, names)
-    assert capsys.readouterr().out == shown
-
-
-def test_readme_lists_every_command():
+def test_the_book_lists_every_command():
     from thirdbody.cli import app
 
     found = {(info.name or info.callback.__name__) for info in app.registered_commands}
-    text = (ROOT / "README.md").read_text("utf-8")
-    part = text.split("## Commands\n")[1].split("\n## ")[0]
-    first = "".join(re.findall(r"^\|(.*?)\|", part.split("|---|---|")[1], re.M))
+    text = (ROOT / "docs" / "commands.md").read_text("utf-8")
+    table = re.search(r"^[|]---[|]---[|]\n((?:[|].*\n)+)", text, re.M)[1]
+    first = "".join(re.findall(r"^\|(.*?)\|", table, re.M))
     listed = set(re.findall(r"`(\w+)(?: [\w.]+)?`", first))
     assert found == listed
 

@@ -81,15 +81,11 @@ BARE = (
 )
 """Words that say nothing of what a function does or returns."""
 LEFT = {
-    "at": 21,
-    "of": 20,
-    "part": 5,
-    "met": 3,
-    "held": 2,
-    "put": 2,
-    "drawn": 1,
-    "kept": 1,
-    "shown": 1,
+    "of": 12,
+    "at": 4,
+    "part": 2,
+    "held": 1,
+    "met": 1,
 }
 """How often each is left."""
 

@@ -5,7 +5,10 @@ import inspect
 import re
 from pathlib import Path
 
+from facts import insert_facts
 from matplotlib.figure import Figure
+from pages import insert_generated
+from search import find_digits, insert_keywords
 from sphinx_gallery.scrapers import figure_rst
 
 SEEN = "_figures_shown"
@@ -27,6 +30,16 @@ def save_figures(block, block_vars, gallery_conf):
         figure.savefig(image, dpi=150, facecolor="white")
         images.append(str(image))
     return "".join(figure_rst([image], gallery_conf["src_dir"]) for image in images)
+
+
+def set_colours(gallery_conf, example):
+    """Before each example: the colours of the book, told apart by everybody."""
+    import matplotlib as mpl
+
+    from thirdbody.views.plot.style import OKABE_ITO
+
+    names = ("blue", "vermilion", "green", "purple", "orange", "sky")
+    mpl.rcParams["axes.prop_cycle"] = mpl.cycler(color=[OKABE_ITO[name] for name in names])
 
 
 def inputs(value):
@@ -112,11 +125,13 @@ def stay_in_the_book(app, docname, source):
         text = text.replace(f"]({outside})", f"]({inside})").replace(
             f"](../{outside})", f"]({inside})"
         )
-    source[0] = text.replace("](docs/", "](")
+    text = insert_facts(text.replace("](docs/", "]("), docname)
+    source[0] = insert_keywords(insert_generated(text), docname)
 
 
 def setup(app):
     app.connect("source-read", stay_in_the_book)
+    app.connect("build-finished", find_digits)
     app.connect("autodoc-process-docstring", plain_bars, priority=100)
     app.connect("autodoc-process-docstring", hide_colon, priority=100)
     app.connect("autodoc-process-docstring", show_colon, priority=900)

@@ -93,7 +93,7 @@ def draw_map():
     for i, name in enumerate(NAMES):
         grain = tb.materials[name]
         hardness = np.geomspace(0.5e9, min(grain.H, 12e9), 121)
-        breakage = Breakage.of(tb.WeibullStrength.of(grain), grain, 1.0)
+        breakage = Breakage.of_material(tb.WeibullStrength.of(grain), grain, 1.0)
         sizes = []
         for H in hardness:
             body = BEARING.replace(H=float(H))
@@ -101,7 +101,9 @@ def draw_map():
             one = tb.particle.Series().one(surfaces=pair, particle=grain)
             sizes.append(1e6 * crush_embed_size(one, breakage))
         dash = "-" if i < len(INKS) else "--"
-        ax.loglog(hardness / 1e9, sizes, f"C{i}", ls=dash, label=name)
+        # broad where the thin line of silica lies on it
+        width = 4.5 if name == "soda-lime glass" else 1.5
+        ax.loglog(hardness / 1e9, sizes, f"C{i}", ls=dash, lw=width, label=name)
         if grain.H < 12e9:
             ax.plot(hardness[-1] / 1e9, sizes[-1], f"C{i}o")
     ax.axvline(7.37, color="0.7", lw=1.0, zorder=0)

@@ -157,7 +157,7 @@ def particles(contact: Any, some: Particles, d: float) -> Array:
 
 
 class Side(Tip):
-    """A particle of size 1 on one surface: its contact ends at its great circle, or ``full``."""
+    """Contact of a particle of size 1 with one surface; the end is the great circle or ``full``."""
 
     def __init__(
         self,
@@ -221,7 +221,7 @@ class Faced(Side):
 
 
 def half_of(law: Any, E_star: float, surface: Material, particle: Material, shape: Shape) -> Side:
-    """What a particle does on one surface: squashed where it is round and the softer of the two."""
+    """Contact on one surface: squashed if the particle is round and the softer body."""
     softer = min(surface, particle, key=lambda each: each.H)
     body = E_star, softer.H, softer.nu
     if isinstance(shape, Angular):
@@ -239,7 +239,7 @@ def half_of(law: Any, E_star: float, surface: Material, particle: Material, shap
 
 
 class Squashed(Side):
-    r"""Half of a particle of size 1 that keeps its volume, on a surface that is harder.
+    r"""Half of a soft particle of size 1 that keeps its volume on a harder surface.
 
     .. math:: A = \frac{\min(A_L, \pi/6)}{1-2\delta}, \qquad p = p_L\left\{1 -
         \tfrac{0.92}{2.84}[1-\cos\pi q] + \tfrac{2m}{3\sqrt3\cdot2.84}\tfrac{a}{1-2\delta}\right\}
@@ -253,10 +253,12 @@ class Squashed(Side):
         super().__init__(law, 0.5, E_star, H, nu)
         self.m, self.end = m, 0.5
         self.cap = self.first(self.over_volume)
-        wide = self.first(lambda u: self.at(u)[1] - np.pi / 4)
-        sinks = self.at(max(self.cap, wide))[0] < most
+        wide = self.first(lambda u: self.pressure_and_area(u)[1] - np.pi / 4)
+        sinks = self.pressure_and_area(max(self.cap, wide))[0] < most
         u = max(self.cap, wide)
-        self.end = brentq(lambda u: self.at(u)[0] - most, u, 0.5 - 1e-9) if sinks else u
+        self.end = (
+            brentq(lambda u: self.pressure_and_area(u)[0] - most, u, 0.5 - 1e-9) if sinks else u
+        )
         points = [*(self.omega_1 * np.array(self.law.breakpoints)), self.cap, wide, *self.more()]
         # what is left of the height falls fourfold from one to the next
         points += [0.5 - (0.5 - u) / 4**i for i in range(1, 30)]
@@ -278,7 +280,7 @@ class Squashed(Side):
     def more(self) -> list[float]:
         return []
 
-    def at(self, delta: Numbers) -> tuple[Array, Array]:
+    def pressure_and_area(self, delta: Numbers) -> tuple[Array, Array]:
         """Mean pressure and area."""
         load, *areas = self.free(delta)
         area, t = np.sum(areas, axis=0), 1 - 2 * delta
@@ -291,7 +293,7 @@ class Squashed(Side):
 
     def __call__(self, delta: Numbers) -> Array:
         u = np.minimum(delta, self.end)
-        p, area = self.at(u)
+        p, area = self.pressure_and_area(u)
         areas = np.where(self.free(u)[1:] > 0, area, 0.0)
         areas = np.where(u >= self.cap, np.stack([0 * area, 0 * area, area]), areas)
         return np.stack([p * area, *areas])
@@ -328,7 +330,7 @@ class SquashedOfJG(Squashed):
         first = np.exp(-0.25 * y ** (5 / 12)) * y**1.5
         return F_c * (first + 4 / self.C * H_G * (1 - np.exp(-(y ** (5 / 9)) / 25)) * y) / area
 
-    def at(self, delta: Numbers) -> tuple[Array, Array]:
+    def pressure_and_area(self, delta: Numbers) -> tuple[Array, Array]:
         area, load = self.area(delta), self.free(delta)[0]
         elastic = np.divide(load, area, out=np.zeros_like(area), where=area > 0)
         p = np.where(delta < 1.9 * self.omega_1, elastic, np.maximum(self.bare(delta), self.S_y))
@@ -576,7 +578,7 @@ class Cascade:
             eps = np.maximum(1 - gap / x, 0.0)
             survival = self.survival(x, eps)
             total += number * survival * x**2 * squeezed(self.one, self.two, eps)
-            number = number * (1 - survival) * self.strength.kept * self.strength.ratio**-3
+            number = number * (1 - survival) * self.strength.bearing_share * self.strength.ratio**-3
             number, x = np.where(x > gap, number, 0.0), x * self.strength.ratio
         return total
 
@@ -634,7 +636,7 @@ def integral(f: Callable[..., Array], *edges: Sequence[float]) -> Array:
 
 
 def at_distinct(f: Formula) -> Formula:
-    """f of one variable, asked once for the coordinate that rows of points of a box share."""
+    """Values of f at the distinct coordinates only, for rows of points that share them."""
     values: dict[bytes, Array] = {}
 
     def values_at(v: Array) -> Array:

@@ -12,6 +12,7 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable
 from types import FrameType
+from typing import Self
 
 __all__ = [
     "InvalidValue",
@@ -27,6 +28,45 @@ __all__ = [
 
 class ThirdBodyError(Exception):
     """Base class of every error that this library raises on purpose."""
+
+
+class Advice(str):
+    """Advice in words of Python, with the same advice for the reader of a study file.
+
+    Sentences put together with ``+`` keep both.
+
+    Examples
+    --------
+    >>> text = "use " + Advice("particle.Series", 'particle_law.name = "series"') + ", or no shape"
+    >>> print(text)
+    use particle.Series, or no shape
+    >>> print(in_study(text))
+    use particle_law.name = "series", or no shape
+    """
+
+    study: str
+
+    def __new__(cls, python: str, study: str) -> Self:
+        self = super().__new__(cls, python)
+        self.study = study
+        return self
+
+    def __reduce__(self) -> tuple[type[Advice], tuple[str, str]]:
+        return type(self), (str(self), self.study)
+
+    def __add__(self, other: str) -> Advice:
+        return Advice(str(self) + str(other), self.study + in_study(other))
+
+    def __radd__(self, other: str) -> Advice:
+        return Advice(other + str(self), in_study(other) + self.study)
+
+    def removeprefix(self, prefix: str, /) -> Advice:
+        return Advice(super().removeprefix(prefix), self.study.removeprefix(prefix))
+
+
+def in_study(text: str) -> str:
+    """A sentence in the words of a study file; itself where it names nothing of Python."""
+    return getattr(text, "study", text)
 
 
 class Problem(str):
@@ -84,6 +124,11 @@ class Problem(str):
         """The dotted place, from the outermost name that is known."""
         return ".".join(filter(None, (self.owner, self.path)))
 
+    @property
+    def study(self) -> str:
+        """Its sentence in the words of study files."""
+        return str(self.worded(in_study))
+
     def changed(self, **changes: object) -> Problem:
         """The same mistake with some of its parts changed."""
         return Problem(**{**vars(self), **changes})
@@ -96,11 +141,11 @@ class Problem(str):
     def under(self, owner: str) -> Problem:
         """The same mistake where what it is a part of goes by another name."""
         whole = not self.path and not self.owner
-        return self.changed(owner=owner, rule=f": {self.rule}" if whole else self.rule)
+        return self.changed(owner=owner, rule=": " + self.rule if whole else self.rule)
 
 
 class Note(str):
-    """What an answer leaves open: its sentence, its effect on the answer, and what to do.
+    """A doubt about an answer: its sentence, its effect on the answer, and what to do.
 
     Parameters
     ----------
@@ -123,12 +168,16 @@ class Note(str):
     code: str
     effect: float
     action: str
+    study: str
+    """Its sentence in the words of study files."""
 
     def __new__(
         cls, what: str, *, code: str = "", effect: float = math.nan, action: str = ""
     ) -> Note:
-        self = super().__new__(cls, f"{what}; {action}" if action else what)
+        sentence = what + "; " + action if action else what
+        self = super().__new__(cls, sentence)
         self.code, self.effect, self.action = code, effect, action
+        self.study = in_study(sentence)
         return self
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, object]]:
@@ -144,7 +193,7 @@ NUMBERS = re.compile(r"\d+(\.\d+)?(?= %)|\d+\.\d+(e[+-]\d+)?|\d+e[+-]\d+")
 
 
 def code_of(note: str) -> str:
-    """What a note is about; of a sentence that does not say, the sentence without its numbers.
+    """Code of a note; for a plain sentence, the sentence without its numbers.
 
     >>> code_of(Note("A_t reaches 0.3", code="area")), code_of("12 % of the load")
     ('area', ' % of the load')
@@ -200,7 +249,7 @@ class NoTransition(ThirdBodyError, RuntimeError):
 
 
 class WrongKind(InvalidValue):
-    """Arguments that are not what a signature says; an outer function may know them better."""
+    """Error for arguments that a signature refuses; an outer function may know better names."""
 
 
 class NotCompiled(Exception):
@@ -234,7 +283,7 @@ def tell_of_range(message: str | Warning, kind: type[Warning] = RangeWarning) ->
 
 
 def _is_inside(frame: FrameType) -> bool:
-    """Whether code is this library's, or what Python writes for its classes."""
+    """Whether a frame runs code of this library, or code generated for its dataclasses."""
     code = frame.f_code
     of_dataclass = code.co_filename == "<string>" and code.co_name == "__init__"
     return of_dataclass or code.co_filename.startswith(_HERE) or _DATACLASSES in code.co_filename

@@ -153,7 +153,7 @@ def gaussian_integral(h: ArrayLike, *, n: float) -> Array:
 
 # ---------------------------------------------------------------- exponential heights
 class SummitSum(NamedTuple):
-    """What all summits do together, per nominal area: what the ``exponential_...`` forms give.
+    """Load and area of all summits per nominal area, as the ``exponential_...`` forms give them.
 
     Examples
     --------

@@ -97,7 +97,7 @@ def test_inputs_are_ranked_by_what_each_does_alone(page):
     contact = page.propagation.contact
     ways = {}
     for label in ("roughness.sigma", "particles.areal_density"):
-        ends = [page.propagation.inputs[label].at(q) for q in (0.05, 0.95)]
+        ends = [page.propagation.inputs[label].quantile(q) for q in (0.05, 0.95)]
         loads = [tb.transitions(contact.replace(**{label: end})).F_cr1.value for end in ends]
         assert page.tornado["F_cr1"][label] == pytest.approx(loads, rel=1e-5)
         ways[label] = np.log(loads[1] / loads[0]) ** 2

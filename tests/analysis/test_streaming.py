@@ -118,8 +118,8 @@ def test_latin_hypercube_of_a_hundred_million_costs_its_part_only():
 
 def test_spans():
     u = np.array([0.0, 0.5])
-    assert_allclose(Span(1.0, 3.0).at(u), [1, 2])
-    assert_allclose(Span(1.0, 100.0, "log").at(u), [1, 10])
+    assert_allclose(Span(1.0, 3.0).values_at(u), [1, 2])
+    assert_allclose(Span(1.0, 100.0, "log").values_at(u), [1, 10])
 
 
 # ---------------------------------------------------------------- which states

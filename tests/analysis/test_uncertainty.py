@@ -47,7 +47,9 @@ def draw(inputs, count, seed):
         i if isinstance(i, tb.Uncertain) else tb.Uncertain.uniform(low=i[0], high=i[1])
         for i in inputs.values()
     )
-    return {name: one.at(u[:, j]) for j, (name, one) in enumerate(zip(inputs, known, strict=True))}
+    return {
+        name: one.quantile(u[:, j]) for j, (name, one) in enumerate(zip(inputs, known, strict=True))
+    }
 
 
 # ---------------------------------------------------------------- one input
@@ -62,11 +64,11 @@ def draw(inputs, count, seed):
 )
 def test_distributions_are_those_of_scipy(known, exact):
     u = np.array([1e-6, 0.05, 0.5, 0.8, 0.999])
-    np.testing.assert_allclose(known.at(u), exact.ppf(u), rtol=1e-12)
+    np.testing.assert_allclose(known.quantile(u), exact.ppf(u), rtol=1e-12)
     assert [known.cdf(float(x)) for x in exact.ppf(u)] == pytest.approx(u, rel=1e-9)
     # nothing is drawn beyond a probability of 1e-9
-    assert known.at(0.0) == pytest.approx(exact.ppf(1e-9), rel=1e-9)
-    assert known.at(1.0) == pytest.approx(exact.ppf(1 - 1e-9), rel=1e-9)
+    assert known.quantile(0.0) == pytest.approx(exact.ppf(1e-9), rel=1e-9)
+    assert known.quantile(1.0) == pytest.approx(exact.ppf(1 - 1e-9), rel=1e-9)
 
 
 # ---------------------------------------------------------------- closed forms
@@ -99,7 +101,9 @@ def test_of_one_input_the_bands_are_the_states_at_its_quantiles():
         DUSTY, vary={"roughness.sigma": known}, pressure=5e6, samples=4096, outputs=names
     )
     # both fall while σ rises
-    contacts = [DUSTY.replace(**{"roughness.sigma": known.at(1 - q)}) for q in found.probabilities]
+    contacts = [
+        DUSTY.replace(**{"roughness.sigma": known.quantile(1 - q)}) for q in found.probabilities
+    ]
     exact = {
         "particle_load_share": [tb.solve(c, pressure=5e6).particle_load_share for c in contacts],
         "F_cr1": [tb.transitions(c).F_cr1.value for c in contacts],

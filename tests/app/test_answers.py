@@ -53,7 +53,7 @@ def test_a_force_is_told_in_the_words_of_the_command_line(force, tmp_path):
     assert all("Integrated over" not in each.sentence() for each in first)
     printed, names = StringIO(), {}
     with contextlib.redirect_stdout(printed):
-        exec(to_python(state.answer.study, state.at), names)
+        exec(to_python(state.answer.study, state.operating_load), names)
     assert names["body"] == state.answer.study.body
     assert printed.getvalue().splitlines()[1:] == told
 
@@ -61,7 +61,7 @@ def test_a_force_is_told_in_the_words_of_the_command_line(force, tmp_path):
 def test_a_script_holds_the_film(tmp_path):
     study = tomllib.loads((ROOT / "examples" / "oil_film.toml").read_text())
     state, names = State(study, tmp_path), {}
-    exec(to_python(state.answer.study, state.at), names)
+    exec(to_python(state.answer.study, state.operating_load), names)
     assert names["film"] == state.answer.study.film
     own = state.answer.study.film.stribeck_columns(state.answer.contact)
     assert np.array_equal(names["lubricated"]["mu"], own["mu"], equal_nan=True)
@@ -109,7 +109,7 @@ def test_the_section_shows_no_more_particles_than_a_contact_holds(tmp_path):
 
 def _drawn(study, folder):
     state = State(study, folder)
-    return interface.drawing_of(state.answer, state.at, 0)
+    return interface.drawing_of(state.answer, state.operating_load, 0)
 
 
 # ---------------------------------------------------------------- axes
@@ -130,7 +130,7 @@ def test_axes_of_outputs_show_what_matters(name, tmp_path):
     table = {"friction": {"m_ss": 0.2, "m_sa": 0.3}, "counts": {}}
     state = State(example(name) | {"outputs": table}, tmp_path)
     assert not state.problems
-    made = outputs.output_figures(state.answer, state.at)
+    made = outputs.output_figures(state.answer, state.operating_load)
     made |= {"area": curves.figures(state.answer, "pressure", critical=False)["area"]}
     assert made["friction [1]"]["layout"]["yaxis"]["type"] == "linear"
     for key, drawn in made.items():

@@ -205,9 +205,9 @@ def test_a_link_cannot_read_files_of_this_machine(tmp_path):
 def test_operating_load_stays_inside_the_loads(state):
     inside = state.answer.loads
     state.go(1.0)
-    assert inside[0] <= state.at <= inside[-1]
+    assert inside[0] <= state.operating_load <= inside[-1]
     state.go(float(inside[7]))
-    assert state.at == inside[7]
+    assert state.operating_load == inside[7]
 
 
 @pytest.mark.parametrize("part", [0.0, 0.25, 0.5, 1.0])
@@ -223,7 +223,7 @@ def test_slider_and_load_are_inverse(state, part):
 def test_the_script_gives_the_numbers_of_the_page(file, tmp_path, capsys):
     state = State(tomllib.loads(file.read_text()), tmp_path)
     names = {}
-    script = to_python(state.answer.study, state.at)
+    script = to_python(state.answer.study, state.operating_load)
     exec(script, names)
     written = [line for line in script.splitlines() if not line.startswith("curves")]
     assert max(map(len, written)) <= 100
@@ -630,7 +630,7 @@ def test_figures_of_outputs_name_quantities_and_no_columns(tmp_path):
     state = State(study, tmp_path)
     answer = state.answer
     columns = {c: each for output in answer.contact.outputs for c, each in output.columns.items()}
-    drawn = output_figures(answer, state.at)
+    drawn = output_figures(answer, state.operating_load)
     assert list(drawn) == [
         *("counts [1/m^2]", "counts [N]", "counts [Pa]", "friction [1]", "dents [1/m^2]"),
         "dents [m]",
@@ -948,7 +948,7 @@ def test_a_force_opens_at_its_mean_pressure_and_reaches_the_largest(tmp_path):
     }
     state = State(study, tmp_path)
     mean, largest = check(study).values
-    assert (state.at, state.answer.loads[-1]) == (mean, largest)
+    assert (state.operating_load, state.answer.loads[-1]) == (mean, largest)
     assert len(state.answer.loads) == 200
 
 

@@ -429,7 +429,7 @@ def test_an_address_gives_a_file_for_its_key_alone(key, tmp_path):
     try:
         mine = folders.new() / "part.txt"
         mine.write_bytes(b"1 2 3")
-        right = folders.shelf.put(mine)
+        right = folders.shelf.keep(mine)
         start = Start(None, None, folders)
         name = "../part.txt" if key.startswith("the") else "part.txt"
         query = {"files": f"{name}:{right if key.startswith('the') else key}"}
@@ -450,7 +450,7 @@ def test_a_system_without_links_has_copies(tmp_path, monkeypatch):
     monkeypatch.setattr("os.link", refused)
     (tmp_path / "part.txt").write_bytes(b"1 2 3")
     shelf = Shelf(tmp_path / "shelf")
-    assert shelf.give(shelf.put(tmp_path / "part.txt"), tmp_path / "there.txt")
+    assert shelf.give(shelf.keep(tmp_path / "part.txt"), tmp_path / "there.txt")
     assert (tmp_path / "there.txt").read_bytes() == b"1 2 3"
 
 
@@ -458,8 +458,8 @@ def test_a_key_is_of_this_server_and_of_what_a_file_holds(tmp_path):
     (tmp_path / "one.txt").write_bytes(b"1 2 3")
     (tmp_path / "two.txt").write_bytes(b"1 2 3")
     first, second = Shelf(tmp_path / "a"), Shelf(tmp_path / "b")
-    assert first.put(tmp_path / "one.txt") == first.put(tmp_path / "two.txt")
-    assert first.put(tmp_path / "one.txt") != second.put(tmp_path / "one.txt")
+    assert first.keep(tmp_path / "one.txt") == first.keep(tmp_path / "two.txt")
+    assert first.keep(tmp_path / "one.txt") != second.keep(tmp_path / "one.txt")
 
 
 def test_another_file_of_the_same_name_leaves_the_first_one_to_its_address(tmp_path):
@@ -495,7 +495,7 @@ def test_the_shelf_of_a_server_is_bounded_and_the_oldest_file_goes(tmp_path, mon
     for number in range(4):
         file = tmp_path / f"{number}.txt"
         file.write_bytes(bytes([number]) * 10)
-        keys.append(shelf.put(file))
+        keys.append(shelf.keep(file))
         os.utime(tmp_path / "shelf" / keys[-1], (number, number))
     assert [shelf.give(key, tmp_path / "given.txt") for key in keys] == [False, False, True, True]
     assert (tmp_path / "given.txt").read_bytes() == b"\3" * 10

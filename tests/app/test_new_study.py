@@ -16,7 +16,7 @@ from thirdbody.views import oil_words
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app.examples import EXAMPLES, example
-from thirdbody.app.new_study import FILED, KINDS, OILS, begun, oil_of, told, with_oil
+from thirdbody.app.new_study import FILED, KINDS, OILS, answer_so_far, begun, oil_of, with_oil
 from thirdbody.app.sliders import shifted
 from thirdbody.app.state import Answer, State
 from thirdbody.app.tabs import before_after, error_bars, film, mode_map
@@ -30,7 +30,7 @@ def test_what_the_form_begins_runs(kind, oil):
     study = with_oil(begun(kind), oil)
     assert oil_of(study) == oil
     answer = Answer(check(study))
-    assert told(answer).endswith(".")
+    assert answer_so_far(answer).endswith(".")
     assert answer.contact.two_body == (oil == "clean")
 
 
@@ -52,7 +52,7 @@ def test_the_oil_of_the_film_is_told_as_the_command_tells_it():
     study = begun("ball-bearing", "6205")
     oil = dirty_oil(check(study))
     answer = Answer(check(study))
-    assert told(answer) == oil_words.answer(oil)[0]
+    assert answer_so_far(answer) == oil_words.answer(oil)[0]
     fine = dirty_oil(check(study), filter=read_filter("5=75, 10=1000"))
     shown = film.oil_of(answer, "5=75, 10=1000")
     assert shown.sentences[0] == oil_words.filter_answer(oil, fine)

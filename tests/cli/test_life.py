@@ -92,7 +92,9 @@ def test_what_is_waited_for_ends_it():
     history = run_life(asked).history
     assert history.times[-1] < HOUR
     assert "16" in history.codes[-1]
-    assert f"the oil reaches 16/14/11: the oil has gone from 20/18/15 to {history.codes[-1]}" in told
+    assert (
+        f"the oil reaches 16/14/11: the oil has gone from 20/18/15 to {history.codes[-1]}" in told
+    )
     full = said(run("life", "oil-circuit.toml", *setting("life.until.filter_full=true")))
     assert "return filter is full with 50 g, and is changed: the oil has gone" in full
 
@@ -182,7 +184,9 @@ MISTAKES = [
 @pytest.mark.parametrize(("keys", "words"), MISTAKES)
 def test_mistakes_get_one_sentence_and_nothing_is_written(keys, words):
     before = sorted(Path().iterdir())
-    done = run("life", "oil-circuit.toml", *setting(*keys), "--csv", "rows.csv", "--figure", "a.png")
+    done = run(
+        "life", "oil-circuit.toml", *setting(*keys), "--csv", "rows.csv", "--figure", "a.png"
+    )
     assert done.exit_code == 2, done.stdout
     assert words in " ".join(done.stderr.split())
     assert "Traceback" not in done.stderr

@@ -1,15 +1,15 @@
 """Messages of the command line: in words of the study file, as wide as the terminal."""
 
-import ast
+import copy
 import json
+import pickle
 import re
 from pathlib import Path
 
 import pytest
 
-import thirdbody
 from thirdbody.cli.streams import warn
-from thirdbody.quantities.study_words import ADVICE, in_study_words
+from thirdbody.errors import Advice, InvalidValue, Note, Problem, in_study
 
 from .test_cli import DUSTY, run
 
@@ -44,29 +44,25 @@ def test_advice_is_in_the_words_of_the_study_file(setting, said):
     assert not CALL.search(done.stderr), done.stderr
 
 
-def test_every_advice_is_what_the_library_says():
-    """A sentence that was put otherwise since would reach a user in Python again."""
-    code = " ".join(_texts(Path(thirdbody.__file__).parent))
-    assert [python for python in ADVICE if python not in code] == []
-
-
-def _texts(root):
-    """Every text of the code but the table itself, formatted ones with their gaps."""
-    for file in sorted(root.rglob("*.py")):
-        if file.name == "study_words.py":
-            continue
-        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
-            if isinstance(node, ast.JoinedStr):
-                yield "".join(
-                    each.value if isinstance(each, ast.Constant) else "{}" for each in node.values
-                )
-            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-                yield node.value
-
-
-def test_a_sentence_without_python_stays():
-    sentence = "A_t reaches 0.2 at chi = H/(E* g) = 0.31 (g: RMS slope)"
-    assert in_study_words(sentence) == sentence
+def test_advice_keeps_both_wordings_wherever_it_goes():
+    """In sentences, mistakes, notes, warnings, and in what another process is sent."""
+    said = "use " + Advice("Hermite()", '"hermite"') + ", or remove law"
+    assert (said, in_study(said)) == (
+        "use Hermite(), or remove law",
+        'use "hermite", or remove law',
+    )
+    assert in_study("plain") == "plain"
+    for made, start in (
+        (Problem("law", said, "'zmc'", owner="Series"), "Series.law = 'zmc' "),
+        (Problem("law", "is not one", hint=said), "law is not one; "),
+        (Problem("", said).under("particles"), "particles: "),
+        (InvalidValue(said).problems[0], ""),
+        (Note("A_t reaches 0.3", action=said), "A_t reaches 0.3; "),
+        (Note("A_t reaches 0.3: " + said, effect=0.1), "A_t reaches 0.3: "),
+    ):
+        for each in (made, pickle.loads(pickle.dumps(made)), copy.copy(made)):
+            assert str(each) == start + said
+            assert in_study(each) == start + in_study(said)
 
 
 @pytest.mark.parametrize("width", [40, 80, 132])
@@ -124,12 +120,12 @@ def test_a_contact_of_which_most_meet_no_particle_is_not_said_to_rest_on_particl
     assert data["states"]["mode"] == ["p-s"]
     assert data["body"]["forces"][0]["particles_held"] == pytest.approx(0.01)
     words = " ".join(run("solve", study).stdout.split())
-    *_, last = words.split("of the nominal area")[0].split("At 100 kPa")
-    assert "one contact in 100 meets a particle, and the others are as without particles" in last
-    assert "p-s" not in last
-    assert "of a wide surface" in last
+    first = words.split("F* pressure")[0]
+    assert "one contact in 100 meets a particle, and the others are as without particles" in first
+    assert "p-s" not in first
+    assert "of a wide surface" in first
     rows = run("solve", study).stdout.splitlines()
-    (row,) = (line for line in rows if "100 kPa" in line and "mode" not in line and "%" in line)
+    (row,) = (line for line in rows if "100 kPa" in line and line.endswith(" rare "))
     assert row.split()[-1] == "rare"
     assert "rare: less than one particle lies in a contact" in words
     many = run("solve", study, "--set", "particles.areal_density=3e10").stdout

@@ -31,7 +31,7 @@ FRAGMENTS = ("gone", "footprint", "all")
 def average_of(strength, sizes, *, one=ONE, material=QUARTZ):
     """The average over sizes, and the scale of its lengths [m]."""
     scale, shape = sizes.standardised()
-    return BrokenAverage(one, shape, Breakage.of(strength, material, scale)), scale
+    return BrokenAverage(one, shape, Breakage.of_material(strength, material, scale)), scale
 
 
 def expected_load(x, gap, strength, one=ONE):
@@ -65,7 +65,7 @@ def library(case):
     strength = STRENGTH.replace(fragments=fragments)
     if q.startswith("survival"):
         eps = np.array([1 - inputs["g"] / inputs["x"]])
-        law = Breakage.of(strength, QUARTZ, inputs["x"])
+        law = Breakage.of_material(strength, QUARTZ, inputs["x"])
         return law.survival(np.ones(1), tension(ONE, QUARTZ.nu, "sphere")(eps))[0]
     if q.startswith("expected"):
         return expected_load(inputs["x"], inputs["g"], strength)
@@ -197,13 +197,13 @@ def test_what_is_gone_leaves_the_survivors():
     x, gone = 20e-6, STRENGTH.replace(fragments="gone")
     for eps in (0.03, 0.1, 0.4, 0.9):
         whole = x**2 * ONE.at(np.array([eps])).load[0]
-        law = Breakage.of(gone, QUARTZ, x)
+        law = Breakage.of_material(gone, QUARTZ, x)
         share = law.survival(np.ones(1), tension(ONE, QUARTZ.nu, "sphere")(np.array([eps])))[0]
         assert expected_load(x, x * (1 - eps), gone) == pytest.approx(share * whole, rel=1e-10)
 
 
 def test_survival_at_the_characteristic_and_the_median_strength():
-    law = Breakage.of(STRENGTH, QUARTZ, 1e-5)
+    law = Breakage.of_material(STRENGTH, QUARTZ, 1e-5)
     sigma = STRENGTH.of_size(1e-5)
     stress = np.array([sigma, sigma * math.log(2) ** (1 / 3)])
     np.testing.assert_allclose(law.survival(np.ones(2), stress), [1 / math.e, 0.5], rtol=1e-14)
@@ -311,11 +311,11 @@ def test_what_pieces_bear_is_bounded(seat):
 def test_crush_embed_size():
     hard = tb.Material(E=206e9, nu=0.29, H=7.4e9)
     one = tb.particle.Series(deep="off").one(surfaces=tb.MaterialPair(hard, hard), particle=QUARTZ)
-    x = 1e-3 * crush_embed_size(one, Breakage.of(STRENGTH, QUARTZ, 1e-3))
+    x = 1e-3 * crush_embed_size(one, Breakage.of_material(STRENGTH, QUARTZ, 1e-3))
     # g = 0.211 at the Poisson ratio of quartz
     assert x == pytest.approx(1e-3 * (0.211 * np.pi * 7.4e9 / 4 / 67e6) ** (-1 / 0.55), rel=0.12)
     swallowed = np.array([2.0])
-    law = Breakage.of(STRENGTH, QUARTZ, x)
+    law = Breakage.of_material(STRENGTH, QUARTZ, x)
     share = law.survival(np.ones(1), tension(one, QUARTZ.nu, "sphere")(swallowed))
     assert share[0] == pytest.approx(1 / math.e, rel=1e-9)
 
@@ -373,7 +373,7 @@ def closing(rng, sizes, gaps, strength):
     grain, x = np.arange(len(sizes)), np.array(sizes)
     draw = lambda x: strength.of_size(x) * rng.exponential(size=len(x)) ** (1 / strength.m)  # noqa: E731
     limit = np.where(x <= strength.x_c, np.inf, draw(x))
-    count = round(strength.kept / strength.ratio**3)
+    count = round(strength.bearing_share / strength.ratio**3)
     loads = np.zeros((len(gaps), len(sizes)))
     for i, gap in enumerate(gaps):
         while True:

@@ -123,7 +123,7 @@ def test_load_of_particles_on_their_ground():
     x = case.particles.diameter.mean
     for h in (0.5, 1.3, 2.4):
         d = np.array([h * SIGMA - bound.mean_plane])
-        u = ground.at(bound.asperities.h(d))[0, :-1]
+        u = ground.patch_moments(bound.asperities.h(d))[0, :-1]
 
         def load(zeta, u=u, h=h):
             gap = SIGMA * (h - zeta + ground_at(zeta, u))

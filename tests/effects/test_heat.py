@@ -3,6 +3,7 @@
 import json
 import math
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from scipy import integrate, optimize, special
 
 from thirdbody.effects.single import heat
 
-BOTH = [(flux, kind) for flux in heat.FLUXES for kind in heat.KINDS]
+BOTH = [(flux, kind) for flux in get_args(heat.Flux) for kind in get_args(heat.Kind)]
 SHARED = Path(__file__).parents[3] / "shared" / "reference" / "outputs.json"
 
 
@@ -85,7 +86,7 @@ def test_limits_of_a_moving_source(flux, kind, rest, fast):
 
 @pytest.mark.spread(2)
 @pytest.mark.parametrize("Pe", [0.3, 2.0, 8.0])
-@pytest.mark.parametrize("flux", heat.FLUXES)
+@pytest.mark.parametrize("flux", get_args(heat.Flux))
 def test_moving_source_against_quadrature(Pe, flux):
     error = heat.moving_rise(Pe, kind="max", flux=flux) / largest(Pe, flux) - 1
     assert -0.012 < error < 0.0235
@@ -168,7 +169,7 @@ def legendre(a, kind, terms=20_000):
     return 4 * np.sum(((2 * n + 1) / (4 * math.pi * n) * over_cap * there)[::2])
 
 
-@pytest.mark.parametrize("kind", heat.KINDS)
+@pytest.mark.parametrize("kind", get_args(heat.Kind))
 def test_sphere_against_the_legendre_series(kind):
     for a, worst in ((0.1, 2.4e-3), (0.3, 2.2e-2), (0.5, 6.8e-2)):
         found = heat.sphere_resistance(a, a_2=a, r=1.0, k=1.0, ends=("uniform", kind))

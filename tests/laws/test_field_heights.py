@@ -134,7 +134,7 @@ def test_particles_lie_on_the_heights_of_the_map():
     norm = np.array([math.sqrt(math.factorial(n)) for n in range(13)])
     for h in (0.6, 1.4):
         d = np.array([h * SIGMA - bound.mean_plane])
-        u = ground.at(bound.asperities.h(d))[0, :-1]
+        u = ground.patch_moments(bound.asperities.h(d))[0, :-1]
 
         def carried(t, u=u, h=h):
             rise = np.polynomial.hermite_e.hermeval(min(max(t, -4.0), 4.0), u / norm)

@@ -3,10 +3,12 @@
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import thirdbody
 from thirdbody import InvalidValue
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves, claims, reproduce, score, study
 from thirdbody.papers.horng2022.measures import (
@@ -24,6 +26,8 @@ EXPECTED_AS_THE_PAPER_BOOKS = {"series-offset": 56, "series-plane": 33, "series-
 """The same search took the area under every particle as F_sa/H_s, also in the consistent model."""
 OWN_AREAS = {"series-offset": 49, "series-plane": 20, "series-rough": 25}
 """With the areas of the consistent model itself."""
+
+BOOK = json.loads((Path(thirdbody.__file__).parent / "data" / "verdicts.json").read_text("utf-8"))
 
 PUBLISHED_FAILS = {
     *("F3-04", "F3-12raw", "F3-15", "F4-02", "F4-03", "F5-06", "F6-03", "F8-03", "F9-03"),
@@ -90,10 +94,10 @@ def test_loads_named_in_the_claims_lie_on_the_grid():
 )
 def test_rules(rule, good, bad):
     claim = Claim("T", "", "", "", "", {}, "", rule)
-    assert all(claim.judge(Measurement.of(value)).word == "pass" for value in good)
-    assert all(claim.judge(Measurement.of(value)).word == "fail" for value in bad)
+    assert all(claim.judge(Measurement.from_values(value)).word == "pass" for value in good)
+    assert all(claim.judge(Measurement.from_values(value)).word == "fail" for value in bad)
     assert claim.judge(Measurement.absent("none")).word == "not reproduced"
-    assert claim.judge(Measurement.of(float("inf"))).word == "not reproduced"
+    assert claim.judge(Measurement.from_values(float("inf"))).word == "not reproduced"
 
 
 # ------------------------------------------------------------------ what a curve says
@@ -185,6 +189,12 @@ def test_totals_of_the_consistent_model_as_the_paper_books_areas(name):
 @pytest.mark.parametrize("name", OWN_AREAS)
 def test_totals_of_the_consistent_model(verdicts, name):
     assert abs(total(verdicts[name]) - OWN_AREAS[name]) <= 1
+
+
+def test_totals_that_the_book_states(verdicts):
+    stored = dict(BOOK["horng2022"])
+    assert stored.pop("statements") == len(claims())
+    assert stored == {name: total(scored) for name, scored in verdicts.items()}
 
 
 def test_the_best_reading_fails_what_it_is_known_to_fail(verdicts):

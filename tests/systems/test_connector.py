@@ -217,3 +217,12 @@ def test_particles_that_break_are_refused():
 def test_loads_that_are_none(load):
     with pytest.raises(tb.InvalidValue, match="load must be finite"):
         plug(dust(1.0)).bounds(load)
+
+
+def test_a_curve_over_the_force_is_that_of_single_forces():
+    """Of many particles each takes little: steps of the largest force are too long for small ones."""
+    fine = tb.LogNormal(median=1e-6, gsd=1.2)
+    many = plug(dust(300, fine))
+    forces = np.geomspace(0.3, 6.0, 6)
+    singles = [many.failure(float(force)) for force in forces]
+    np.testing.assert_allclose(many.failures(forces), singles, atol=1e-3)

@@ -328,7 +328,7 @@ def test_particles_of_one_size_break_in_the_film(fragments):
     met = tension(one, QUARTZ.nu, "sphere")
     number, arrived, y, whole = 0.0, 1.0, x, []
     while y > film.film and arrived > 0:
-        stress = float(met.met(np.array([1 - film.film / y]))[0])
+        stress = float(met.greatest_so_far(np.array([1 - film.film / y]))[0])
         survival = 1.0 if y <= strength.x_c else math.exp(-((stress / strength.of_size(y)) ** 3))
         whole.append((y, arrived * survival))
         arrived *= kept[fragments] * 8 * (1 - survival)

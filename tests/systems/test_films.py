@@ -134,10 +134,10 @@ def test_round_and_line_contacts():
 def test_viscosity_starts_with_the_slope_alpha(law):
     oil = films.Oil(eta=0.03, alpha=1.8e-8, viscosity=law)
     p = 1e3
-    slope = math.log(oil.at(p) / oil.at(0.0)) / p
+    slope = math.log(oil.at_pressure(p) / oil.at_pressure(0.0)) / p
     assert slope == pytest.approx(1.8e-8, rel=1e-4)
     # an oil ends as a glass, whatever the pressure
-    assert films.Oil(eta=0.03, alpha=1.8e-8, viscosity=law).at(1e14) == pytest.approx(1e12)
+    assert films.Oil(eta=0.03, alpha=1.8e-8, viscosity=law).at_pressure(1e14) == pytest.approx(1e12)
 
 
 def test_shear_stress():

@@ -218,7 +218,7 @@ def test_traction_parts():
     solids = state.solid_share
     np.testing.assert_allclose(state.mu_ss + state.mu_sa, mu_s * solids, rtol=1e-10, atol=1e-15)
     rate = 0.1 * state.speed / state.h_T
-    stress = 5e6 * np.arcsinh(RUBS.at(state.pressure * state.film_share) * rate / 5e6)
+    stress = 5e6 * np.arcsinh(RUBS.at_pressure(state.pressure * state.film_share) * rate / 5e6)
     expected = (1 - state.A_t) * stress / state.pressure
     np.testing.assert_allclose(state.mu_film, expected, rtol=1e-13)
     assert np.all(np.diff(state.mu_ss) < 0)

@@ -13,12 +13,12 @@ from random_studies import draw
 
 import thirdbody as tb
 from thirdbody.analysis.inputs import words_of
-from thirdbody.cli.commands.solve import summary
 from thirdbody.equilibrium.modes import EPS_1, EPS_2
 from thirdbody.quantities.say import number, percent, signed, value_of
 from thirdbody.study import check
 from thirdbody.views.report import report
 from thirdbody.views.report.sentences import ranked_inputs
+from thirdbody.views.state_words import answer
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 NUMBER = r"[−+]?\d[\d.]*(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
@@ -303,24 +303,39 @@ class Held:
         assert finite == sorted(finite, reverse=True)
         assert math.isfinite(sizes[0])
 
-    def summary(self):
-        """What `solve` prints below its tables: the same states in one line."""
-        line = summary(self.result)
-        gap = rf"separation h = {AMOUNT} \(d = (?P<d>{AMOUNT}), (?P<ratio>{NUMBER}) sigma\)"
-        at = rf"At {LOAD} {CARRIES}; {gap}(?:, {AREA.replace(' is', '')})?\. ?"
-        rest = line
-        ends = list(dict.fromkeys([self.known[0], self.known[-1]]))
-        for i in ends:
-            told = re.match(at, rest)
-            assert told, rest
-            rest = rest[told.end() :]
-            assert told["p"] == value_of(self.states["pressure"][i], "Pa")
-            assert told["d"] == value_of(self.states["d"][i], "m")
-            assert close(told["ratio"], self.states["d_star"][i])
-            self.carries(told, i)
-        assert bool(rest) == (len(ends) == 2 and not self.study.contact.two_body)
-        if rest:
-            assert PATH.fullmatch(rest), rest
+    def answer(self):
+        """What `solve` prints above its tables: the same states in one or two sentences."""
+        first, *others = answer(self.result)
+        ends = [self.known[0], self.known[-1]]
+        if ends[0] == ends[1]:
+            gap = rf"separation h = {AMOUNT} \(d = (?P<d>{AMOUNT}), (?P<ratio>{NUMBER}) sigma\)"
+            told = re.fullmatch(
+                rf"At {LOAD} {CARRIES}; {gap}(?:, {AREA.replace(' is', '')})?\.", first
+            )
+            assert told, first
+            assert not others
+            assert told["p"] == value_of(self.states["pressure"][ends[0]], "Pa")
+            assert told["d"] == value_of(self.states["d"][ends[0]], "m")
+            assert close(told["ratio"], self.states["d_star"][ends[0]])
+            self.carries(told, ends[0])
+            return
+
+        def both(name, unit):
+            said = [value_of(self.states[name][i], unit) if unit else percent(self.states[name][i])
+                    for i in ends]  # fmt: skip
+            return " to ".join(dict.fromkeys(said))
+
+        (second,) = others
+        assert first.startswith(f"From {both('pressure', 'Pa')} ")
+        apart = f"separation h goes from {both('h', 'm')}, and the real contact area is "
+        assert second.endswith(f"{apart}{both('A_t', '')} of the nominal one.")
+        if self.study.contact.two_body:
+            assert "there are no particles" in first
+            return
+        assert f"particles carry {both('particle_load_share', '')} of the load" in first
+        modes = [self.states["mode"][i] or "no contact" for i in self.known]
+        path = [m for k, m in enumerate(modes) if not k or m != modes[k - 1]]
+        assert " → ".join(path) in second or path == ["no contact"]
 
 
 QUICK = (1, 2, 4)
@@ -336,7 +351,7 @@ def held(seed, index):
             return False
         made.all()
         made.ranking()
-        made.summary()
+        made.answer()
     return True
 
 

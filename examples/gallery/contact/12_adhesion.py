@@ -21,10 +21,10 @@ for sigma in (1e-6, 1.5e-6, 2e-6):  # m
         roughness=tb.Roughness(sigma=sigma, R=100e-6),
         asperity_law=tb.asperity.JKR(w=0.05, unloading=True),  # J/m²
     )
-    d = np.linspace(0.5, 4, 300) * sigma
+    held, at = tb.pull_off(contact)
+    d = np.linspace(min(0.5 * sigma, at), 4 * sigma, 300)
     pressure = np.asarray(tb.solve(contact, d=d).pressure)
     ax.plot(d / sigma, pressure / 1e3, label=f"σ = {sigma * 1e6:g} µm")
-    held, at = tb.pull_off(contact)
     ax.plot(at / sigma, -held / 1e3, "k.")
     tension.append(held)
 ax.axhline(0, color="0.5", linewidth=0.8)

@@ -15,6 +15,6 @@ figures = [draw(PANELS[name](curves)) for name in ("4a", "4b")]
 # %%
 # Particles of 25 nm at the largest load of the paper, F* = 2.4e-4.
 fine = curves("SiO2", 100, 25)
-share = fine.at(2.4e-4, fine.A_sa / fine.A_t)
+share = fine.value_at(2.4e-4, fine.A_sa / fine.A_t)
 print(f"25 nm silica has {share:.4%} of the area")
 assert abs(share - 2.42e-5) < 2e-6

@@ -18,7 +18,7 @@ figure = draw(PANELS["5"](curves))
 gap = {}
 for sigma in (50, 500):
     fine, coarse = (curves("SiO2", sigma, x_a) for x_a in (25, 1000))
-    gap[sigma] = fine.at(1e-5, fine.A_t) - coarse.at(1e-5, coarse.A_t)
+    gap[sigma] = fine.value_at(1e-5, fine.A_t) - coarse.value_at(1e-5, coarse.A_t)
 ratio = gap[50] / gap[500]
 print(f"the gap at 50 nm is {ratio:.2f} times that at 500 nm")
 assert abs(ratio - 2.195) < 0.005

@@ -15,6 +15,6 @@ figures = [draw(PANELS[name](curves)) for name in ("12a", "12b")]
 # %%
 # d* of 500 nm silica where the paper ends contact by particles alone, F* = 7e-6; it reads 8.52.
 curve = curves("SiO2", 100, 500)
-separation = curve.at(7e-6, curve.d_star)
+separation = curve.value_at(7e-6, curve.d_star)
 print(f"d* = {separation:.2f}")
 assert abs(separation - 8.728) < 0.01

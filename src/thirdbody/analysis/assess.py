@@ -20,7 +20,7 @@ from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import varied
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import Stages, counted, solving
 from ..quantities.say import percent, value_of
@@ -40,9 +40,10 @@ from .assessment import (
     unit_of,
 )
 from .attempts import columns_tried
+from .differences import QUICK
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
-from .sensitivity import sensitivity
+from .sensitivity import moves, sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
 from .uncertainty.propagation import Propagation, certain, propagate, swing
 from .uncertainty.samples import (
@@ -266,7 +267,7 @@ class _Work:
         contact, inputs = carrying(contact, drawn.points(points_of(few, len(vary), 0, 0)))
         loads = inputs.pop(load, np.full(few, held[0]))
         seconds = math.inf
-        for _ in range(2 if alone else 3):  # by the first the engine may be loaded
+        for _ in range(2):  # by the first the engine may be loaded
             start = time.monotonic()
             try:
                 if not alone:
@@ -321,7 +322,7 @@ def _own_state(contact: Contact, load: str, value: float) -> _Own | NoEquilibriu
             state = solve(contact, **as_load(load, value))
         except NoEquilibrium as error:
             return error
-    told = dict.fromkeys(str(item.message) for item in heard)
+    told = dict.fromkeys(note_of(item.message) for item in heard)
     notes = [f"Warning: {text}." for text in told]
     return _Own(str(state.mode), notes + about_fragments(contact, as_load(load, value)))
 
@@ -456,13 +457,12 @@ def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
         return out
 
     def slopes(some: list[str]) -> dict[str, float]:
-        quick = costly(found.contact, some)
-        of = sensitivity(found.contact, of=decisive, to=some, quick=quick)
+        of = sensitivity(found.contact, of=decisive, to=some, quick=True)
         found_here = of.elasticity[decisive]
         return {label: float(found_here[label]) for label in some}
 
     try:
-        return slopes(labels)
+        return out | slopes([label for label in labels if moves(found.contact, label, QUICK)])
     except InvalidValue:  # one of them has none
         for label in labels:
             with suppress(InvalidValue):
@@ -490,7 +490,7 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tupl
     steps, stops = _departures(pages, every)
 
     def alone(way: Way) -> bool:
-        start = {name: float(v) for name, v in every[way][0].at([steps[way][0]]).items()}
+        start = {name: float(v) for name, v in every[way][0].moved_numbers([steps[way][0]]).items()}
         return costly(varied(one.contact, start), start)
 
     halved = {way for way in steps if alone(way)}
@@ -551,11 +551,11 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int
     if start > 0:
         values = start * np.geomspace(1.0, FAR**side, COARSE)
     else:
-        ends = np.array([known.at(0.0), known.at(1.0)])
+        ends = np.array([known.quantile(0.0), known.quantile(1.0)])
         values = np.linspace(start, start + side * (np.ptp(ends) + np.abs(ends).max()), COARSE)
 
     def fits(value: float) -> bool:
-        at = moved.at((value - moved.values[0]) / moved.scales[0])
+        at = moved.numbers_at((value - moved.values[0]) / moved.scales[0])
         return all(
             problem_with(declared(contact, name), float(v)) is None for name, v in at.items()
         )
@@ -586,7 +586,7 @@ def _departures(
     pieces = [slice(*pair) for pair in itertools.pairwise(ends.tolist())]
     vary: dict[str, Array] = {}
     for (drawn, values), piece in zip(ways.values(), pieces, strict=True):
-        for name, moved in drawn.at([values]).items():
+        for name, moved in drawn.moved_numbers([values]).items():
             vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = moved
     loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
 

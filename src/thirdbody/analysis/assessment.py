@@ -287,7 +287,7 @@ class Assessment:
                 (
                     self._words(label),
                     value_of(value, unit),
-                    *(value_of(known.at(end), unit) for end in (0.05, 0.95)),
+                    *(value_of(known.quantile(end), unit) for end in (0.05, 0.95)),
                     *(_amount(end, self.decisive) for end in (low, high)),
                     percent(part, least=1e-3),
                     number(0.0 if abs(slope) < 1e-4 else slope, 3),

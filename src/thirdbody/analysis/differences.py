@@ -255,7 +255,7 @@ class Places:
         d = self.d[:, None, None] + paths[..., None] * t
         changes: dict[str, Array] = {}
         for j, each in enumerate(moved):
-            for name, values in each.at(t[j]).items():
+            for name, values in each.numbers_at(t[j]).items():
                 start = each.values[each.names.index(name)]
                 changes.setdefault(name, np.full(d.shape, start))[:, j] = values
         return self.values(d, changes)

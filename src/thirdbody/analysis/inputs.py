@@ -70,7 +70,7 @@ class Input(NamedTuple):
     values: tuple[float, ...]
     scales: tuple[float, ...]
 
-    def at(self, t: Any) -> dict[str, Any]:
+    def numbers_at(self, t: Any) -> dict[str, Any]:
         parts = zip(self.names, self.values, self.scales, strict=True)
         return {name: value + scale * t for name, value, scale in parts}
 
@@ -108,7 +108,7 @@ def _scale(contact: Contact, name: str, value: float, where: str) -> float:
 def declared(contact: Contact, name: str) -> dict[str, Any]:
     """Symbol, unit and range of an input."""
     path, _, last = name.rpartition(".")
-    owner = contact.part(path)
+    owner = contact.value_at(path)
     (about,) = (i.metadata["quantity"] for i in dataclasses.fields(owner) if i.name == last)
     return about
 
@@ -163,7 +163,7 @@ def _words_and_owner(contact: Contact, name: str) -> tuple[str, str]:
         return name, ""
     first, _, place = name.partition(".")
     if first == "particles" and (number := place.partition(".")[0]).isdecimal():
-        part = contact.part(f"particles.{number}")
+        part = contact.value_at(f"particles.{number}")
         called = part.name or part.material.name or f"population {int(number) + 1}"
         law = "law of " if place.partition(".")[2].startswith("law.") else ""
         return meaning, f"of {law}{called}"
@@ -179,7 +179,7 @@ def _no_input(contact: Contact, name: str, known: Iterable[str], where: str) -> 
         other = "eta_R_sigma" if name.endswith("eta") else "eta"
         hint = f"the density follows from 'roughness.{other}', use that"
         return Problem(place, "is not given", hint=hint)
-    if contact.part(name) is None:
+    if contact.value_at(name) is None:
         hint = "vary those, or give it a value"
         return Problem(place, "is None: the contact finds it from its other inputs", hint=hint)
     return Problem(place, "is not a number that could change a little")
@@ -203,7 +203,7 @@ def _room(contact: Contact, moved: Input, step: float, reach: int = FULL_REACH) 
     for offsets in places_of(reach):
         try:
             for end in (offsets[0], offsets[-1]):
-                varied(contact, moved.at(float(step * end)))
+                varied(contact, moved.numbers_at(float(step * end)))
         except InvalidValue as refused:
             why = why or str(refused)
         else:

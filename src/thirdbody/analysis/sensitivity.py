@@ -191,15 +191,17 @@ class Sensitivity(Record):
             raise InvalidValue(*problems)
 
         def one(of: str, i: int | None) -> Any:
-            def at(value: Any) -> float:
+            def as_float(value: Any) -> float:
                 return float(value if i is None or np.ndim(value) == 0 else value[i])
 
-            slopes = [(at(self.derivative[of][label]), given) for label, given in vary.items()]
+            slopes = [
+                (as_float(self.derivative[of][label]), given) for label, given in vary.items()
+            ]
             if unknown := [label for label, (slope, _) in zip(vary, slopes, strict=True)
                            if not math.isfinite(slope)]:  # fmt: skip
                 told = self.status[of][unknown[0]]
                 raise InvalidValue(f"{of} has no slope to {unknown[0]}: {told}")
-            return shifted(at(self.value[of]), slopes)
+            return shifted(as_float(self.value[of]), slopes)
 
         return {
             of: one(of, None) if np.ndim(value) == 0 else [one(of, i) for i in range(len(value))]
@@ -236,13 +238,13 @@ def _default_inputs(contact: Contact) -> list[str]:
         else:
             key = name
         groups.setdefault(key, []).append(name)
-    return [label for names in groups.values() if _moves(contact, label := "+".join(names))]
+    return [label for names in groups.values() if moves(contact, label := "+".join(names))]
 
 
-def _moves(contact: Contact, label: str) -> bool:
+def moves(contact: Contact, label: str, rule: Rule = FULL) -> bool:
     """Whether an input may change: not so the height of a seat that has none."""
     try:
-        _room(contact, input_of(contact, label, TO), FULL.steps[0])
+        _room(contact, input_of(contact, label, TO), rule.steps[0], rule.reach)
     except InvalidValue:
         return False
     return True

@@ -14,7 +14,7 @@ from nicegui import ui
 from .state import State
 from .text import LONGEST_LINK, to_link
 from .uploads import harmless
-from .widgets import put
+from .widgets import set_attributes
 
 __all__ = ["FOLLOW", "TRAVELLED", "Address", "files_in", "query_of", "surface_in"]
 
@@ -92,7 +92,9 @@ class Address:
     def __init__(self, state: State) -> None:
         self.state = state
         self.later: asyncio.TimerHandle | None = None
-        self.mark = put(ui.element("div").classes("hidden"), {"data-step": "0", "data-address": ""})
+        self.mark = set_attributes(
+            ui.element("div").classes("hidden"), {"data-step": "0", "data-address": ""}
+        )
         self.told = self._now()
         self.tabs = 0
         """How often the tab was changed."""
@@ -125,4 +127,4 @@ class Address:
         self.told = now
         query = "" if self._too_long() else f"{query_of(self.state, at)}&"
         step = str(self.state.steps + self.tabs)
-        put(self.mark, {"data-step": step, "data-address": f"?{query}tab={tab}"})
+        set_attributes(self.mark, {"data-step": step, "data-address": f"?{query}tab={tab}"})

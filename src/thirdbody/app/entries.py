@@ -15,7 +15,7 @@ from ..quantities.say import number, value_of
 from .fields import VARIANTS, Field, fields_of, known_keys, options_of, text_of, value_from
 from .state import State
 from .text import from_toml, to_toml, with_micro
-from .widgets import put
+from .widgets import set_attributes
 
 __all__ = ["Entries", "Place", "about_of", "dotted"]
 
@@ -125,8 +125,8 @@ class Entries:
         )
         entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
         name = dotted(place)
-        put(entry.props("dense debounce=350"), {"hint": with_micro(field.about)})
-        put(entry, {"aria-label": name, "data-path": name})
+        set_attributes(entry.props("dense debounce=350"), {"hint": with_micro(field.about)})
+        set_attributes(entry, {"aria-label": name, "data-path": name})
         entry.on_value_change(lambda event: set_to(read(event.value or "")))
         self.shown[name] = Entry(entry, read, show)
         return entry
@@ -157,7 +157,7 @@ class Entries:
 
         entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
         entry.props("outlined autogrow debounce=500")
-        put(entry, {"data-path": name, "aria-label": f"[{name}]"})
+        set_attributes(entry, {"data-path": name, "aria-label": f"[{name}]"})
         entry.classes("w-full code").on_value_change(changed)
         keys = known_keys(self.state.study, name).get(name, {})
         ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
@@ -184,9 +184,11 @@ class Entries:
             now = text_of(now)  # a mistake, which stands there as it is written
         known = options if now in options else {now: now, **options}
         menu = ui.select(known, value=now, label=label, on_change=changed)
-        put(menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)})
+        set_attributes(
+            menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)}
+        )
         if place is not None:
-            put(menu, {"data-path": dotted(place)})
+            set_attributes(menu, {"data-path": dotted(place)})
             self.shown[dotted(place)] = Entry(menu)
         return menu
 

@@ -57,7 +57,7 @@ class Shelf:
         self.path = path
         self.secret = secrets.token_bytes(32)
 
-    def put(self, file: Path) -> str:
+    def keep(self, file: Path) -> str:
         """Keep what a file holds; its key."""
         key = hmac.new(self.secret, file.read_bytes(), "sha256").hexdigest()
         self.path.mkdir(mode=0o700, exist_ok=True)

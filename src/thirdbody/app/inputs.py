@@ -23,7 +23,7 @@ from .fields import VARIANTS, Field, fields_of, number_field, text_of, value_fro
 from .particle_inputs import ParticleInputs
 from .text import with_micro
 from .uploads import take
-from .widgets import put, upload
+from .widgets import set_attributes, upload
 
 __all__ = ["FORMED", "Inputs"]
 
@@ -260,7 +260,7 @@ class Inputs(ParticleInputs):
         if kind == "force":
             one: Any = LOADS_BEGUN[kind]
         else:
-            one = self.state.at if self.state.answer is not None else 1e-5
+            one = self.state.operating_load if self.state.answer is not None else 1e-5
         single = ui.button("One value", on_click=lambda: self.change("load", {kind: one}))
         single.props("flat dense")
 
@@ -285,7 +285,7 @@ class Inputs(ParticleInputs):
             box = ui.switch(
                 str(getattr(kind, "title", name)), value=self.state.get(*place) is not None
             )
-            put(box, {"data-path": dotted(place)})
+            set_attributes(box, {"data-path": dotted(place)})
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
 
     def output_numbers(self) -> None:
@@ -341,7 +341,7 @@ class Inputs(ParticleInputs):
                 drop = ui.button(
                     icon="delete", on_click=lambda _, k=label: self._set_uncertainty(k, None)
                 )
-                put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
+                set_attributes(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
             "uniform": "between two values",
             "log-uniform": "between two values, over decades",

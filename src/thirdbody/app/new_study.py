@@ -25,7 +25,7 @@ from .tabs.film import oil_of as oil_of_film
 from .tabs.interface import at_once
 from .text import with_micro
 from .verdict import sentence_of
-from .widgets import put
+from .widgets import set_attributes
 
 __all__ = ["KINDS", "OILS", "NewStudy", "begun", "with_oil"]
 
@@ -139,7 +139,7 @@ def with_oil(study: dict[str, object], word: str) -> dict[str, object]:
     return rest | {"particles": copy.deepcopy(PARTICLES[word])}
 
 
-def told(answer: Answer) -> str:
+def answer_so_far(answer: Answer) -> str:
     """The answer so far: that of the oil, else of the force, else of the pressure."""
     if answer.study.film is not None and (oil := oil_of_film(answer, "")) is not None:
         return oil.sentences[0]
@@ -163,11 +163,11 @@ class NewStudy:
         self.dialog.clear()
         self._begin()
         with self.dialog, ui.card().classes("new-study") as card:
-            put(card, {"role": "region", "aria-label": "a new study"})
+            set_attributes(card, {"role": "region", "aria-label": "a new study"})
             with ui.row().classes("w-full items-center justify-between no-wrap"):
                 ui.label("A new study, from the drawing").classes("headline")
                 close = ui.button(icon="close", on_click=self.dialog.close)
-                put(close.props("flat dense round"), {"aria-label": "close"})
+                set_attributes(close.props("flat dense round"), {"aria-label": "close"})
             self.steps = ui.element("div").classes("steps")
             with self.steps:
                 self._form()
@@ -175,7 +175,7 @@ class NewStudy:
             with ui.row().classes("w-full items-center justify-between gap-3 new-end"):
                 self.said = ui.label().classes("so-far").props('role=status data-fact="so far"')
                 self.go = ui.button("Open this study", icon="arrow_forward", on_click=self._opened)
-                put(self.go.props("no-caps"), {"data-path": "new.open"})
+                set_attributes(self.go.props("no-caps"), {"data-path": "new.open"})
         self.dialog.open()
         self.soon()
 
@@ -195,9 +195,11 @@ class NewStudy:
         self.inputs.shown.clear()
         builds = (self._bodies, self._surfaces, self._oil)
         for number, (name, build) in enumerate(zip(NUMBERED, builds, strict=True), 1):
-            with put(ui.column().classes("step gap-2"), {"role": "group", "aria-label": name}):
+            with set_attributes(
+                ui.column().classes("step gap-2"), {"role": "group", "aria-label": name}
+            ):
                 with ui.row().classes("items-center gap-2 no-wrap"):
-                    put(ui.label(str(number)).classes("number"), {"aria-hidden": "true"})
+                    set_attributes(ui.label(str(number)).classes("number"), {"aria-hidden": "true"})
                     ui.label(name).classes("subhead")
                 build()
 
@@ -205,7 +207,7 @@ class NewStudy:
     def _bodies(self) -> None:
         inputs = self.inputs
         menu = inputs.select(None, KINDS, self.kind, "what the drawing shows", self._chosen)
-        put(menu, {"data-path": "new.kind"})
+        set_attributes(menu, {"data-path": "new.kind"})
         if self.kind == "ball-bearing":
             size = ui.input("designation", value=self.which).classes("w-full")
             size.props('dense data-path="new.which" hint="6205, 6305-2RS/C3, or 25x52x15 mm"')
@@ -239,7 +241,7 @@ class NewStudy:
     def _oil(self) -> None:
         inputs, word = self.inputs, oil_of(self.draft.study)
         menu = inputs.select(None, OILS, word, "what is there", self._oiled)
-        put(menu, {"data-path": "new.oil"})
+        set_attributes(menu, {"data-path": "new.oil"})
         if word == "code":
             self._code()
         elif word != "clean":
@@ -322,7 +324,9 @@ class NewStudy:
         draft = self.draft
         try:
             await draft.settle()
-            said = await draft.ask(told) if draft.current and draft.answer is not None else ""
+            said = (
+                await draft.ask(answer_so_far) if draft.current and draft.answer is not None else ""
+            )
         except Died as error:
             said = "; ".join(error.problems)
         except ThirdBodyError as error:

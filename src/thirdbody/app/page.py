@@ -26,7 +26,7 @@ from .state import State, files_of
 from .tabs import GROUPS, LINES, TABS
 from .text import from_link, with_micro
 from .verdict import Verdict
-from .widgets import put, skeleton
+from .widgets import set_attributes, skeleton
 from .work import when_left
 
 __all__ = ["Start", "page"]
@@ -161,7 +161,7 @@ class Page:
         skip = self._header()
         self.side = Side(state)
         whole = ui.column().classes("whole gap-2")
-        put(skip, {"href": f"#{whole.html_id}"})
+        set_attributes(skip, {"href": f"#{whole.html_id}"})
         with whole.props('tabindex=-1 role=region aria-label="the answer"'):
             with ui.row().classes("w-full items-center gap-3"):
                 self.banner = ui.label(told).classes("problem")
@@ -195,7 +195,7 @@ class Page:
             ui.space()
             fresh = ui.button("New study", icon="add", on_click=lambda: self.new.open())
             fresh.props('flat dense no-caps color=white aria-label="a new study, from a drawing"')
-            put(fresh.classes("fresh"), {"data-path": "new"})
+            set_attributes(fresh.classes("fresh"), {"data-path": "new"})
             self.undo = ui.button(icon="undo", on_click=self._undone)
             self.undo.props('flat dense color=white aria-label="undo" data-path="undo"')
             self.names = ui.select(
@@ -214,7 +214,7 @@ class Page:
             for group, names in GROUPS.items():
                 if group in LINES:
                     ui.element("span").classes("tab-line")
-                put(ui.label(group).classes("tab-group"), {"aria-hidden": "true"})
+                set_attributes(ui.label(group).classes("tab-group"), {"aria-hidden": "true"})
                 for name in names:
                     ui.tab(name, label=import_module(f".tabs.{name}", __package__).TITLE)
         self.verdict = Verdict(self.state)

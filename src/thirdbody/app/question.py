@@ -12,7 +12,7 @@ from .figures import Figure, empty
 from .inputs import Inputs
 from .state import Answer, State
 from .text import with_micro
-from .widgets import facts, put, table
+from .widgets import facts, set_attributes, table
 
 __all__ = ["Question", "QuestionTab", "Shown"]
 
@@ -79,7 +79,9 @@ class QuestionTab:
             self.beside = ui.column().classes("w-full gap-1")
             with self.beside:
                 self.facts = ui.row().classes("facts w-full")
-                self.plot = put(ui.plotly(empty(360)).classes("w-full"), {"data-figure": name})
+                self.plot = set_attributes(
+                    ui.plotly(empty(360)).classes("w-full"), {"data-figure": name}
+                )
                 self.rows = ui.column().classes("w-full")
                 self.notes = ui.column().classes("w-full gap-0")
             with ui.column().classes("w-full"):
@@ -97,13 +99,13 @@ class QuestionTab:
                 values = ", ".join(f"{key} {value}" for key, value in question.start.items())
                 ui.label(with_micro(f"Shown for {values}.")).classes("hint")
                 change = ui.button("Change these", icon="edit", on_click=self._begun)
-                put(change.props("no-caps"), {"data-path": f"{name}.add"})
+                set_attributes(change.props("no-caps"), {"data-path": f"{name}.add"})
                 return
             for field in (*question.own, *fields_of(question.kind)):
                 if field.name not in question.left_out:
                     self.inputs.field((name,), field)
             remove = ui.button("Remove", icon="delete", on_click=self._removed)
-            put(remove.props("flat dense no-caps"), {"data-path": f"{name}.remove"})
+            set_attributes(remove.props("flat dense no-caps"), {"data-path": f"{name}.remove"})
             self.inputs.rest = ui.column().classes("w-full")
 
     def _begun(self) -> None:
@@ -136,7 +138,7 @@ class QuestionTab:
         with self.words:
             for i, text in enumerate(shown.answer):
                 said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
-                put(said, {"data-fact": f"{name}: answer {i}"})
+                set_attributes(said, {"data-fact": f"{name}: answer {i}"})
         self.facts.clear()
         with self.facts:
             facts(shown.facts, f"{name}: ")

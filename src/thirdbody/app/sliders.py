@@ -20,7 +20,7 @@ from .fields import engineering, number_of
 from .inputs import Inputs
 from .sizing import size_of, with_size
 from .state import Answer, State
-from .widgets import put
+from .widgets import set_attributes
 
 __all__ = ["CODES", "CodeKnob", "Slider", "Sliders", "at_position", "position_of", "shifted"]
 
@@ -67,7 +67,7 @@ class Slider(ui.slider):
 
     def speak(self, text: str) -> None:
         """What is read out in the place of the position."""
-        put(self, {"aria-valuetext": text})
+        set_attributes(self, {"aria-valuetext": text})
 
 
 @dataclass
@@ -89,7 +89,7 @@ class Knob:
         with ui.column().classes("slider gap-0") as self.box:
             self.text = ui.label(self.label).classes("hint")
             self.slider = Slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
-            put(self.slider, {"aria-label": self.label, "data-slider": self.place})
+            set_attributes(self.slider, {"aria-label": self.label, "data-slider": self.place})
         self.box.set_visibility(False)  # until its number is known
 
     def follow(self, position: float) -> None:
@@ -158,7 +158,7 @@ class CodeKnob(Knob):
     def build(self) -> None:
         """Put the slider on the page; each step of it is a class."""
         super().build()
-        put(self.slider, {"min": -MOST_SHIFTED, "max": MOST_SHIFTED})
+        set_attributes(self.slider, {"min": -MOST_SHIFTED, "max": MOST_SHIFTED})
 
     def follow(self, position: float) -> None:
         """Set the code of every population by the position of the slider."""
@@ -296,7 +296,7 @@ class Sliders:
             return
         self.moving = True
         try:
-            at = self.state.at
+            at = self.state.operating_load
             part = position_of(answer.loads, at)
             self.load.set_value(round(STEPS * part))
             self.load_label.set_text(_load_text(answer, at))

@@ -116,7 +116,7 @@ class Answer:
         return pressed(self.study.body, self.study.forces, self.contact)
 
     @property
-    def held(self) -> float:
+    def particles_held(self) -> float:
         """Particles that one contact holds on average; any number where its area is not known."""
         study, every = self.study, sum(dust.areal_density for dust in self.contact.populations)
         if study.body is not None and study.forces is not None:
@@ -486,7 +486,7 @@ class State:
 
     # ------------------------------------------------------------------ the operating load
     @property
-    def at(self) -> float:
+    def operating_load(self) -> float:
         """The operating load, in the unit of the study's load."""
         assert self.answer is not None
         if self.wanted is None or self.wanted not in self.answer:
@@ -503,7 +503,7 @@ class State:
     def point(self) -> tb.Equilibrium:
         """The state under the operating load."""
         assert self.answer is not None
-        return self.answer.solve(self.at)
+        return self.answer.solve(self.operating_load)
 
 
 def files_of(table: object) -> list[str]:

@@ -67,6 +67,6 @@ async def take(state: State, event: UploadEventArguments) -> str:
     name = await keep(state.folder, event)
     key = None
     if state.shelf is not None:
-        key = await asyncio.to_thread(state.shelf.put, state.folder / name)
+        key = await asyncio.to_thread(state.shelf.keep, state.folder / name)
     state.took(name, key)
     return name

@@ -13,7 +13,7 @@ from ..quantities.say import percent
 from .state import Answer, State
 from .tabs.interface import headline
 from .text import with_micro, without_paths
-from .widgets import put
+from .widgets import set_attributes
 
 __all__ = ["Badge", "Verdict", "badge_of"]
 
@@ -58,7 +58,7 @@ def badge_of(notes: Sequence[str]) -> Badge:
 def sentence_of(answer: Answer, at: float) -> str:
     """The answer under the operating load as a sentence; empty where none is solved."""
     point = answer.solve(at)
-    return headline(point, answer.held) if str(point.status) == "ok" else ""
+    return headline(point, answer.particles_held) if str(point.status) == "ok" else ""
 
 
 class Verdict:
@@ -71,11 +71,11 @@ class Verdict:
         self.shown: tuple[Answer, float] | None = None
         """What the sentence is of."""
         with ui.element("div").classes("verdict") as self.line:
-            self.sentence = put(ui.label().classes("sentence"), {"data-fact": "answer"})
+            self.sentence = set_attributes(ui.label().classes("sentence"), {"data-fact": "answer"})
             with ui.element("div").classes("standing"):
                 self.badge = ui.button(icon="info", color=None).classes("badge")
                 self.badge.props("flat dense no-caps")
-                put(self.badge, {"data-fact": "validity"})
+                set_attributes(self.badge, {"data-fact": "validity"})
                 with self.badge:
                     self.menu = ui.menu().props('anchor="bottom right" self="top right"')
                 with self.menu:
@@ -96,7 +96,7 @@ class Verdict:
         answer = self.state.answer
         if answer is None:
             return
-        if self.shown == (answer, at := self.state.at):
+        if self.shown == (answer, at := self.state.operating_load):
             return
         self.sentence.set_text(await self.state.ask(sentence_of, at))
         self.shown = (answer, at)
@@ -118,7 +118,7 @@ class Verdict:
         self.badge.set_icon(made.icon)
         self.badge.set_text(made.words)
         self.badge.classes(replace=f"badge {made.kind}")
-        put(self.badge, {"aria-label": f"how far the answer holds: {made.words}"})
+        set_attributes(self.badge, {"aria-label": f"how far the answer holds: {made.words}"})
         self.list.clear()
         with self.list:
             if not known:

@@ -16,5 +16,5 @@ def warm() -> None:
     state = State(example(), Path())
     answer = state.answer
     assert answer is not None
-    interface.drawing_of(answer, state.at, 0)
+    interface.drawing_of(answer, state.operating_load, 0)
     curves.figures(answer, "pressure", critical=False)

@@ -17,7 +17,7 @@ __all__ = [
     "Plot",
     "facts",
     "plot_place",
-    "put",
+    "set_attributes",
     "show_figures",
     "skeleton",
     "table",
@@ -28,7 +28,7 @@ __all__ = [
 Made = TypeVar("Made", bound=ui.element)
 
 
-def put(element: Made, props: Mapping[str, object]) -> Made:
+def set_attributes(element: Made, props: Mapping[str, object]) -> Made:
     """Set attributes of an element by their values, and give it back.
 
     A text written into ``element.props("...")`` is parsed there, so that it could add attributes.
@@ -40,7 +40,7 @@ def put(element: Made, props: Mapping[str, object]) -> Made:
 
 def skeleton() -> ui.element:
     """What stands in the place of a tab until its answer is there: its outline, in grey."""
-    with put(ui.element("div").classes("waiting"), {"aria-hidden": "true"}) as made:
+    with set_attributes(ui.element("div").classes("waiting"), {"aria-hidden": "true"}) as made:
         for part in ("line", "line short", "block", "row"):
             ui.element("div").classes(f"bone {part}")
     return made
@@ -51,7 +51,7 @@ def facts(pairs: Iterable[tuple[str, str]], kind: str = "") -> None:
     for name, value in pairs:
         with ui.column().classes("fact gap-0"):
             ui.label(name).classes("hint")
-            put(ui.label(value).classes("value"), {"data-fact": f"{kind}{name}"})
+            set_attributes(ui.label(value).classes("value"), {"data-fact": f"{kind}{name}"})
 
 
 class Facts:
@@ -75,12 +75,12 @@ class Facts:
                 for name in told:
                     with ui.column().classes("fact gap-0") as both:
                         ui.label(name).classes("hint")
-                        label = put(ui.label().classes("value"), {"data-fact": name})
+                        label = set_attributes(ui.label().classes("value"), {"data-fact": name})
                     self.labels[name] = label
                     if name in self.said:
                         both.classes("said")
                     if name in self.abouts:
-                        put(both, {"title": self.abouts[name]})
+                        set_attributes(both, {"title": self.abouts[name]})
         for name, value in told.items():
             self.labels[name].set_text(value)
 
@@ -91,7 +91,7 @@ DRAWS = 10.0
 
 def plot_place(name: str, height: int = 360) -> ui.plotly:
     """A place for a figure."""
-    return put(ui.plotly(empty(height)).classes("w-full"), {"data-figure": name})
+    return set_attributes(ui.plotly(empty(height)).classes("w-full"), {"data-figure": name})
 
 
 class Plot:
@@ -178,11 +178,13 @@ def upload(
         on_upload=on_upload,
         on_rejected=too_large,
     )
-    put(made.props("flat bordered"), {"data-upload": name})
+    set_attributes(made.props("flat bordered"), {"data-upload": name})
     with made.add_slot("header"), ui.row().classes("w-full items-center no-wrap q-pa-sm"):
         ui.label(label).classes("grow text-weight-bold")
         button = ui.button(icon="add").on("click", js_handler=PICK)
-        put(button.props("flat dense color=white"), {"aria-label": f"{label}: choose a file"})
+        set_attributes(
+            button.props("flat dense color=white"), {"aria-label": f"{label}: choose a file"}
+        )
         # the framework's own button, without a name, has the entry inside
         with ui.element("div").classes("hidden"):
             ui.element("q-uploader-add-trigger")
@@ -204,4 +206,4 @@ def table(name: str, heads: dict[str, str], rows: list[dict[str, str]]) -> None:
     made = ui.table(columns=columns, rows=rows).classes("w-full")
     # narrow windows have a card for each row
     made.props('dense flat wrap-cells :grid="Quasar.Screen.lt.sm"')
-    put(made, {"data-figure": name})
+    set_attributes(made, {"data-figure": name})

@@ -15,7 +15,7 @@ from .jobs import MOST, RUNNING, Job, Stopped
 from .solver import apart, solver
 from .state import State, measured
 from .text import with_micro
-from .widgets import put
+from .widgets import set_attributes
 from .worker import in_little
 
 __all__ = ["Work", "when_left"]
@@ -99,13 +99,17 @@ class Work(Generic[Found]):
         self.job: Job | None = None
         with ui.row().classes("w-full items-center gap-3"):
             self.start = ui.button(label, icon="play_arrow", on_click=self.run)
-            put(self.start.props("no-caps"), {"data-work": task})
+            set_attributes(self.start.props("no-caps"), {"data-work": task})
             self.bar = ui.linear_progress(value=0.0, show_value=False).classes("grow")
-            put(self.bar, {"aria-label": f"progress of {task}"})
+            set_attributes(self.bar, {"aria-label": f"progress of {task}"})
             self.stop = ui.button("Cancel", icon="stop", on_click=self.cancel).props("flat no-caps")
-            put(self.stop, {"data-cancel": task})
-        self.said = put(ui.label().classes("problem"), {"role": "alert", "data-said": task})
-        self.stale = put(ui.label().classes("stale"), {"role": "status", "data-stale": task})
+            set_attributes(self.stop, {"data-cancel": task})
+        self.said = set_attributes(
+            ui.label().classes("problem"), {"role": "alert", "data-said": task}
+        )
+        self.stale = set_attributes(
+            ui.label().classes("stale"), {"role": "status", "data-stale": task}
+        )
         self._idle()
         when_left(self.cancel)
 

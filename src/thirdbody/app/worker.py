@@ -386,7 +386,7 @@ def error_bars(
         "tornado": point.tornado(of)[of],
         "words": {label: words_of(asked.contact, label) for label in point.inputs},
         "ends": {
-            label: [value_of(one.at(q), unit_of(asked.contact, label)) for q in (0.05, 0.95)]
+            label: [value_of(one.quantile(q), unit_of(asked.contact, label)) for q in (0.05, 0.95)]
             for label, one in point.inputs.items()
         },
     }

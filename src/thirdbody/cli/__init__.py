@@ -22,6 +22,9 @@ from .streams import Command, Commands, open_closed_streams, refuse_full_output,
 
 __all__ = ["app", "main"]
 
+RUN_ON = ("app", "reproduce")
+"""Commands whose notes wait for no answer."""
+
 app = typer.Typer(
     cls=Commands,
     name="thirdbody",
@@ -70,5 +73,7 @@ def options(
 
 for name in COMMANDS:
     module = import_module(f".commands.{name}", __name__)
-    run = with_common_options(module.command, warns=hasattr(module, "warn_of"))
+    run = with_common_options(
+        module.command, warns=hasattr(module, "warn_of"), waits=name not in RUN_ON
+    )
     app.command(name, cls=Command)(run)

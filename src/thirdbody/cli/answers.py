@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..quantities.record import declared_columns
 from ..quantities.tables import Table
 from ..version import __version__
 from .show import ALL, MOST_ROWS, some, terminal
-from .streams import STDOUT, TableFiles, remark, warn_of
+from .streams import STDOUT, TableFiles, remark, tell_written, warn_of
+
+if TYPE_CHECKING:
+    from ..views.workbook import Sheet
 
 __all__ = ["give_answer", "read_question"]
 
@@ -47,9 +52,12 @@ def give_answer(
     last: Sequence[str],
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end."""
-    files.write(*found.table(), data=found.to_dict)
-    for path in files.paths:
-        print(f"written: {path}", file=sys.stderr)
+    files.write(
+        *found.table(),
+        sheets=partial(_sheets, found, answer, (heads, rows), last),
+        data=found.to_dict,
+    )
+    tell_written(*files.paths)
     if files.json != STDOUT:
         console = terminal()
         console.print(f"{found.title} (thirdbody {__version__})\n")
@@ -65,5 +73,30 @@ def give_answer(
             console.print(sentence)
         sys.stdout.flush()
     for sentence in found.asked.assumed:
-        remark(sentence)
+        remark(sentence, counts=True)
     warn_of(found.warnings)
+
+
+def _sheets(
+    found: Any,
+    answer: Sequence[str],
+    table: tuple[Sequence[str], Sequence[Sequence[str]]],
+    last: Sequence[str],
+) -> list[Sheet]:
+    from ..systems.connector import name_of
+    from ..views.question_sheets import inputs_of, question_sheets
+
+    part = found.asked.described
+    bodies = {"surface 1": part.surfaces.first, "surface 2": part.surfaces.second}
+    bodies |= {name_of(dust, i): dust.material for i, dust in enumerate(part.particles)}
+    return question_sheets(
+        found.title,
+        answer,
+        table,
+        last,
+        states=found.table(),
+        meanings={name: each.meaning for name, each in declared_columns(type(found)).items()},
+        inputs=inputs_of({f"{found.asked.table}.": part}, bodies),
+        warnings=[*found.asked.assumed, *found.warnings],
+        citations=found.citations,
+    )

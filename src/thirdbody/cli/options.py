@@ -6,6 +6,7 @@ import inspect
 import math
 import os
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import nullcontext
 from dataclasses import MISSING, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
@@ -14,7 +15,7 @@ import typer
 
 from ..errors import InvalidValue
 from ..quantities.installed import offers
-from .streams import SHOWS_ALL, WARNINGS, remark, warn
+from .streams import SHOWS_ALL, WARNINGS, answer_first, at_once, remark, warn
 
 if TYPE_CHECKING:
     from ..study import Study
@@ -132,10 +133,13 @@ def parameters_of(command: Callable[..., None]) -> list[inspect.Parameter]:
     return out
 
 
-def with_common_options(command: Callable[..., None], *, warns: bool) -> Callable[..., None]:
+def with_common_options(
+    command: Callable[..., None], *, warns: bool, waits: bool
+) -> Callable[..., None]:
     """The command with the option ``--import`` and, where its answer ``warns``, ``--verbose``.
 
-    The files of ``--import`` are loaded before anything is read.
+    The files of ``--import`` are loaded before anything is read. Notes of one that ``waits``
+    stand behind its answer.
     """
     own = parameters_of(command)
     record = inspect.signature(command, eval_str=True).parameters.get("options")
@@ -143,11 +147,12 @@ def with_common_options(command: Callable[..., None], *, warns: bool) -> Callabl
     def run(*, own_code: list[Path] | None = None, verbose: bool = False, **told: object) -> None:
         SHOWS_ALL.set(verbose)
         WARNINGS.set(0)
-        load_own_code(own_code)
-        if record is None:
-            command(**told)
-        else:
-            command(record.annotation(**told))
+        with answer_first() if waits else nullcontext():
+            load_own_code(own_code)
+            if record is None:
+                command(**told)
+            else:
+                command(record.annotation(**told))
 
     run.__name__, run.__doc__ = command.__name__, command.__doc__
     common = {"own_code": (None, OwnCode)} | ({"verbose": (False, Verbose)} if warns else {})
@@ -161,7 +166,10 @@ def with_common_options(command: Callable[..., None], *, warns: bool) -> Callabl
 
 
 def read_study(
-    file: Path, settings: list[str] | None, *, writes: Sequence[Path | None] = ()
+    file: Path,
+    settings: list[str] | None,
+    *,
+    writes: Sequence[Path | None] = (),
 ) -> Study:
     """The study with the keys set by --set; what looks like a slip is told at once.
 
@@ -181,10 +189,15 @@ def read_study(
 
 
 def tell_notes(asked: Study) -> None:
-    """Say what was taken for what a drawing says, and warn of what looks like a slip."""
+    """Warn of what looks like a slip at once; with the answer, say what was taken for a drawing."""
+    from ..study.reader import SLIP
+
     for sentence in asked.notes:
-        if sentence in asked.assumed:
-            remark(sentence)
+        if getattr(sentence, "code", "").startswith(SLIP):
+            with at_once():
+                warn(sentence)
+        elif sentence in asked.assumed:
+            remark(sentence, counts=True)
         else:
             warn(sentence)
 

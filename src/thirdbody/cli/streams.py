@@ -17,7 +17,7 @@ import stat
 import sys
 import textwrap
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
 from functools import partial
 from pathlib import Path
@@ -26,9 +26,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from ..errors import InvalidValue, NoEquilibrium, NoTransition, ranked
+from ..errors import InvalidValue, NoEquilibrium, NoTransition, in_study, note_of, ranked
 from ..quantities.say import plural
-from ..quantities.study_words import in_study_words
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
 if TYPE_CHECKING:
@@ -41,6 +40,8 @@ __all__ = [
     "Command",
     "Commands",
     "TableFiles",
+    "answer_first",
+    "at_once",
     "complain",
     "figure_format",
     "open_closed_streams",
@@ -60,7 +61,9 @@ MOST_SHOWN = 3
 SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
 """Whether a command shows every note."""
 WARNINGS: ContextVar[int] = ContextVar("warnings", default=0)
-"""How many warnings a command has shown."""
+"""How many notes a command has shown."""
+HELD: ContextVar[list[str] | None] = ContextVar("held", default=None)
+"""Lines for standard error that wait for the answer; None where none waits."""
 MOST_IN_A_SHEET = 2**20 - 1
 """Rows of a sheet below its head."""
 STDOUT = Path("-")
@@ -166,19 +169,60 @@ def without_output(error: OSError) -> int:
     return BAD_INPUT
 
 
+@contextlib.contextmanager
+def answer_first() -> Iterator[None]:
+    """Notes, warnings and names of files wait until the answer stands; an error follows them.
+
+    Of an answer that is interrupted nobody waits for notes.
+    """
+    waiting: list[str] = []
+    before = HELD.set(waiting)
+    try:
+        yield
+    except (KeyboardInterrupt, SystemError):
+        waiting.clear()
+        raise
+    finally:
+        HELD.reset(before)
+        with contextlib.suppress(OSError):
+            if waiting:
+                sys.stdout.flush()
+        for line in waiting:
+            _print_beside(line)
+
+
+@contextlib.contextmanager
+def at_once() -> Iterator[None]:
+    """What is said inside waits for no answer."""
+    before = HELD.set(None)
+    try:
+        yield
+    finally:
+        HELD.reset(before)
+
+
+def _print_beside(line: str) -> None:
+    """A line on standard error, behind the answer where one is awaited."""
+    waiting = HELD.get()
+    if waiting is None:
+        print(line, file=sys.stderr)
+    else:
+        waiting.append(line)
+
+
 def complain(sentences: Iterable[str]) -> None:
     """Errors, a line each; the exit status tells of them where nothing can be written."""
     with contextlib.suppress(OSError):
         for sentence in sentences:
-            for line in in_study_words(sentence).splitlines():
+            for line in in_study(sentence).splitlines():
                 print(_wrap_line(f"error: {line}"), file=sys.stderr)
 
 
 def warn(message: Warning | str, *_: object, **__: object) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
     WARNINGS.set(WARNINGS.get() + 1)
-    sentence = in_study_words(" ".join(str(message).split()))
-    print(_wrap_line(f"warning: {sentence}"), file=sys.stderr)
+    sentence = " ".join(in_study(note_of(message)).split())
+    _print_beside(_wrap_line(f"warning: {sentence}"))
 
 
 def warn_of(notes: Iterable[str]) -> None:
@@ -211,9 +255,10 @@ def _wrap_line(line: str) -> str:
     )
 
 
-def remark(sentence: str) -> None:
-    """What was done, in one line: nothing is doubted by it."""
-    print(_wrap_line(f"note: {' '.join(sentence.split())}"), file=sys.stderr)
+def remark(sentence: str, *, counts: bool = False) -> None:
+    """What was done or taken; one that ``counts`` is among the most notes that are shown."""
+    WARNINGS.set(WARNINGS.get() + counts)
+    _print_beside(_wrap_line(f"note: {' '.join(sentence.split())}"))
 
 
 def print_json(data: object) -> None:
@@ -224,7 +269,7 @@ def print_json(data: object) -> None:
 def tell_written(*files: Path) -> None:
     """Say which files there are now."""
     for file in files:
-        print(f"written: {file}", file=sys.stderr)
+        _print_beside(f"written: {file}")
 
 
 class TableFiles(NamedTuple):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from functools import lru_cache, partial, singledispatch
+from functools import cached_property, lru_cache, partial, singledispatch
 from typing import Any
 
 import numpy as np
@@ -58,7 +58,7 @@ def regimes(law: AbstractAsperityLaw, y: Array) -> NDArray[np.intp]:
 
 
 class ReducedSum(ABC):
-    """One law over heights, lengths in σ_s: what its subclasses, made for kinds of heights, share.
+    """Base of sums of one law over heights, lengths in σ_s.
 
     With w = ω_1/σ_s it holds ∫f(t/w) φ(h+t) dt and ∫a(t/w) φ(h+t) dt at separations h; equal
     laws, heights and w share one table, whatever the surface.
@@ -190,7 +190,11 @@ class GaussianSum(ReducedSum):
         super().__init__(law, heights, w)
         self.rule = gaussian_rule(law, math.frexp(w)[1] - 1)
         self.t = w * self.rule.y
-        self.table = PiecewiseChebyshev(partial(self.rule.sums, w), self.SPAN, kinds=self.KINDS)
+
+    @cached_property
+    def table(self) -> PiecewiseChebyshev:
+        """The sums without exp(−h²/2), as functions of h."""
+        return PiecewiseChebyshev(partial(self.rule.sums, self.w), self.SPAN, kinds=self.KINDS)
 
     def _sums(self, h: Array) -> tuple[Array, Array]:
         """The sums (N, 6), and their common factor (N, 1)."""
@@ -417,7 +421,7 @@ class AsperitySum:
 
 
 class MixedSum:
-    """Elliptic asperities of several shapes: an `AsperitySum` for each, with its own R_g and η."""
+    """Sum over elliptic asperities of several shapes: an `AsperitySum` each, with its R_g and η."""
 
     def __init__(
         self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float

@@ -77,7 +77,7 @@ class Pieces(NamedTuple):
 
 
 class BrokenAverage(SizeAverage):
-    """As `SizeAverage`, of particles that break: each column as a function of the gap.
+    """Averages over particles that break, as `SizeAverage`: each column as a function of the gap.
 
     Tabulated between the gaps at which a size of particles or pieces with a jump in its number
     begins to be squeezed, each stretch in the root of the distance to its upper end.
@@ -294,7 +294,7 @@ class BrokenAverage(SizeAverage):
 
     @cached_property
     def tables(self) -> list[PiecewiseChebyshev]:
-        """Of each stretch between `ends`, as functions of u, the last one over u^powers."""
+        """Tables of the stretches between `ends`, functions of u; the last over u^powers."""
         return [self._table(i) for i in range(len(self.ends) - 1)]
 
     def _table(self, i: int) -> PiecewiseChebyshev:
@@ -370,7 +370,7 @@ class BrokenAverage(SizeAverage):
         return gaps, weights, self(gaps)
 
     def gaps(self, width: float, splits: Sequence[float] = ()) -> tuple[Array, Array, Array]:
-        """As `nodes` without the tables: gaps, x_max − gap, weights (M,)."""
+        """Nodes without tables: gaps, x_max − gap, weights (M,)."""
         return self._of_stretches(self._roots_of_stretches(), 2 * width, SPOT_GAPS)
 
     def _roots_of_stretches(self) -> list[Array]:
@@ -400,7 +400,7 @@ class BrokenAverage(SizeAverage):
         share: Array | None,
         weight: Array | float,
     ) -> ParticleSpots:
-        """Every particle and piece in gaps (M, 1), each gap as often as its weight says."""
+        """Spots of particles and pieces in gaps (M, 1), each gap counted with its weight."""
         ladder = self._ladder(4.0)
         found = self.pieces(gap, rise, splits, nodes=SPOT_NODES, squeezes=ladder)
         spots = self.particle.spots(
@@ -410,7 +410,7 @@ class BrokenAverage(SizeAverage):
 
 
 class RoughBrokenAverage(BrokenAverage):
-    """As `BrokenAverage` to 1e-3 of the load, and mostly to 1e-6, at down to a sixth of the cost.
+    """A coarser `BrokenAverage`: within 1e-3 of the load, mostly 1e-6, at a sixth of the cost.
 
     Under a rough seat the sum is taken at a few gaps, without a table over gaps.
     """
@@ -434,7 +434,7 @@ _ROUGHLY: ContextVar[bool] = ContextVar("roughly", default=False)
 
 @contextmanager
 def roughly() -> Iterator[None]:
-    """Sums over particles that break to 1e-3, for many contacts of which each is one of a sample.
+    """Context in which sums over breaking particles are good to 1e-3, for samples of many contacts.
 
     Sums over other particles stay as they are.
     """

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..errors import InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Problem
 from ..laws.asperity import ZMC, AbstractAsperityLaw
+from ..laws.base import SERIES
 from ..laws.particle import AbstractParticleLaw, Series
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
@@ -112,8 +113,10 @@ class Contact(Value):
             )
         for each in self.populations:
             if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
-                rule = "must be a particle law, e.g. particle.Series(seat='plane')"
-                out.append(Problem("law", rule, repr(each.law), owner="Particles"))
+                allowed = "must be a particle law, e.g. " + Advice(
+                    "particle.Series(seat='plane')", '{ name = "series", seat = "plane" }'
+                )
+                out.append(Problem("law", allowed, repr(each.law), owner="Particles"))
                 continue
             try:
                 law = self.law_of(each)
@@ -122,7 +125,7 @@ class Contact(Value):
                 continue
             if each.strength is not None and not law.breakable:
                 rule = f": particles of the law {law.name} do not break"
-                hint = "use particle.Series, or remove strength"
+                hint = "use " + SERIES + ", or remove strength"
                 out.append(Problem("strength", rule, hint=hint, owner="Particles"))
         if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
             out.append(

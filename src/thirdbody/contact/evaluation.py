@@ -32,7 +32,7 @@ AT_ONCE = 4096
 
 
 class Solver(NamedTuple):
-    """How an output has another contact solved: physics of the balance lies above this room."""
+    """Type of the function with which an output solves another contact; the balance lies above."""
 
     separation: Callable[[Contact, Array], Array]
     """d [m] under pressures [Pa]: (N,), NaN where no separation carries them."""
@@ -42,7 +42,7 @@ class Solver(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Solved:
-    """N solved states of one contact, and every spot in them: what `AbstractOutput.of` is given.
+    """N solved states of one contact and every spot in them, as `AbstractOutput.of` gets them.
 
     Sums over spots agree with load and area of the state to 1e-9.
 
@@ -117,7 +117,7 @@ def _load(spots: Any) -> Any:
 
 
 def _about_few(state: Solved) -> list[str]:
-    """Where the area that is asked about holds less than one contact: what the outputs are then."""
+    """Notes on areas A_n with less than one contact: what the outputs mean there."""
     outputs = state.contact.outputs
     areas = [getattr(output, "A_n", None) or 0.0 for output in outputs]
     concerned = [f"outputs.{output.name}" for output in outputs if not output.tells_few]
@@ -159,7 +159,7 @@ def _about_few(state: Solved) -> list[str]:
 
 
 def _how_many(which: NDArray[np.bool_]) -> str:
-    """So many states of all, in words."""
+    """Text for a count of states out of all."""
     if len(which) == 1:
         return "this state"
     return f"{np.count_nonzero(which)} of {len(which)} states"
@@ -185,7 +185,7 @@ class LaidOutParticles(Sequence[Any]):
 def particles_of(
     contact: Contact, bound: Interface, d: Array, crowd: Array | None = None
 ) -> list[ParticleSpots]:
-    """Every loaded particle of the states at d, so many times as the contact has them."""
+    """Spots of every loaded particle of the states at d, weighted by its number."""
     particles: list[ParticleSpots] = []
     for each, response in zip(contact.populations, bound.populations, strict=True):
         law = contact.law_of(each)

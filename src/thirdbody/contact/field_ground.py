@@ -162,7 +162,7 @@ class Seat:
         return columns, moments
 
     def shares(self, h: Array, u: Array, nodes: Array) -> Array:
-        """How many particles lie in each of these gaps over σ, increasing: (N, M).
+        """Number of particles in each of these gaps over σ, which increase: (N, M).
 
         Those between two gaps count to both, by their distances: sums over what is linear in
         between are exact.
@@ -261,7 +261,7 @@ class Ground:
         return found
 
     def _solved(self) -> tuple[Array, Array]:
-        """All separations at once; those not found so from the ones above, one by one."""
+        """Solve all separations at once; those that fail, one by one from the ones above."""
         count = len(self.h)
         u, w, kept = (np.zeros((count, more)) for more in (MOMENTS + 1, 1, MOMENTS + 2))
         rest = self._iterated(np.arange(count), u, w, kept)
@@ -321,7 +321,7 @@ class Ground:
 
         return make_interp_spline(self.h, columns, k=5)
 
-    def at(self, h: Array, derivative: int = 0) -> Array:
+    def patch_moments(self, h: Array, derivative: int = 0) -> Array:
         """u_n and w, or a derivative, at h: (N, 14); beyond the table as at its end."""
         out = np.asarray(self._spline(np.minimum(h, self.h[-1]), derivative))
         out[h > self.h[-1]] = 0.0
@@ -362,7 +362,7 @@ class GroundedPart(Part):
 
     @cached_property
     def _spline(self) -> tuple[BSpline, float]:
-        """ln of the load and the other columns over it, and where they end."""
+        """Splines of ln load and of the other columns over the load, with their ends."""
         h = self.ground.h
         values, _ = self.seat.sums(h, self.ground.u)
         some = values[:, 0] > TINY
@@ -444,7 +444,7 @@ class GroundedPart(Part):
     def load_in_gaps(self, d: Array, squeeze: float) -> Array:
         narrow = self._gap_under_largest(squeeze) * self.seat.unit
         h = self._h(d)
-        _, gaps, weight = self.seat.gaps(h, self.ground.at(h)[:, :-1])
+        _, gaps, weight = self.seat.gaps(h, self.ground.patch_moments(h)[:, :-1])
         load = self.seat.average.average((gaps / self.seat.unit).ravel())[:, 0]
         return self.factor * np.sum(weight * load.reshape(gaps.shape) * (gaps < narrow), axis=1)
 
@@ -453,7 +453,7 @@ class GroundedPart(Part):
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         h, seat = self._h(d), self.seat
-        average, u = seat.average.average, self.ground.at(h)[:, :-1]
+        average, u = seat.average.average, self.ground.patch_moments(h)[:, :-1]
         gaps, rise, _ = average.gaps(SPOTS * seat.average.width, splits)
         _, found, _ = seat.gaps(h, u)
         # below the gaps of the tables loads no longer change, but depths do
@@ -485,23 +485,23 @@ class LiftedSum(FieldSum):
         lift = make_interp_spline(ground.h, ground.w, k=5)
         self._lift = [lift, lift.derivative(1), lift.derivative(2)]
 
-    def _at(self, d: Array, derivative: int = 0) -> Array:
+    def _lift_at(self, d: Array, derivative: int = 0) -> Array:
         """w over σ, or a derivative with respect to h; nothing beyond the table."""
         h, (low, high) = self.h(d), self.ground.h[[0, -1]]
         out = self._lift[derivative](np.clip(h, low, high))
         return np.where(h > high, 0.0, out)
 
     def _lifted(self, d: Array) -> Array:
-        return d + self.sigma * self._at(d)
+        return d + self.sigma * self._lift_at(d)
 
     def lifted(self, h: Array) -> Array:
         """Separations over σ that asperities see at h (N,)."""
-        return h + self._at(self.sigma * h - self.rough.y_s + self.centre)
+        return h + self._lift_at(self.sigma * h - self.rough.y_s + self.centre)
 
     def load(self, d: Array) -> Array:
         F = self.plain.load(self._lifted(d))
-        first = 1 + self._at(d, 1)
-        second = self._at(d, 2) / self.sigma
+        first = 1 + self._lift_at(d, 1)
+        second = self._lift_at(d, 2) / self.sigma
         bend = F[:, 2] * first**2 + F[:, 1] * second
         return np.stack([F[:, 0], F[:, 1] * first, bend], axis=-1)
 

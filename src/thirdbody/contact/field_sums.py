@@ -93,7 +93,7 @@ class FieldSum:
         tiny = np.finfo(float).tiny
         count = F / np.maximum(F_tips, tiny)
         size = np.sum(areas, axis=0) / np.maximum(count * np.sum(areas_tips, axis=0), tiny)
-        found = FieldSpots.of(spots, count, np.where(F > 0, size, 1.0))
+        found = FieldSpots.scaled_from(spots, count, np.where(F > 0, size, 1.0))
         return [replace(found, stiffness=self.stiffness(d), regimes=np.stack(areas, axis=-1))]
 
 
@@ -123,8 +123,8 @@ class FieldSpots(AsperitySpots):
         )
 
     @classmethod
-    def of(cls, spots: AsperitySpots, count: Array, size: Array) -> Self:
-        """Those spots, so many times as many and so many times as large: (N,) each."""
+    def scaled_from(cls, spots: AsperitySpots, count: Array, size: Array) -> Self:
+        """Field spots from asperity spots, their number and size multiplied by (N,) factors."""
         share = spots.share
         number = spots.number.T if share is None else share * spots.number[:, 0]
         if share is None:

@@ -65,7 +65,7 @@ class Interface:
 
     @property
     def why_lowest(self) -> str:
-        """What the lowest separation is, in words that follow a length."""
+        """Clause that explains the lowest separation, to follow a length."""
         if self.one_field:
             h = (self.lowest + self.mean_plane) / self.contact.roughness.sigma
             return f"h = {h:.2g} sigma, {self.asperities.ends}"
@@ -97,7 +97,7 @@ class Interface:
         return self._fields(d, None if self.particles is None else self.particles.fields(d))
 
     def direct_fields(self, d: Array) -> dict[str, Array]:
-        """As `fields`, of particles by quadrature at these d; no table is made for few of them."""
+        """Fields at these d with particles by quadrature, which needs no table."""
         return self._fields(d, None if self.particles is None else self.particles.direct_fields(d))
 
     def _fields(self, d: Array, of_particles: dict[str, Array] | None) -> dict[str, Array]:

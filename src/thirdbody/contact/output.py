@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
-from ..laws.base import Law
+from ..errors import Advice, InvalidValue, Problem
+from ..laws.base import FLAKES, SERIES, Law
 from ..quantities.record import Column
 
 if TYPE_CHECKING:
@@ -71,41 +71,51 @@ class AbstractOutput(Law):
         return ()
 
     def problems(self, contact: Any) -> list[str]:
-        """Why this contact cannot have this output, one sentence each."""
+        """Reasons why this contact cannot have this output, one sentence each."""
         return []
 
     def one_by_one(self, contact: Any) -> bool:
-        """Whether it asks what single asperities do, which a law of the whole surface cannot say.
+        """Whether the output needs single asperities, which a law of the whole surface has not.
 
         Such a law answers with summits scaled to its load and area, and says so.
         """
         return True
 
     def warnings(self, state: Any, values: Mapping[str, Array]) -> list[str]:
-        """Where these states leave the range of the output, one sentence each."""
+        """Notes on states outside the range of the output, one sentence each."""
         return []
 
 
 def missing(output: AbstractOutput, bodies: Mapping[str, Material], *names: str) -> list[str]:
-    """One sentence for each property of a body that an output needs and that is not known."""
+    """Problems of an output: a sentence for each body property that it needs and lacks."""
     return [
         f"outputs.{output.name} needs {name} of {label}"
         + (f" ({body.name})" if body.name else "")
-        + f"; give it with the material, e.g. material.replace({name}=...)"
+        + Advice(
+            f"; give it with the material, e.g. material.replace({name}=...)",
+            f": {KEYS_OF_BODIES.get(label, 'material')} = "
+            f"{{ E = ..., nu = ..., H = ..., {name} = ... }}",
+        )
         for label, body in bodies.items()
         for name in names
         if getattr(body, name) is None
     ]
 
 
+KEYS_OF_BODIES = {
+    "surface 1": "surfaces.first",
+    "surface 2": "surfaces.second",
+    "the particles": "particles.material",
+}
+"""Keys of study files that hold the material of a body."""
+GIVE_OUTPUTS = Advice("give outputs, e.g. outputs.Counts()", "give tables, e.g. [outputs.counts]")
+
+
 def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
     """Mistakes in the outputs of a contact."""
     wrong = [each for each in outputs if not isinstance(each, AbstractOutput)]
     if wrong:
-        return [
-            Problem("outputs", f"holds {each!r}", hint="give outputs, e.g. outputs.Counts()")
-            for each in wrong
-        ]
+        return [Problem("outputs", f"holds {each!r}", hint=GIVE_OUTPUTS) for each in wrong]
     if outputs:
         laws = {law.name: law for law in map(contact.law_of, contact.populations)}
         if unknown := [name for name, law in laws.items() if not law.knows_each]:
@@ -114,7 +124,7 @@ def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
                     "outputs",
                     f": the particle law {name} knows loads and areas of all particles together, "
                     "not how deep one of them sits",
-                    hint="take particle.Series or particle.Flakes, or remove the outputs",
+                    hint="take " + SERIES + " or " + FLAKES + ", or remove the outputs",
                 )
                 for name in unknown
             ]

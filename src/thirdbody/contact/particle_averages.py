@@ -62,8 +62,12 @@ class SizeAverage:
         if self.bottom < self.join:
             below = [self.bottom, *known[known < self.join], self.join]
             self.gaps_below = _distinct(np.array(below))
+
+    @cached_property
+    def floor(self) -> Array:
+        """P where the gap squeezes every particle as far as it goes: (7,)."""
         bottom = np.array([self.bottom])
-        self.floor = self.average(bottom, self.top - bottom)[0]
+        return np.asarray(self.average(bottom, self.top - bottom)[0])
 
     @cached_property
     def upper(self) -> PiecewiseChebyshev:
@@ -230,7 +234,7 @@ class SizeAverage:
         return gaps, weights, values
 
     def gaps(self, width: float, splits: Sequence[float] = ()) -> tuple[Array, Array, Array]:
-        """As `nodes` without the tables: gaps, x_max − gap, weights (M,); relative error 1e-9.
+        """Nodes without tables: gaps, x_max − gap, weights (M,); relative error 1e-9.
 
         ``splits`` are more values of ε at which sums over gaps have a kink.
         """
@@ -242,12 +246,7 @@ class SizeAverage:
         if len(self.gaps_below):
             lower = _distinct(np.sort([*self.gaps_below, *more[more < self.join]]))
         upper = _distinct(np.sort([*self.rises, *upper]))
-        # nothing changes faster than the seat and the sizes together
-        m1, m2 = (float(self.sizes.partial_moment(k, -1.0, np.inf)) for k in (1, 2))
-        own, step = math.sqrt(max(m2 - m1 * m1, 0.0)), SPOT_WIDTHS * width
-        if own > 1e-6 * m1:
-            step = SMOOTH_WIDTHS * width * own / math.hypot(width, own)
-        return self._gaps(upper, lower, step, SPOT_NODES)
+        return self._gaps(upper, lower, _step(self.sizes, width), SPOT_NODES)
 
     def _gaps(
         self, upper: Array, lower: Array | None, width: float, nodes: tuple[int, int]
@@ -262,14 +261,14 @@ class SizeAverage:
         return self.top - rise[::-1], rise[::-1], weights[::-1]
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
-        """Every particle squeezed in gaps (N,) under which they rest on a plane."""
+        """Spots of all particles squeezed in gaps (N,), resting on a plane."""
         found = self.spots_in(gap[:, None], self.top - gap[:, None], splits, None, 1.0)
         return self.laid_out(found, gap)
 
     def laid_out(
         self, spots: ParticleSpots, gaps: Array, means: Array | None = None, width: float = 0.0
     ) -> ParticleSpots:
-        """Spots that know the sizes and gaps they stand for; of pieces nothing is known."""
+        """Spots with their sizes and gaps, for whole particles only."""
         if spots.parents is not None:
             return spots
         layout = Layout(sizes=self.sizes, x=spots.x, gaps=gaps, means=means, width=width)
@@ -283,8 +282,8 @@ class SizeAverage:
         share: Array | None,
         weight: Array | float,
     ) -> ParticleSpots:
-        """Every particle in gaps (M, 1), each gap as often as its weight says."""
-        x, delta, number = self.of_sizes(gap, rise, splits, SIZE_NODES)
+        """Spots of all particles in gaps (M, 1), each gap counted with its weight."""
+        x, delta, number = _counted(*self.of_sizes(gap, rise, splits, SIZE_NODES))
         return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
 
     @property
@@ -292,6 +291,22 @@ class SizeAverage:
         """Ends of the panels of the tables, as gaps."""
         below = self.lower.edges if self.lower is not None else np.empty(0)
         return np.concatenate([below, self.top - self.upper.edges**2])
+
+
+def _counted(x: Array, delta: Array, number: Array) -> tuple[Array, Array, Array]:
+    """The same without nodes that stand for nothing, on panels that have no room in their row.
+
+    Rows with fewer nodes than others repeat their last one, for nothing.
+    """
+    used = number > 0
+    count = used.sum(axis=1, keepdims=True)
+    if (most := int(count.max(initial=0))) == number.shape[1]:
+        return x, delta, number
+    place = np.arange(most)
+    order = np.argsort(~used, axis=1, kind="stable")
+    order = np.take_along_axis(order, np.clip(count - 1, 0, place), axis=1)
+    x, delta, number = (np.take_along_axis(each, order, axis=1) for each in (x, delta, number))
+    return x, delta, np.where(place < count, number, 0.0)
 
 
 def _seat_rule(
@@ -323,6 +338,30 @@ def size_average(particle: OneParticle, sizes: Distribution) -> SizeAverage:
     return SizeAverage(particle, sizes)
 
 
+@lru_cache(maxsize=64)
+def larger_ones(sizes: Distribution, width: float) -> tuple[Array, Array]:
+    """Gaps (M,), and the part of particles larger than each, by number, weighed for a seat.
+
+    Of sizes alone: it serves every law and material.
+    """
+    low, top = sizes.support
+    gaps = {low, *sizes.kinks, *(x * part for x in sizes.pieces for part in (0.25, 0.5, 1.0))}
+    rise = np.sqrt(np.sort([top - gap for gap in gaps if low <= gap < top]))
+    rule = panel_rule(_cut(_distinct(np.append(0.0, rise)) ** 2, _step(sizes, width)) ** 0.5, 14)
+    places = top - rule[0] ** 2
+    larger = sizes.partial_moment(0, np.nextafter(places, np.inf), np.nextafter(top, np.inf))
+    return places, 2 * rule[0] * rule[1] * larger / (width * math.sqrt(2 * math.pi))
+
+
+def _step(sizes: Distribution, width: float) -> float:
+    """Width of panels over gaps: nothing changes faster than the seat and the sizes together."""
+    m1, m2 = (float(sizes.partial_moment(k, -1.0, np.inf)) for k in (1, 2))
+    own = math.sqrt(max(m2 - m1 * m1, 0.0))
+    if own > 1e-6 * m1:
+        return SMOOTH_WIDTHS * width * own / math.hypot(width, own)
+    return SPOT_WIDTHS * width
+
+
 class SeatAverage:
     """A size average over a Gaussian seat of some width; lengths in the size of the particles.
 
@@ -338,9 +377,13 @@ class SeatAverage:
                 f"particle diameters range over {span:.3g} widths of the seat, more than "
                 f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'"
             )
-        self.floor = average.floor
         self.low = average.bottom - NORMAL_REACH * width
         self.high = average.top + NORMAL_REACH * width
+
+    @property
+    def floor(self) -> Array:
+        """The columns where every particle is squeezed as far as it goes: (7,)."""
+        return self.average.floor
 
     @cached_property
     def nodes(self) -> tuple[Array, Array]:
@@ -417,13 +460,11 @@ class SeatAverage:
         average = self.average
         if isinstance(average.sizes, Monodisperse):
             return special.ndtr((average.top - mean_gap) / self.width)
-        gaps, _, weights = average.gaps(self.width)
-        values = weights * average.touching(gaps) / (self.width * math.sqrt(2 * math.pi))
+        gaps, values = larger_ones(average.sizes, self.width)
         z = (mean_gap[:, None] - gaps) / self.width
         # every one in gaps below the first
-        return (
-            special.ndtr((average.bottom - mean_gap) / self.width) + np.exp(-0.5 * z * z) @ values
-        )
+        low = average.sizes.support[0]
+        return special.ndtr((low - mean_gap) / self.width) + np.exp(-0.5 * z * z) @ values
 
     @property
     def particles(self) -> SizeAverage:

@@ -64,7 +64,7 @@ def _over_sizes_and_seats(
         if particles.strength is None:
             average = size_average(one, shape)
         else:
-            breakage = Breakage.of(particles.strength, particles.material, scale)
+            breakage = Breakage.of_material(particles.strength, particles.material, scale)
             average = broken_average(one, shape, breakage)
         if law.seat == "rough":
             average = seat_average(average, law.zeta_std * roughness.sigma / scale)
@@ -126,7 +126,7 @@ class ParticleSum(ABC):
         """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
 
     def direct_fields(self, d: Array) -> dict[str, Array]:
-        """As `fields`, by quadrature at these d, where that spares tables."""
+        """Fields at these d by quadrature, where that saves tables."""
         return self.fields(d)
 
     def touching(self, d: Array) -> Array:
@@ -200,7 +200,7 @@ class Part:
 
     @property
     def resolution(self) -> float:
-        """Step of d [m] that resolves loads that rise and fall; infinite where they only fall."""
+        """Step of d [m] fine enough for loads that rise and fall; else infinite."""
         if not self.breaks:
             return np.inf
         if isinstance(self.average, SeatAverage):  # nothing changes faster than the seat is wide
@@ -229,7 +229,7 @@ class Part:
         return self.factor * self.average((d + self.offset) / self.scale)
 
     def direct_columns(self, d: Array) -> Array:
-        """As `columns`, by quadrature instead of tables."""
+        """Columns as of `columns`, by quadrature instead of tables."""
         return self.factor * self.average.direct((d + self.offset) / self.scale)
 
     def load_in_gaps(self, d: Array, squeeze: float) -> Array:
@@ -238,7 +238,7 @@ class Part:
         return self.factor * self.average.load_in_gaps((d + self.offset) / self.scale, narrow)
 
     def most_in_gaps(self, d: Array, squeeze: float) -> Array:
-        """As `load_in_gaps`, if each bore what it bears without a gap: no table is asked."""
+        """Upper bound of `load_in_gaps`, from the load of each particle without a gap."""
         most = self.factor * self.average.floor[0]
         narrow = self._gap_under_largest(squeeze)
         return most * self.average.part_in_gaps((d + self.offset) / self.scale, narrow)

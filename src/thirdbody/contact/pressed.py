@@ -100,7 +100,7 @@ def _shares(
 
 
 def about_pressed(contact: Contact, d: Array) -> list[str]:
-    """What the lowest of these d does to particles that no law of one contact follows."""
+    """Notes on particles pressed beyond every law of one contact, at the lowest of these d."""
     lowest = np.array([np.nanmin(d)])
     out = [*_about_squashed(contact, lowest), *_about_computed(contact, lowest)]
     if np.max(_at_most(contact, lowest)) <= TOLD:
@@ -145,7 +145,7 @@ def _about_squashed(contact: Contact, d: Array) -> list[str]:
 
 
 def _about_computed(contact: Contact, d: Array) -> list[str]:
-    """Particles that follow the computed table, and those between collars that touch."""
+    """Notes on particles that follow the computed table, and on collars that touch."""
     total = far = collars = 0.0
     less, more = 0.0, 0.0
     for each, response in zip(contact.populations, interface(contact).populations, strict=True):
@@ -215,7 +215,7 @@ def _signed(part: float) -> str:
 def _friction_bands(
     law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
 ) -> list[tuple[float, float]]:
-    """What friction of its faces is worth on each side that follows the computed table."""
+    """Effect of the friction of its faces on each side of a particle that follows the table."""
     one = law.one(surfaces=surfaces, particle=particle)
     sides = getattr(one, "sides", ())
     return [side.friction_band for side in sides if isinstance(side, DeepSide)]
@@ -300,7 +300,7 @@ def _radius_squeeze(
 
 
 def _strength(particles: Particles) -> WeibullStrength | None:
-    """Of particles that would break, and are not told to."""
+    """Strength of the material of particles that have none set; None if it has none."""
     if particles.strength is not None:
         return None
     try:
@@ -319,6 +319,6 @@ def _broken(
         approach = np.broadcast_to(spots.depths[0] + spots.depths[1], beyond.shape)[beyond]
         squeeze = approach / np.broadcast_to(spots.x, beyond.shape)[beyond]
         found = np.zeros(beyond.shape)
-        found[beyond] = tension(one, material.nu, strength.confinement).met(squeeze)
+        found[beyond] = tension(one, material.nu, strength.confinement).greatest_so_far(squeeze)
         beyond &= found > most
     return beyond

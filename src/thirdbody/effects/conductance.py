@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ..populations.materials import Material
 from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .single.heat import (
+    Spreading,
     absolute_slope,
     cooper_mikic_yovanovich,
     sphere_resistance,
@@ -51,7 +52,12 @@ WIDE = 0.5
 
 
 def _through_asperities(
-    state: Solved, rho: Resistivity, form: str, *, film: float = 0.0, mean_free_path: float = 0.0
+    state: Solved,
+    rho: Resistivity,
+    form: Spreading,
+    *,
+    film: float = 0.0,
+    mean_free_path: float = 0.0,
 ) -> Array:
     """Σ n/(ψR) of the asperities per nominal area: (N,)."""
     pair = state.contact.surfaces
@@ -123,7 +129,7 @@ def _conducting(state: Solved, particles: str) -> Array:
 
 
 def _conducts(particles: str, dust: Particles | None) -> bool:
-    """Whether these particles conduct; by material do those whose resistivity is known."""
+    """Whether these particles conduct; "by material" asks for a known resistivity."""
     if particles == BY_MATERIAL and dust is not None:
         return dust.material.resistivity is not None
     return particles == "conduct"
@@ -157,7 +163,7 @@ def _closing(
 
 
 def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> list[str]:
-    """Where the area holds so few particles that contacts with and without them differ."""
+    """Notes on areas with so few particles that contacts with and without them differ."""
     say = f"outputs.{output.name}: A_n = {number(output.A_n)} m²"
     out: list[str] = []
     unknown = found.concerned & np.isnan(found.values[closed])
@@ -186,7 +192,7 @@ def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> l
 def _about_open(
     output: _Conductance, state: Solved, numbers: str, which: Any = slice(None)
 ) -> list[str]:
-    """Where fewer than one contact conducts, in the states that are asked about."""
+    """Notes on states in which fewer than one contact conducts."""
     n = _conducting(state, output.particles)[which]
     if not len(n):
         return []
@@ -218,7 +224,7 @@ def _about_open(
 
 
 def about_wide(name: str, share: float) -> Note:
-    """What is known of the resistance of particles that touch on more than half their radius."""
+    """Note on particles that touch on more than half their radius: how sure their resistance is."""
     what = (
         f"outputs.{name}: particles with {percent(share, digits=2)} of the particle load touch on "
         "more than half their radius, where their resistance is overestimated by 7 % and more"
@@ -317,15 +323,15 @@ class ThermalConductance(AbstractOutput):
     '1.179e+05 W/(m² K)'
     """
 
-    particles: str = choice("what particles do", "conduct", "insulate", default="conduct")
+    particles: Literal["conduct", "insulate"] = choice("what particles do", default="conduct")
     film: float = quantity("R_f", "m^2*K/W", "resistance of a film", default=0.0, ge=0)
     k_gap: float = quantity("k_g", "W/m/K", "conductivity of the gap", default=0.0, ge=0)
     M: float = quantity("M", "m", "length that a gas adds to the gap", default=0.0, ge=0)
-    form: str = choice("spreading factor", "power", "series", "none", default="power")
+    form: Spreading = choice("spreading factor", default="power")
     A_n: float | None = quantity(
         "A_n", "m^2", "nominal area of the contact", default=None, gt=0, hint="1 mm² is 1e-6"
     )
-    few: str = choice("what is given below one contact", "open", "mean", default="open")
+    few: Literal["open", "mean"] = choice("what is given below one contact", default="open")
 
     name = "thermal_conductance"
     title = "Thermal contact conductance"
@@ -441,16 +447,16 @@ class ElectricalConductance(AbstractOutput):
     '21.8 µΩ on 1 mm²'
     """
 
-    particles: str = choice(
-        "what particles do", "insulate", "conduct", BY_MATERIAL, default="insulate"
+    particles: Literal["insulate", "conduct", "by material"] = choice(
+        "what particles do", default="insulate"
     )
     film: float = quantity("σ_f", "ohm*m^2", "resistance of a film", default=0.0, ge=0)
     mean_free_path: float = quantity("l", "m", "mean free path", default=0.0, ge=0)
-    form: str = choice("spreading factor", "power", "series", "none", default="power")
+    form: Spreading = choice("spreading factor", default="power")
     A_n: float | None = quantity(
         "A_n", "m^2", "nominal area of the contact", default=None, gt=0, hint="1 mm² is 1e-6"
     )
-    few: str = choice("what is given below one contact", "open", "mean", default="open")
+    few: Literal["open", "mean"] = choice("what is given below one contact", default="open")
 
     name = "electrical_conductance"
     title = "Electrical contact conductance"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
+from ..errors import Advice
 from ..laws.particle.breakage import Breakage, crush_embed_size
 from ..quantities.value import quantity
 from .quantiles import Values, exceeded
@@ -27,7 +28,7 @@ __all__ = ["Crushing"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Crushing(AbstractOutput):
-    r"""Which particles have broken, and what bears after it.
+    r"""Share of particles that have broken, and what bears the load after that.
 
     .. math:: \text{broken} = \frac{\int_g\varphi_a(1-P_s)\,dx}{\int_g\varphi_a\,dx}, \qquad
               x^* = x_0\left(\frac{\hat\sigma_{max}}{\sigma_0}\right)^{-1/b}
@@ -90,7 +91,10 @@ class Crushing(AbstractOutput):
             return []
         return [
             "outputs.crushing needs particles with a strength, e.g. "
-            "Particles(..., strength=WeibullStrength.of(material))"
+            + Advice(
+                "Particles(..., strength=WeibullStrength.of(material))",
+                'particles.strength = "material"',
+            )
         ]
 
     def of(self, state: Solved) -> dict[str, Array]:
@@ -167,4 +171,4 @@ def _x_star(contact: Contact) -> float:
     assert each.strength is not None
     one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
     scale = each.strength.x_0
-    return scale * crush_embed_size(one, Breakage.of(each.strength, each.material, scale))
+    return scale * crush_embed_size(one, Breakage.of_material(each.strength, each.material, scale))

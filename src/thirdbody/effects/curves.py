@@ -60,7 +60,7 @@ class _Run:
         return float(self.roots[-1] ** 2)
 
     def squeeze(self, f: Array) -> Array:
-        """ε at which f is passed; the end of the run where all of it is larger, or smaller."""
+        """Squeeze ε at which f passes a value; the end of the run if f never does."""
         begin, end = self.ends if self.rises else self.ends[::-1]
         out = np.where(f < self.low, begin, _read(self.roots, self.cubics, np.sqrt(f)))
         return np.where(f >= self.high, end, out)
@@ -105,7 +105,7 @@ class Curve:
             yield (at, end) if run.rises else (begin, at)
 
     def first(self, f: Array) -> Array:
-        """The smallest ε from which on f is larger than this; infinite where it is nowhere."""
+        """Smallest ε above which f exceeds the value; infinite if f never does."""
         out = np.full_like(f, np.inf)
         for begin, end in reversed(tuple(self.stretches(f))):
             out = np.where(np.less(begin, end), begin, out)

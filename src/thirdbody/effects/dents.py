@@ -11,6 +11,7 @@ import numpy as np
 
 from ..contact.output import AbstractOutput, Column
 from ..errors import InvalidValue, Note, Problem
+from ..laws.base import SERIES
 from ..laws.particle.series import Series
 from ..laws.particle.squashed import widest_disc
 from ..populations.materials import softer_hardness
@@ -18,7 +19,7 @@ from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .curves import Curve
 from .quantiles import Values, exceeded, number_above
-from .single.dent import dent_of, fragments, sink, sunk
+from .single.dent import Debris, dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -110,14 +111,7 @@ class Dents(AbstractOutput):
     '8.8e+09 dents, 17 nm deep on average'
     """
 
-    debris: str = choice(
-        "what particles do when pressed",
-        "by_hardness",
-        "hard",
-        "ductile",
-        "brittle",
-        default="by_hardness",
-    )
+    debris: Debris = choice("what particles do when pressed", default="by_hardness")
     fragment: float | None = quantity("x_f", "m", "size of fragments", default=None, gt=0)
     shallowest: float = quantity("δ_0", "m", "depth from which a dent counts", default=0.0, ge=0)
     A_n: float = quantity(
@@ -176,7 +170,7 @@ class Dents(AbstractOutput):
         laws = [contact.law_of(each) for each in contact.populations]
         if all(isinstance(law, Series) and law.breakable for law in laws):
             return []
-        return ["outputs.dents: fragments of brittle particles need particle.Series"]
+        return ["outputs.dents: fragments of brittle particles need " + SERIES]
 
     def _contradictions(self, contact: Contact) -> list[str]:
         """Particles that keep their shape here and are squashed by their law."""
@@ -276,7 +270,7 @@ class Dents(AbstractOutput):
     def _values(
         self, spots: ParticleSpots, values: Array, name: str, side: int, contact: Contact
     ) -> Values:
-        """One group of dents, those of whole particles with what one of them leaves."""
+        """Values of one group of dents; of whole particles, with those of one particle."""
         population = spots.population
         assert population is not None
         if spots.layout is None:
@@ -291,7 +285,7 @@ class Dents(AbstractOutput):
         return Values(spots, values, curve=curve, least=least)
 
     def _groups(self, state: Solved) -> list[ParticleSpots]:
-        """The particles that leave dents, or what they break into."""
+        """Groups that leave dents: whole particles, or their fragments."""
         if self.debris != "brittle":
             return list(state.particles)
         return [self._broken(spots, state.contact) for spots in state.particles]
@@ -446,7 +440,7 @@ class Dents(AbstractOutput):
         return [Note(what, code=code, effect=effect, action="a larger A_n has more")]
 
     def _about_unknown(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        """Particles that are flattened, whose depth is not known."""
+        """Notes on flattened particles, whose dents have no known depth."""
         out: list[str] = []
         pair = (state.contact.surfaces.first, state.contact.surfaces.second)
         for each in state.contact.populations:
@@ -471,12 +465,13 @@ class Dents(AbstractOutput):
             told = f"are not harder than {where} and are flattened there"
             if self.debris == "ductile":
                 told = "flatten, as debris = 'ductile' says"
+            name = each.name or each.material.name or "particles"
             what = (
-                f"outputs.dents: {each.name or each.material.name or 'particles'} {told}: "
+                f"outputs.dents: {name} {told}: "
                 "their marks are counted, with the widths "
                 "of their footprints; depth and volume are not known (NaN)"
             )
-            out.append(Note(what, effect=math.inf))
+            out.append(Note(what, code=f"{self.name}.flat.{name}", effect=math.inf))
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
@@ -523,7 +518,7 @@ def _squashed(
 def _widest(
     law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material, side: int
 ) -> float:
-    """Largest mark of a flattened particle over its size; infinite where its law bounds it."""
+    """Largest mark of a flattened particle over its size; infinite where the law bounds it."""
     if _squashed(law, surfaces, particle)[side]:
         return math.inf
     friction = (law if isinstance(law, Series) else Series()).friction_factor

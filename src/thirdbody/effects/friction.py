@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -46,7 +46,7 @@ TIE = 1e-12
 
 
 class Motion(NamedTuple):
-    """How particles move, and what that costs each of them: arrays (M, n).
+    """Motion of particles and its cost for each: arrays (M, n).
 
     A particle takes the cheapest of three motions; see `Friction`.
 
@@ -211,17 +211,17 @@ class Friction(AbstractOutput):
         "α_T", "1", "weight of shear in the yield of a growing contact", default=None, gt=0
     )
     rear: str | float = "recovery"
-    angle: str = choice(
-        "what the angle of a ploughing contact follows from", "depth", "area", default="depth"
+    angle: Literal["depth", "area"] = choice(
+        "what the angle of a ploughing contact follows from", default="depth"
     )
     hardness_ratio: float = quantity(
         "H_1/H_2", "1", "hardness ratio above which asperities plough", default=1.2, ge=1
     )
-    soft_particles: str = choice(
-        "particles softer than a surface", "flatten", "plough", default="flatten"
+    soft_particles: Literal["flatten", "plough"] = choice(
+        "particles softer than a surface", default="flatten"
     )
-    rolling: str = choice(
-        "what decides that a particle rolls", "moment", "severity", default="moment"
+    rolling: Literal["moment", "severity"] = choice(
+        "what decides that a particle rolls", default="moment"
     )
     aspect: float = quantity("D_l/x", "1", "longest axis over size", default=1.0, ge=1)
     offset: float = quantity("e/x", "1", "offset of both contacts over size", default=0.0, ge=0)
@@ -346,7 +346,7 @@ class Friction(AbstractOutput):
         return np.maximum(1.0, np.divide(load, reached, out=np.ones_like(load), where=reached > 0))
 
     def _support(self, depth: Array, yielding: Any) -> Any:
-        """κ of a contact; ``yielding`` is its depth at first yield [m]."""
+        """Support κ of a contact; ``yielding`` is its depth at first yield [m]."""
         if self.rear == "recovery":
             return rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
         return 0.0 if self.rear == "rigid" else self.rear

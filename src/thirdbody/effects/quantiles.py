@@ -108,7 +108,7 @@ def exceeded(groups: Sequence[Values], counts: Sequence[Array]) -> list[Array]:
 def _where_so_many(
     above: Callable[[Array, Rows], Array], count: Array, between: tuple[float, float], rows: Rows
 ) -> Array:
-    """The value between two that so many exceed in these states; NaN where it is not there."""
+    """Value between two limits that a given number exceeds; NaN where none does."""
     low, top = between
     floor = np.maximum(FEWEST * count, 1e-300)
 
@@ -123,7 +123,7 @@ def _where_so_many(
 
 
 def number_above(groups: Sequence[Values], value: float, *, states: int) -> Array:
-    """Spots per area whose value exceeds this one, 0 or more: (N,), as exact as `exceeded`."""
+    """Number of spots per area whose value exceeds a limit ≥ 0: (N,), as exact as `exceeded`."""
     top = _largest(groups)
     if top <= value:
         return np.zeros(states)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
-from ..errors import Note
+from ..errors import Advice, Note
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule
 from ..populations.materials import reduced_modulus
@@ -107,7 +107,7 @@ def full_stick(load_over_critical: ArrayLike) -> Array:
 
 
 def _first_yield(spots: AsperitySpots) -> float:
-    """ω_1 of the asperities [m]."""
+    """Interference of first yield ω_1 of the asperities [m]."""
     law = spots.law.bound(R=spots.R, E_star=spots.E_star, H=spots.H)
     return float(law.yield_interference(R=spots.R, E_star=spots.E_star, H=spots.H))
 
@@ -144,8 +144,8 @@ class StaticFriction(AbstractOutput):
     0.335
     """
 
-    law: str = choice(
-        "static friction of one contact", "full stick", "kogut-etsion", default="full stick"
+    law: Literal["full stick", "kogut-etsion"] = choice(
+        "static friction of one contact", default="full stick"
     )
 
     name = "static_friction"
@@ -248,4 +248,5 @@ class StaticFriction(AbstractOutput):
             "plastic contacts, to which Kogut–Etsion give no friction at all"
         )
         code = f"{self.name}.plastic"
-        return [Note(what, code=code, effect=float(share), action="use law='full stick'")]
+        action = Advice("use law='full stick'", 'use law = "full stick"')
+        return [Note(what, code=code, effect=float(share), action=action)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from ..quantities.say import number
 from ..quantities.value import choice, quantity
 from .conductance import about_wide, wide_share
 from .single.heat import (
+    Flux,
+    Kind,
     body_conductance,
     bridge,
     partition,
@@ -53,7 +55,7 @@ class Body(NamedTuple):
     """Diffusivity [m²/s]"""
 
     @staticmethod
-    def of(material: Material) -> Body:
+    def of_material(material: Material) -> Body:
         k, density, heat = material.thermal_conductivity, material.density, material.specific_heat
         assert k is not None
         assert density is not None
@@ -151,16 +153,16 @@ class FlashTemperature(AbstractOutput):
     h_2: float | None = quantity(
         "h_2", "W/m^2/K", "conductance of body 2 to its surroundings", default=None, ge=0
     )
-    spots_on: str = choice(
-        "surface on which asperity contacts stay put", "first", "second", "both", default="second"
+    spots_on: Literal["first", "second", "both"] = choice(
+        "surface on which asperity contacts stay put", default="second"
     )
-    kind: str = choice("temperature of a contact", "mean", "max", default="max")
-    flux: str = choice("heat over a contact", "uniform", "hertz", default="uniform")
-    lifetime: str = choice(
-        "heating of contacts that stay put", "steady", "lifetime", default="steady"
+    kind: Kind = choice("temperature of a contact", default="max")
+    flux: Flux = choice("heat over a contact", default="uniform")
+    lifetime: Literal["steady", "lifetime"] = choice(
+        "heating of contacts that stay put", default="steady"
     )
-    quantiles: str = choice(
-        "what quantiles are shares of", "number", "area", "load", default="number"
+    quantiles: Literal["number", "area", "load"] = choice(
+        "what quantiles are shares of", default="number"
     )
 
     name = "flash_temperature"
@@ -205,7 +207,7 @@ class FlashTemperature(AbstractOutput):
 
     # ------------------------------------------------------------------ one contact
     def _takes(self, body: Body, b: Array, speed: float) -> Array:
-        """G of one body [W/K] for contacts of radius b that move over it."""
+        """Heat conductance G of one body [W/K] under moving contacts of radius b."""
         return body_conductance(  # type: ignore[return-value]
             b, k=body.k, D=body.D, v=speed, kind=self.kind, flux=self.flux
         )
@@ -226,7 +228,7 @@ class FlashTemperature(AbstractOutput):
         speeds = {"first": (0.0, self.v), "second": (self.v, 0.0), "both": (self.v / 2,) * 2}
         G = []
         for material, speed in zip((pair.first, pair.second), speeds[self.spots_on], strict=True):
-            body = Body.of(material)
+            body = Body.of_material(material)
             takes = self._takes(body, b, speed)
             if speed == 0 and self.v > 0 and self.lifetime == "lifetime":
                 # Fo = D (2b/v)/b²
@@ -257,7 +259,7 @@ class FlashTemperature(AbstractOutput):
             for i, (material, a) in enumerate(
                 zip((pair.first, pair.second), (a_1, a_2), strict=True)
             ):
-                body = Body.of(material)
+                body = Body.of_material(material)
                 slow, half, fast = (self._takes(body, a, part * self.v) for part in (0, 0.5, 1))
                 G.append(np.where(rolls, half, np.where(side == i, fast, slow)))
                 heat.append(np.where(rolls, 0.5, side == i) * Q)
@@ -299,11 +301,11 @@ class FlashTemperature(AbstractOutput):
             )
             with np.errstate(invalid="ignore", divide="ignore"):
                 out[f"dT_{group}_{name}"] = above / total[name]
-        counted = _Counted.of(spots, T, WEIGHTS[self.quantiles], states)
+        counted = _Counted.from_spots(spots, T, WEIGHTS[self.quantiles], states)
         for name, share in QUANTILES.items():
             out[f"dT_{group}_{name}"] = counted.inverse((1 - share) * total[self.quantiles])
         if self.quantiles != "number":
-            counted = _Counted.of(spots, T, WEIGHTS["number"], states)
+            counted = _Counted.from_spots(spots, T, WEIGHTS["number"], states)
         out[f"dT_{group}_peak"] = counted.inverse(np.full(states, math.log(2) / self.A_n))
         return out
 
@@ -361,7 +363,7 @@ def _pressing(spots: Any) -> Array:
 
 
 def _area(spots: Any) -> Array:
-    """Of a particle: the smaller end, which is the hotter one of equal bodies."""
+    """Smaller contact area of a particle, the hotter one between equal bodies."""
     return spots.area if hasattr(spots, "area") else np.minimum(*spots.areas)
 
 
@@ -383,7 +385,9 @@ class _Counted(NamedTuple):
     above: Array
 
     @staticmethod
-    def of(spots: Any, T: list[Array], weight: Callable[[Any], Array], states: int) -> _Counted:
+    def from_spots(
+        spots: Any, T: list[Array], weight: Callable[[Any], Array], states: int
+    ) -> _Counted:
         parts = [t[each.load > 0] for each, t in zip(spots, T, strict=True)]
         known = np.concatenate([*parts, np.zeros(0)])
         if not len(known):

@@ -178,7 +178,7 @@ class Wear(AbstractOutput):
     def of_particles(
         self, spots: ParticleSpots, friction: Friction
     ) -> dict[str, tuple[Array, Array]]:
-        """Volume per sliding length [m²] that one particle takes from each surface, by cause.
+        """Volume per sliding length [m²] that one particle removes from each surface, by cause.
 
         Besides ``cut``, the width of its grooves or tracks [m], and ``rolls`` its load [N] if it
         rolls (first) or slides (second).
@@ -200,7 +200,7 @@ class Wear(AbstractOutput):
         return found | {"rolls": (rolls * spots.load, ~rolls * spots.load)}
 
     def _worn_asperities(self, state: Solved) -> Array:
-        """Σ K a over the asperities [1]; of one field by its own areas."""
+        """Sum Σ K a over the asperities [1]; for the law field by its areas."""
         if patches := [each for each in state.asperities if isinstance(each, FieldSpots)]:
             kinds = np.arange(len(REGIMES))
             return sum(

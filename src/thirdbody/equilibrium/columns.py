@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,7 +18,7 @@ from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Column, StateRecord, column, declared_columns
 from ..version import __version__
-from .modes import EPS_1, EPS_2, MODES, need_shares
+from .modes import EPS_1, EPS_2, MODES, Basis, need_shares
 from .status import WORDS
 
 if TYPE_CHECKING:
@@ -77,6 +77,7 @@ class Equilibrium(_ContactRecord):
     """
 
     contact: Contact = field(repr=False)
+    """What was solved."""
     d: Number = column("d", "m", "separation d, from the mean asperity height")
     h: Number = column("h", "m", "separation of the mean planes")
     d_star: Number = column("d*", "1", "separation d over σ")
@@ -100,6 +101,7 @@ class Equilibrium(_ContactRecord):
     residual: Number = column("r", "1", "relative imbalance |F_t/F − 1|")
     iterations: int | NDArray[np.int_] = column("n", "", "evaluations of the load")
     warnings: tuple[str, ...] = ()
+    """Where the answer leaves the range of a model: cause, effect, what to do; a sentence each."""
     populations: tuple[PopulationShare, ...] = ()
     """What each of several populations carries; empty for one."""
     outputs: Mapping[str, Number] = field(default_factory=dict)
@@ -115,12 +117,12 @@ class Equilibrium(_ContactRecord):
         return {"E_ss": self.contact.E_ss, "sigma": self.contact.roughness.sigma}
 
     def attributes(self) -> dict[str, str]:
-        """What a data set says of all its states."""
+        """Attributes of a data set that hold for all its states."""
         said = {"engine": self.engine, "warnings": "\n".join(self.warnings)}
         return said | provenance(self.contact)
 
     def more_variables(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """What each of several populations carries, along the dimension ``population`` too."""
+        """Variables of several populations, along the dimension ``population`` too."""
         parts, dims = self.populations, ("state", "population")
         if not parts:
             return {}, {}
@@ -136,7 +138,7 @@ class Equilibrium(_ContactRecord):
 
     @takes_units
     def modes(
-        self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
+        self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: Basis = "area"
     ) -> str | NDArray[np.str_]:
         """Contact mode with other thresholds, by area (as in the paper) or by load.
 
@@ -153,14 +155,14 @@ class Equilibrium(_ContactRecord):
             A threshold outside 0 to 1, another basis.
         """
         need_shares(eps_1=eps_1, eps_2=eps_2)
-        need_one("basis", basis, "area", "load")
+        need_one("basis", basis, *get_args(Basis))
         share = self.particle_area_share if basis == "area" else self.particle_load_share
         return _mode(share, eps_1, eps_2)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class PopulationShare(_ContactRecord):
-    """What one of several populations of particles carries: floats for one load, else arrays.
+    """Load and area on one of several populations of particles: floats for one load, else arrays.
 
     Part of `Equilibrium.populations`; the shares of all populations add up to
     ``particle_load_share`` and ``particle_area_share``.
@@ -205,7 +207,7 @@ def quantity_of(contact: Contact, name: str) -> dict[str, Any] | None:
     """Symbol, unit and range of an input by its dotted name."""
     path, _, last = name.rpartition(".")
     try:
-        owner = contact.part(path)
+        owner = contact.value_at(path)
     except InvalidValue:
         return None
     if not is_dataclass(owner):
@@ -222,7 +224,7 @@ def labels_of(contact: Contact, name: str) -> dict[str, Any]:
 
 
 def provenance(contact: Contact) -> dict[str, str]:
-    """What a data set says of where its states come from."""
+    """Attributes of a data set that say where its states come from."""
     return {
         "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
         "version": __version__,
@@ -236,7 +238,7 @@ def dataset(
     inputs: Mapping[str, NDArray[Any]],
     attrs: Mapping[str, str],
 ) -> xarray.Dataset:
-    """States (N,) as labelled data; ``inputs``, which they were given, are coordinates."""
+    """States (N,) as labelled data, with their ``inputs`` as coordinates."""
     import xarray
 
     data = {

@@ -13,7 +13,8 @@ from ..contact.interface import interface
 from ..errors import InvalidValue
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
-from .modes import EPS_1, EPS_2, WINDOW, CriticalStatus
+from .modes import WINDOW, CriticalStatus
+from .share_splines import LEVEL_1, LEVEL_2, PROBES, Likeness, SplineLoads, expected_ends
 from .states import FEWEST, carries, state_columns, varied
 from .status import DEEPEST
 
@@ -22,10 +23,14 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
+    Loads = dict[str, tuple[Array, NDArray[np.str_]]]
 
 __all__ = ["CRITICAL", "carrying", "critical_loads", "load_falls"]
 
 CRITICAL = ("F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B")
+SPLINE_NODES, EXACT_EVERY, CLOSER = 33, 4, 0.3
+"""Nodes of splines, of which every fourth is exact; nodes at the lowest separations lie so much
+closer than on average."""
 NODES, AT_ONCE = 13, 8_192
 """Separations at which shares are known before crossings are refined, and samples at a time."""
 EXACT, PASSES, HALVINGS = 1e-6, 60, 30
@@ -104,7 +109,7 @@ def critical_loads(
         )
     arrays = {name: np.broadcast_to(np.asarray(v, float), count) for name, v in vary.items()}
     parts = [
-        _critical_loads(contact, {n: v[start : start + AT_ONCE] for n, v in arrays.items()}, size)
+        _by_splines(contact, {n: v[start : start + AT_ONCE] for n, v in arrays.items()}, size)
         for start in range(0, count, AT_ONCE)
         for size in [min(AT_ONCE, count - start)]
     ]
@@ -126,17 +131,20 @@ def load_falls(contact: Contact) -> bool:
 class Shares:
     """Shares of many contacts, each between a highest (t = 0) and a lowest separation (t = 1)."""
 
-    def __init__(self, contact: Contact, vary: Arrays, count: int):
+    def __init__(self, contact: Contact, vary: Arrays, count: int, ends: Array | None = None):
         self.contact, self.vary, self.count = contact, vary, count
+        if ends is not None:
+            self.top, self.bottom = ends
+            return
         twice = {name: np.repeat(values, 2) for name, values in vary.items()}
-        ends = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
-        first, last = ({n: ends[n][i::2] for n in ("d", "h")} for i in range(2))
+        states = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
+        first, last = ({n: states[n][i::2] for n in ("d", "h")} for i in range(2))
         own = {name: values for name, values in vary.items() if name.startswith("roughness.")}
         rough = contact.with_arrays(own).roughness if own else contact.roughness
         # a load that no contact carries is replaced by the deepest one that the model knows
-        deepest = rough.y_s - (first["h"] - first["d"]) + DEEPEST * rough.sigma_s
+        self.deepest = rough.y_s - (first["h"] - first["d"]) + DEEPEST * rough.sigma_s
         self.top = np.asarray(first["d"], float)
-        self.bottom = np.where(np.isnan(last["d"]), deepest, last["d"])
+        self.bottom = np.where(np.isnan(last["d"]), self.deepest, last["d"])
         if contact.asperity_law.of_surface:
             self.bottom = np.maximum(self.bottom, self._ends(np.flatnonzero(np.isnan(last["d"]))))
 
@@ -150,24 +158,31 @@ class Shares:
             )
         return out
 
-    def at(self, t: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
+    def logarithms_at(self, t: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
         """ln A_sa/A_ss, ln F_sa/F_ss and ln F* of contacts ``which`` (M,) at t (M,)."""
-        others = np.setdiff1d(np.arange(self.count), which)
-        others = others[: max(FEWEST - len(np.unique(which)), 0)]  # the engine takes no fewer
-        t, which = np.append(t, np.full(len(others), 0.5)), np.append(which, others)
+        A_sa, A_ss, F_sa, F_ss, F = self.columns_at(t, which)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return _log_ratio(A_sa, A_ss), _log_ratio(F_sa, F_ss), np.log(F)
+
+    def logarithms(self, t: Array, which: NDArray[np.intp]) -> Array:
+        """ln A_sa/A_ss, ln F_sa* and ln F_ss* of contacts ``which`` (M,) at t (M,): (3, M)."""
+        A_sa, A_ss, F_sa, F_ss, _ = self.columns_at(t, which)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.stack([_log_ratio(A_sa, A_ss), np.log(F_sa), np.log(F_ss)])
+
+    def columns_at(self, t: Array, which: NDArray[np.intp]) -> list[Array]:
+        """Areas, loads and F* of contacts ``which`` (M,) at t (M,)."""
         order = np.argsort(which, kind="stable")  # states of one contact are solved side by side
-        t, which, back = t[order], which[order], np.argsort(order)[: len(t) - len(others)]
+        t, which, back = t[order], which[order], np.argsort(order)
         d = self.top[which] + t * (self.bottom[which] - self.top[which])
         vary = {name: values[which] for name, values in self.vary.items()}
-        states = state_columns(self.contact, d=d, vary=vary or None)
-        pairs = ("A_sa", "A_ss"), ("F_sa_star", "F_ss_star")
-        area, load = (_log_ratio(states[one], states[other])[back] for one, other in pairs)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return area, load, np.log(states["F_star"][back])
+        fewest = 1 if self.count >= FEWEST else None  # the engine is at work by then
+        states = state_columns(self.contact, d=d, vary=vary or None, fewest=fewest)
+        return [states[name][back] for name in ("A_sa", "A_ss", "F_sa_star", "F_ss_star", "F_star")]
 
     def load(self, t: Array, which: NDArray[np.intp]) -> Array:
         """F* of contacts ``which`` at t."""
-        return np.exp(self.at(t, which)[2])
+        return np.exp(self.logarithms_at(t, which)[2])
 
 
 def _log_ratio(one: Array, other: Array) -> Array:
@@ -175,12 +190,74 @@ def _log_ratio(one: Array, other: Array) -> Array:
         return np.clip(np.log(one) - np.log(other), -1500.0, 1500.0)
 
 
+def _by_splines(contact: Contact, vary: Arrays, count: int) -> Loads:
+    """Critical loads by splines; of contacts of which those do not tell them, one by one."""
+    left = np.arange(count)
+    out = {n: (np.full(count, np.nan), np.full(count, "", dtype="<U12")) for n in CRITICAL}
+    if (found := _spline_loads(contact, vary, count)) is not None:
+        splines, rows = found
+        told = rows[splines.known]
+        for name, into in out.items():
+            for whole, part in zip(into, splines.loads[name], strict=True):
+                whole[told] = part[splines.known]
+        left = np.setdiff1d(left, told)
+    if len(left):
+        rest = _critical_loads(contact, {n: v[left] for n, v in vary.items()}, len(left))
+        for name, into in out.items():
+            for whole, part in zip(into, rest[name], strict=True):
+                whole[left] = part
+    return out
+
+
+def _spline_loads(
+    contact: Contact, vary: Arrays, count: int
+) -> tuple[SplineLoads, NDArray[np.intp]] | None:
+    """Splines of contacts, and which those are; None where they are few, or unlike each other."""
+    from scipy.interpolate import CubicSpline
+
+    if count < 4 * PROBES:
+        return None
+    probes = np.linspace(0, count - 1, PROBES).astype(np.intp)
+    known = Shares(contact, {name: values[probes] for name, values in vary.items()}, PROBES)
+    ends = np.stack([known.top, known.bottom])
+    like = Likeness(vary, count, probes)
+    if not (like.enough and np.all(np.isfinite(ends))):
+        return None
+    top, bottom = expected_ends(like, ends)
+    deepest = like.extend_to_all(known.deepest)
+    shares = Shares(contact, vary, count, np.stack([top, np.maximum(bottom, deepest)]))
+
+    def states(x: Array, which: NDArray[np.intp]) -> Array:
+        return shares.logarithms(1 - (1 - x) * (CLOSER + (1 - CLOSER) * (1 - x)), which)
+
+    def at_nodes(x: Array, which: NDArray[np.intp]) -> Array:
+        found = states(np.tile(x, len(which)), np.repeat(which, len(x)))
+        return found.reshape(3, len(which), len(x))
+
+    x = np.linspace(0.0, 1.0, SPLINE_NODES)
+    exact = at_nodes(x[::EXACT_EVERY], np.arange(count))
+    alike = np.moveaxis(like.extend_to_all(np.moveaxis(at_nodes(x, probes), 0, 1)), 0, 1)
+    first, last = (np.logaddexp(*exact[1:, :, end]) for end in (0, -1))
+    reach = (first < math.log(WINDOW[0])) & ((last > math.log(WINDOW[1])) | (bottom <= deepest))
+    rows = np.flatnonzero(reach & np.all(np.isfinite(exact), axis=(0, 2)))
+    if not len(rows) or not np.all(np.isfinite(alike)):
+        return None
+    exact, values = exact[:, rows], alike[:, rows]
+    # what a contact differs from the others by is smooth
+    other, places = exact - values[:, :, ::EXACT_EVERY], x[::EXACT_EVERY]
+    values += CubicSpline(places, other, axis=2)(x)
+    coarse = CubicSpline(places[::2], other[:, :, ::2], axis=2)(places[1::2])
+    error = np.max(np.abs(coarse - other[:, :, 1::2]), axis=2) / 8
+    splines = SplineLoads(x, values, error, EXACT_EVERY, lambda x, which: states(x, rows[which]))
+    return splines, rows
+
+
 def _critical_loads(
     contact: Contact, vary: Arrays, count: int, nodes: int = NODES
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:
     shares = Shares(contact, vary, count)
     t = np.linspace(0.0, 1.0, nodes)
-    found = shares.at(np.tile(t, count), np.repeat(np.arange(count), nodes))
+    found = shares.logarithms_at(np.tile(t, count), np.repeat(np.arange(count), nodes))
     area, load, F = (values.reshape(count, nodes) for values in found)
     lost = np.isnan(shares.top)
 
@@ -193,8 +270,7 @@ def _critical_loads(
             value[rows], status[rows] = number, word
         return value, status
 
-    level_1, level_2 = math.log((1 - EPS_1) / EPS_1), math.log(EPS_2 / (1 - EPS_2))
-    below, above = area < level_1, area >= level_2
+    below, above = area < LEVEL_1, area >= LEVEL_2
     never, always = below[:, 0], np.all(~below, axis=1)
     none, end = np.all(~above, axis=1), above[:, -1]
     changes = (load[:, 1:] >= 0) != (load[:, :-1] >= 0)
@@ -206,7 +282,7 @@ def _critical_loads(
         nodes - 1 - np.argmax(above[:, ::-1], 1),
         nodes - 2 - np.argmax(changes[:, ::-1], 1),
     ]
-    misses = [area - level_1, area - level_2, load]
+    misses = [area - LEVEL_1, area - LEVEL_2, load]
     loads = _crossings(
         shares,
         t,
@@ -215,7 +291,7 @@ def _critical_loads(
         np.concatenate(where),
         np.concatenate([cell[some] for cell, some in zip(cells, where, strict=True)]),
         np.repeat([0, 0, 1], [len(some) for some in where]),
-        np.repeat([level_1, level_2, 0.0], [len(some) for some in where]),
+        np.repeat([LEVEL_1, LEVEL_2, 0.0], [len(some) for some in where]),
     )
     cases: list[Any] = [
         [(never, CriticalStatus.NEVER_P_S, 0.0), (always, CriticalStatus.ALWAYS_P_S, np.inf)],
@@ -256,7 +332,7 @@ def _crossings(
     column: NDArray[np.intp],
     level: Array,
 ) -> Array:
-    """F* of contacts ``which`` at which a share has its level between nodes ``cell`` and the next.
+    """Loads F* of contacts ``which`` at which a share passes its level in the interval ``cell``.
 
     From the root of a cubic spline through what the share misses its level by at all nodes, by
     Chandrupatla's method, all side by side; the load by a parabola through the last three points.
@@ -279,7 +355,7 @@ def _crossings(
     for _ in range(PASSES):
         if not len(left):
             break
-        found = shares.at(x, which[left])
+        found = shares.logarithms_at(x, which[left])
         new = np.stack([x, np.where(column[left] == 0, *found[:2]) - level[left], found[2]])
         same = (new[1] >= 0) == (one[1] >= 0)
         three, two = np.where(same, one, two), np.where(same, two, one)
@@ -329,7 +405,7 @@ def _peak(
     if not len(which):
         return entry([(~good, CriticalStatus.NONE, np.nan)], (np.empty(0), which))
     answer = elementwise.find_minimum(
-        lambda x, i: -shares.at(x, i.astype(np.intp))[0],
+        lambda x, i: -shares.logarithms_at(x, i.astype(np.intp))[0],
         tuple(t[top[which] + side] for side in (-1, 0, 1)),
         args=(which.astype(float),),
         tolerances={"xatol": EXACT_PEAK},
@@ -338,5 +414,5 @@ def _peak(
 
 
 def carrying(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:
-    """The contact without outputs, and of what varies that which decides how it carries load."""
+    """The contact without outputs, and the varied inputs that affect how it carries load."""
     return contact.replace(outputs=()), {name: v for name, v in vary.items() if carries(name)}

@@ -26,6 +26,8 @@ __all__ = ["AREA", "about_area", "chi_of", "crowded", "crowded_places"]
 CLOSE = 0.05
 """Real area above which summits grow together that this model counts one by one; the numbers are
 those of the book's page "Point by point", where χ is 0.07 to 0.24."""
+WIDE = 0.2
+"""Real area above which neighbouring contacts interact, wherever particles lie."""
 HARD, ELASTIC = 0.25, 2.0
 """χ above which the law of a single summit, one radius for all and merging add up instead of
 cancelling, and above which pressed surfaces were elastic."""
@@ -71,7 +73,7 @@ def chi_of(contact: Contact) -> float:
 
 
 def crowded(contact: Contact, A_t: Array) -> NDArray[np.bool_]:
-    """Which real areas (N,) are more than a model that counts contacts one by one can mean.
+    """Mask of real areas (N,) too large for a model that counts contacts one by one.
 
     Examples
     --------
@@ -121,7 +123,7 @@ def crowded_places(contact: Contact, A_t: Array, load: Array) -> tuple[float, st
 
 
 def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list[Note]:
-    """What states whose real area reaches this leave out; ``chi`` of contacts that differ."""
+    """Notes on the real area reached by states; ``chi`` of contacts that differ."""
     out: list[Note] = []
     if not _counts_summits(contact):
         if most > MOST_AREA:
@@ -131,9 +133,9 @@ def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list
             )
             out.append(Note(what, code=AREA, action=POINTS))
         return out
-    if most > 0.2:
+    if most > WIDE:
         what = (
-            f"A_t reaches {most:.3g}: above 0.2 neighbouring contacts interact, "
+            f"A_t reaches {most:.3g}: above {WIDE:g} neighbouring contacts interact, "
             "which this model neglects"
         )
         out.append(Note(what, code=f"{AREA}.close", action=POINTS))

@@ -31,7 +31,7 @@ FEWER = "check the unit of areal_density and of the sizes"
 def about_elastic(
     contact: Contact, bound: Interface, full: dict[str, Array], d: Array
 ) -> list[str]:
-    """What is known of elastic asperities of a broad spectrum, where these carry area."""
+    """Note on elastic asperities of a broad spectrum, where these carry area."""
     alpha = contact.roughness.alpha
     if bound.one_field:
         return []
@@ -51,7 +51,7 @@ def about_elastic(
 
 
 def about_particles(contact: Contact) -> list[str]:
-    """One sentence for each way in which the particles leave the model's validity."""
+    """Notes on particles outside the model's validity, one sentence each."""
     out = []
     for each in contact.populations:
         out += contact.law_of(each).warnings(contact.surfaces, contact.roughness, each)

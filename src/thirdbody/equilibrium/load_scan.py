@@ -145,7 +145,7 @@ class LoadScan:
         return cells, above[1:][cells]
 
     def separations(self, target: Array) -> Index:
-        """How many separations carry each load, those beside a jump of the load among them."""
+        """Number of separations that carry each load, those beside a jump included."""
         with np.errstate(invalid="ignore"):
             ends = np.sort(np.stack([self.log_F[:-1], self.log_F[1:]]), axis=0)
         begun, ended = (np.searchsorted(np.sort(row), np.log(target)) for row in ends)
@@ -212,7 +212,7 @@ class LoadScan:
     def _beside(
         self, target: Array, low: Array, high: Array, falling: bool
     ) -> tuple[Array, dict[int, str]]:
-        """The float whose load is next to each load in its bracket, and where that is a jump."""
+        """Float whose load is next to each load in its bracket, and whether that is at a jump."""
         low, high = low.copy(), high.copy()
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
@@ -235,12 +235,12 @@ class LoadScan:
 
     def solve(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
         """Separation, number of evaluations and status of every load."""
-        d, iterations, status = self.met(target, branch)
+        d, iterations, status = self.solve_across_jumps(target, branch)
         d[~status.solved] = np.nan
         return d, iterations, status
 
-    def met(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
-        """As `solve`; where the load jumps over a load, the separation at which it does."""
+    def solve_across_jumps(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
+        """Separations as of `solve`; at a jump over a load, the separation of the jump."""
         d = np.full(len(target), np.nan)
         iterations = np.zeros(len(target), dtype=int)
         status = Statuses.ok(len(target))

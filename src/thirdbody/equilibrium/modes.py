@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Literal
 
 from ..errors import InvalidValue
 
 __all__ = [
+    "Basis",
     *("EPS_1", "EPS_2", "FAINT", "HYBRID", "P_S", "S_S", "WINDOW"),
     *("CriticalStatus", "need_shares"),
 ]
@@ -14,6 +16,8 @@ __all__ = [
 P_S, HYBRID, S_S = MODES = "p-s", "hybrid", "s-s"
 EPS_1, EPS_2 = 0.02, 0.05
 """Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
+Basis = Literal["area", "load"]
+"""Whose shares are compared with them."""
 WINDOW = (1e-8, 1e-2)
 """Loads F* between which critical loads are sought."""
 FAINT = 1e-12
@@ -21,7 +25,7 @@ FAINT = 1e-12
 
 
 class CriticalStatus(StrEnum):
-    """What became of a critical load; each member is the text that results and JSON hold.
+    """Status of a critical load; each member is the text that results and JSON hold.
 
     Examples
     --------

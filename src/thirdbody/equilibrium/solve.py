@@ -9,7 +9,7 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,7 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, Note, tell_of_range
-from ..quantities.arguments import only_one
+from ..quantities.arguments import need_one, only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
@@ -37,6 +37,9 @@ Array = NDArray[np.float64]
 
 Index = NDArray[np.intp]
 
+LoadBranch = Literal["loading", "unloading"]
+"""Where several separations carry a load: that of loading, or of unloading."""
+
 
 def given_load(
     contact: Contact,
@@ -44,13 +47,13 @@ def given_load(
     F_star: ArrayLike | None,
     d: ArrayLike | None,
 ) -> tuple[str, Array, bool]:
-    """Which quantity is given, its values (F in Pa or d in m), and whether it was one number."""
+    """Name of the given load, its values (F in Pa or d in m), and whether it was one number."""
     name, flat, one = given_numbers(pressure=pressure, F_star=F_star, d=d)
     return name, flat * contact.E_ss if name == "F_star" else flat, one
 
 
 def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
-    """The one quantity that is given, its values, and whether it was one number.
+    """Name of the one given quantity, its values, and whether it was one number.
 
     Loads must be > 0; separations, d and h, may be any number.
     """
@@ -84,7 +87,7 @@ def solve(
     pressure: ArrayLike | None = None,
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
-    branch: Literal["loading", "unloading"] = "loading",
+    branch: LoadBranch = "loading",
 ) -> Equilibrium:
     r"""Separation, areas, load shares and mode of a contact under a load.
 
@@ -149,8 +152,7 @@ def solve(
     ('hybrid', 0.78)
     """
     name, values, scalar = given_load(contact, pressure, F_star, d)
-    if branch not in ("loading", "unloading"):
-        raise InvalidValue(f"branch = {branch!r} must be 'loading' or 'unloading'")
+    need_one("branch", branch, *get_args(LoadBranch))
     if branch == "unloading" and any(each.strength is not None for each in contact.populations):
         raise InvalidValue(
             "branch = 'unloading' has no meaning with particles that break (strength): what is "
@@ -167,7 +169,7 @@ def solve(
 
 
 def solve_untold(contact: Contact, load: str, loads: Array) -> Equilibrium:
-    """As `solve` at loads (N,), without a look at whether the model is valid there."""
+    """Solve at loads (N,) without the notes on the model's validity."""
     name, values, _ = given_load(
         contact, **{"pressure": None, "F_star": None, "d": None, load: loads}
     )
@@ -212,7 +214,7 @@ def _result(
         if scalar and deep.any():
             raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
         separation = np.where(deep, np.nan, values)
-        status = Statuses.of(np.where(deep, Status.TOO_DEEP, Status.OK))
+        status = Statuses.from_codes(np.where(deep, Status.TOO_DEEP, Status.OK))
         iterations, path = np.where(deep, 0, 1), "numpy: the separations are given"
     else:
         try:
@@ -457,7 +459,7 @@ def _state(
 def _only_carried(
     bound: Interface, d: Array, status: Statuses, target: Array | None, raw: dict[str, Array]
 ) -> tuple[Array, Statuses, dict[str, Array]]:
-    """The states without those whose load is not carried: no state is "ok" whose balance is not.
+    """Columns with NaN where the load is not carried: no state is "ok" without a balance.
 
     One whose contacts would have grown together keeps its numbers, and is not "ok".
     """
@@ -498,7 +500,7 @@ def _population_shares(
     scalar: bool,
     outputs: Sequence[dict[str, Array]],
 ) -> tuple[PopulationShare, ...]:
-    """What each of several populations carries at separations d."""
+    """Load and area of each of several populations at separations d."""
     if len(bound.populations) < 2:
         return ()
     out = []
@@ -545,7 +547,7 @@ def _branches(bound: Interface, target: Array | None, d: Array, branch: str) -> 
 def _warnings(
     contact: Contact, bound: Interface, full: dict[str, Array], d: Array
 ) -> tuple[str, ...]:
-    """One sentence for each way in which these states leave the model's validity."""
+    """Notes on states outside the model's validity, one sentence each."""
     out: list[str] = [*about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))]
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
     if not bound.one_field and np.any(height < DEEPEST):

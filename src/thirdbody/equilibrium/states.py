@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
     import xarray
 
 __all__ = ["solve_states", "state_columns", "unknown_inputs", "varied"]
+
+FEWEST = 20
+"""Different states for which nodes are quicker than tables of each."""
 
 
 @takes_units
@@ -106,10 +110,15 @@ def state_columns(
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
+    fewest: int | None = None,
 ) -> Columns:
-    """The columns of `solve_states` as plain arrays (N,)."""
+    """The columns of `solve_states` as plain arrays (N,).
+
+    By the compiled engine from ``fewest`` different states on, which those who have it at work
+    already give as 1.
+    """
     load, loads, arrays = _loads_and_inputs(contact, pressure, F_star, d, vary)
-    return _columns(contact, arrays, load, loads)
+    return _columns(contact, arrays, load, loads, FEWEST if fewest is None else fewest)
 
 
 def direct_columns(
@@ -117,8 +126,15 @@ def direct_columns(
 ) -> Columns:
     """Columns at separations d (N,) with inputs (N,), by quadrature at each: no table is made.
 
-    What a few states of contacts are found by that no other state shares; outputs are left out.
+    What a few states of contacts are found by that no other state shares, by the compiled engine
+    where it knows them; outputs are left out.
     """
+    if engine.available():
+        numbers = {name: values.astype(float) for name, values in vary.items()}
+        with suppress(NotCompiled):
+            found = own_columns(contact.replace(outputs=()), numbers, "d", d)
+            if np.all(found["doubt"] == ""):
+                return found
     out: Columns = {}
     for which in _alike(vary, len(d)):
         own = varied(contact, {name: values[which[0]].item() for name, values in vary.items()})
@@ -146,7 +162,7 @@ def _loads_and_inputs(
     d: ArrayLike | None,
     vary: Mapping[str, ArrayLike] | None,
 ) -> tuple[str, NDArray[np.float64], dict[str, NDArray[Any]]]:
-    """Which load is given, its values and those of every varied input, all (N,)."""
+    """Name and values of the load, and the values of every varied input, all (N,)."""
     load, _, _ = given_load(contact, pressure, F_star, d)
     if problems := list(unknown_inputs(contact, vary or ())):
         raise InvalidValue(*problems)
@@ -192,7 +208,7 @@ def unknown_inputs(
             yield Problem(place, "says nothing of a contact without particles")
             continue
         try:
-            contact.part(name)
+            contact.value_at(name)
         except InvalidValue:
             paths = known or list(paths_of(contact))
             above = name.rpartition(".")[0]
@@ -202,16 +218,22 @@ def unknown_inputs(
             yield Problem(place, "is not an input", hint=hint)
 
 
-def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+def _columns(
+    contact: Contact,
+    arrays: Arrays,
+    load: str,
+    loads: NDArray[np.float64],
+    fewest: int = FEWEST,
+) -> Columns:
     """Every column of the states."""
     if contact.outputs:
-        return _with_outputs(contact, arrays, load, loads)
+        return _with_outputs(contact, arrays, load, loads, fewest)
     absent = np.zeros(len(loads), bool)
     for name in ABSENT:
         absent |= arrays.get(name, np.ones(1)) == 0
     bare = {name: v for name, v in arrays.items() if not name.startswith("particles.")}
     if not absent.any():
-        return _solve(contact, arrays, load, loads)
+        return _solve(contact, arrays, load, loads, fewest)
     parts = []
     if not absent.all():
         parts.append((contact, arrays, np.flatnonzero(~absent)))
@@ -219,7 +241,7 @@ def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.floa
     return _joined(
         len(loads),
         [
-            (which, _solve(base, _take_states(inputs, which), load, loads[which]))
+            (which, _solve(base, _take_states(inputs, which), load, loads[which], fewest))
             for base, inputs, which in parts
         ],
     )
@@ -234,8 +256,6 @@ DEMANDING = (
     *engine.MATERIALS,
 )
 """Inputs that change the contact of one asperity or particle, which nodes may share."""
-FEWEST = 20
-"""Different states for which nodes are quicker than tables of each."""
 FIRST, AT_ONCE = 256, 16_384
 """States laid out first, and at most at a time."""
 ALIKE = 2.0
@@ -252,7 +272,7 @@ def _take_states(arrays: Arrays, which: Any) -> dict[str, NDArray[Any]]:
 
 
 def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
-    """Columns of all states from those of some, in the order in which they come."""
+    """Columns of all states, put together from subsets in their order."""
     out: Columns = {}
     for which, columns in parts:
         for name in (*COLUMNS, "engine", CODE):
@@ -270,19 +290,19 @@ def carries(name: str) -> bool:
 
 
 def _with_outputs(
-    contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]
+    contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], fewest: int
 ) -> Columns:
-    """Every column of the states, then the outputs of each contact among them."""
+    """Columns of the states, with those of the outputs of each contact."""
     inputs = {name: v for name, v in arrays.items() if carries(name)}
     with weighed(0.5):
-        out = _columns(contact.replace(outputs=()), inputs, load, loads)
+        out = _columns(contact.replace(outputs=()), inputs, load, loads, fewest)
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
     count = arrays.get(DENSITY, np.ones(len(loads)))
     alike = {**arrays, DENSITY: count == 0}
     if contact.asperity_law.of_surface:  # where particles stand depends on how many there are
         alike = dict(arrays)
-    many = engine.available() and _differ(inputs, len(loads))
+    many = engine.available() and _differ(inputs, len(loads), fewest)
     solver = Solver(_separation, _outputs_at) if many else SOLVER
     for which in _alike(alike, len(loads)):
         own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
@@ -331,12 +351,19 @@ def _outputs_at(contact: Contact, d: NDArray[np.float64]) -> dict[str, NDArray[n
     return out
 
 
-def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
-    """Every column: by nodes that states share where they can, the others one by one."""
+def _solve(
+    contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], fewest: int
+) -> Columns:
+    """Columns by the compiled engines where they can, of other states one by one."""
     numeric = all(values.dtype.kind in "iuf" for values in arrays.values())
-    if not (numeric and engine.available() and _differ(arrays, len(loads))):
+    if not (numeric and engine.available() and _differ(arrays, len(loads), fewest)):
         return _by_groups(contact, arrays, load, loads)
     numbers = {name: values.astype(float) for name, values in arrays.items()}
+    if fewest < FEWEST and not _differ(arrays, len(loads), FEWEST):  # nodes that few share
+        try:
+            return _by_own(contact, numbers, load, loads)
+        except NotCompiled as error:
+            return _by_groups(contact, arrays, load, loads, str(error))
     try:
         return _by_nodes(contact, numbers, load, loads)
     except NotCompiled as error:
@@ -365,7 +392,7 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
 
 
 def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
-    """Whether states that differ in these inputs each need tables of their own: 0.1 s a state.
+    """Whether states that differ in these inputs each need new tables: 0.1 s a state.
 
     Or nearly so: of particles that break, each takes 1 to 3 ms by the compiled engine.
     """
@@ -419,7 +446,7 @@ def _unnumbered(name: str) -> str:
 
 
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
-    """Every column by the compiled engine; `NotCompiled` where it does not know these inputs."""
+    """Columns by the compiled engine; `NotCompiled` for inputs that it does not know."""
     own = not engine.bare(contact, arrays) and engine.own_sizes(contact, arrays)
     order = None
     if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
@@ -450,7 +477,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
 
 
 def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
-    """Every column, each state by quadrature over its own laws; what is doubted, one by one."""
+    """Columns by quadrature of each state; doubtful states are solved one by one."""
     at_once = AT_ONCE // 16 if any(each.strength for each in contact.populations) else AT_ONCE
 
     def solve_from(start: int) -> tuple[Any, Columns]:
@@ -483,7 +510,7 @@ def _with_words(contact: Contact, columns: Columns) -> Columns:
 def _without_doubts(
     out: Columns, doubts: Iterable[str], solve_again: Callable[[Any, str], Columns]
 ) -> Columns:
-    """Columns in which states that an engine doubts are those that another one finds."""
+    """Columns in which doubtful states are replaced by those of another engine."""
     for why in doubts:
         if len(which := np.flatnonzero(out["engine"] == why)):
             for name, column in solve_again(which, why).items():
@@ -504,7 +531,7 @@ def _all(count: int, word: str) -> NDArray[Any]:
 def _by_groups(
     contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], why: str = ""
 ) -> Columns:
-    """Every column, one contact after another; ``why`` not by nodes."""
+    """Columns of one contact after another; ``why`` says what kept the compiled engine away."""
     parts = []
     for which in _alike(arrays, len(loads)):
         state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
@@ -516,12 +543,12 @@ def _by_groups(
     return _joined(len(loads), parts)
 
 
-def _differ(arrays: Arrays, count: int) -> bool:
-    """Whether there are FEWEST different states; mostly the first of them tell."""
-    first = _take_states(arrays, np.arange(min(count, 50 * FEWEST)))
+def _differ(arrays: Arrays, count: int, fewest: int) -> bool:
+    """Whether there are so many different states; mostly the first of them tell."""
+    first = _take_states(arrays, np.arange(min(count, 50 * fewest)))
     return any(
-        _groups(some, n).max() + 1 >= FEWEST
-        for some, n in ((first, min(count, 50 * FEWEST)), (arrays, count))
+        _groups(some, n).max() + 1 >= fewest
+        for some, n in ((first, min(count, 50 * fewest)), (arrays, count))
     )
 
 

@@ -23,7 +23,7 @@ mean height of a rough surface cuts half of it."""
 
 
 class Status(IntEnum):
-    """What became of a state. Codes are kept in files: new ones come last, none changes.
+    """Outcome of a state. Files keep the codes: new ones come last, none changes.
 
     Examples
     --------
@@ -101,18 +101,18 @@ class Statuses:
     words: NDArray[Any]
 
     @staticmethod
-    def of(codes: ArrayLike) -> Statuses:
-        """With the sentences that every state of a code shares."""
+    def from_codes(codes: ArrayLike) -> Statuses:
+        """Statuses of these codes, with the sentence that all states of a code share."""
         own = np.array(codes, dtype=np.int8, ndmin=1)
         return Statuses(own, SENTENCES[own])
 
     @staticmethod
     def ok(count: int) -> Statuses:
         """All of them ok."""
-        return Statuses.of(np.zeros(count, np.int8))
+        return Statuses.from_codes(np.zeros(count, np.int8))
 
     def set(self, which: Any, status: Status, sentence: str = "") -> None:
-        """Give states another status, and the sentence of their own if they have one."""
+        """Give states a status, and their sentence where it differs from that of the code."""
         self.codes[which] = status
         self.words[which] = sentence or status.sentence
 

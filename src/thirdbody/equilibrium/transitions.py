@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Record
 from .load_scan import load_scan
-from .modes import EPS_1, EPS_2, WINDOW, CriticalStatus, need_shares
+from .modes import EPS_1, EPS_2, WINDOW, Basis, CriticalStatus, need_shares
 from .words import happens
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
@@ -98,9 +98,10 @@ class Transitions(Record):
     F_cr2: Critical
     """From it on particles have little of the contact left (hybrid to s-s)."""
     F_tpca: TurningPoint
+    """Turning point of the contact area, by three definitions."""
 
     def entries(self) -> dict[str, Critical]:
-        """Every critical load by its name, those of the turning point as ``F_tpca.A``."""
+        """Critical loads by name, those of the turning point as ``F_tpca.A``."""
         turning = {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
         return {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2} | turning
 
@@ -120,7 +121,7 @@ def transitions(
     window: tuple[float, float] = WINDOW,
     eps_1: float = EPS_1,
     eps_2: float = EPS_2,
-    basis: Literal["area", "load"] = "area",
+    basis: Basis = "area",
 ) -> Transitions:
     r"""Loads at which the contact changes its mode, and its turning point.
 
@@ -176,7 +177,7 @@ def transitions(
     low, high = (float(load) for load in window)
     if not 0 < low < high:
         raise InvalidValue(f"window = {window!r} must be two loads F* with 0 < first < second")
-    need_one("basis", basis, "area", "load")
+    need_one("basis", basis, *get_args(Basis))
     need_shares(eps_1=eps_1, eps_2=eps_2)
     if contact.two_body:
         none = Critical(value=None, status=CriticalStatus.NONE)
@@ -197,7 +198,7 @@ def transitions(
 
     def states(loads: Array) -> tuple[Array, Array, Array]:
         """Shares of area and load of the particles, and A_t: where the load jumps, below it."""
-        d, _, _ = scan.met(loads * contact.E_ss, "loading")
+        d, _, _ = scan.solve_across_jumps(loads * contact.E_ss, "loading")
         raw = bound.fields(d)
         F = raw["F_ss"] + raw["F_sa"]
         return raw["A_sa"] / raw["A_t"], raw["F_sa"] / F, raw["A_t"]

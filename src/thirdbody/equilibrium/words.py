@@ -94,7 +94,7 @@ def mode_among(mode: str | None, held: float) -> str:
 
 
 def is_rare(mode: str | None, held: float) -> bool:
-    """Whether a mode on particles is not that of contacts that hold so many of them.
+    """Whether contacts hold so few particles that a mode on particles is not theirs.
 
     >>> is_rare("p-s", 0.1), is_rare("p-s", 1.0), is_rare("s-s", 0.1), is_rare(None, 0.1)
     (True, False, False, False)
@@ -131,7 +131,7 @@ def carried(share: float | None, parts: Mapping[str, float | None] | None = None
 
 
 def meets(count: float) -> str:
-    """How often a contact meets a particle that holds so many on average; empty from one on.
+    """Clause on how often a contact meets a particle, from the mean number; "" from 1 on.
 
     Places do not depend on one another, so that no particle is there with the probability
     exp(−count).
@@ -194,7 +194,7 @@ def _side(value: float | None, status: str) -> Side | None:
 
 
 def critical_load(value: float | None, status: str = "", E_ss: float | None = None) -> str:
-    """A critical load F*, or its pressure where E_ss is given, or on which side it lies.
+    """Text of a critical load F* (a pressure if E_ss is given), or of the side on which it lies.
 
     A load that does not exist is "-"; one outside the loads searched lies below or above them,
     be it told by its status or by 0 and ∞.

@@ -149,7 +149,7 @@ class Placed:
         self.shape, self.pixels = shape, rows * m + columns
         self.weights = np.stack([(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t])
 
-    def at(self, field: Array) -> Array:
+    def at_particles(self, field: Array) -> Array:
         """Dᵀ: a field where the particles are."""
         return np.sum(self.weights * field.ravel()[self.pixels], axis=0)
 

@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -43,7 +43,7 @@ from ..version import __version__
 from .interface import Map, cap_of, map_of
 from .pooling import COMPARED, RATIOS, SHARES, AtLoads, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
-from .solve import FEW, TOL
+from .solve import FEW, TOL, Cap
 from .sums import one_surface, places
 
 if TYPE_CHECKING:
@@ -81,6 +81,12 @@ class Ensemble:
 
     Attributes
     ----------
+    contact : Contact
+        What was pressed.
+    statistical : Equilibrium
+        The statistical answer at the same loads, with the seats that were drawn.
+    surfaces : int
+        How many maps of heights were pressed.
     table : xarray.Dataset
         Along ``F_star``: for ``h``, ``A_t``, ``particle_load_share`` and ``particle_area_share``
         the raw number, ``…_raw``, the one without the luck of the draw, ``…_cv``, their jackknife
@@ -96,6 +102,8 @@ class Ensemble:
         Columns of every state: surface, h, loads, areas, certificate.
     left_out : int
         States that did not converge, which count nowhere.
+    warnings : tuple of str
+        Where the numbers are bounds, or the maps too coarse or too small, a sentence each.
     """
 
     contact: Contact = field(repr=False)
@@ -123,8 +131,8 @@ class Ensemble:
             "surfaces": self.surfaces,
             "left_out": self.left_out,
             "seats": self.seats._asdict(),
-            "table": _plain(self.table),
-            "at_h": _plain(self.at_h),
+            "table": _columns_as_lists(self.table),
+            "at_h": _columns_as_lists(self.at_h),
             "summary": self.sentence,
             "warnings": list(self.warnings),
         }
@@ -179,7 +187,7 @@ def ensemble(
     spacing: float | None = None,
     seats: object = "random",
     seed: int = 0,
-    cap: Literal["hardness", "none"] | float | None = "hardness",
+    cap: Cap | float | None = "hardness",
     tol: float = TOL,
     max_iterations: int = 300,
     workers: int = 1,
@@ -331,7 +339,7 @@ def _tell(sentence: str) -> None:
 def _surfaces_and_count(
     surfaces: int | Sequence[Topography],
 ) -> tuple[Sequence[Topography] | None, int]:
-    """The surfaces that are given, None for synthetic ones, and how many there are."""
+    """Surfaces as given (None for synthetic ones) and their number."""
     if isinstance(surfaces, int):
         if isinstance(surfaces, bool) or not 1 <= surfaces <= 10**6:
             raise InvalidValue(
@@ -345,7 +353,7 @@ def _surfaces_and_count(
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class _Task:
-    """The work on one surface: make it, press it; anywhere, any number of times."""
+    """Task for one surface: make it and press it; it can run anywhere, any number of times."""
 
     contact: Contact
     surface: Topography | None
@@ -369,7 +377,7 @@ class _Task:
         return map_of(own, None)
 
     def __call__(self) -> dict[str, Any]:
-        """What `one_surface` says of it."""
+        """Record of one surface, as `one_surface` makes it."""
         need_version(self.version, "ensemble")
         return one_surface(
             self.contact, self.map(), self.rule, self.grid, self.seed, cap=self.cap,
@@ -429,7 +437,7 @@ def _ensemble(
 ) -> Ensemble:
     import xarray
 
-    pool = Pool.of(records, grid)
+    pool = Pool.from_records(records, grid)
     seats = pooled_seats([each["zeta"] for each in records])
     model = counterpart(contact, seats)
     state = statistical(model, F_star=loads)
@@ -559,7 +567,7 @@ def _file(folder: Path, i: int) -> Path:
 
 
 # -------------------------------------------------------------------------- what is told
-def _plain(data: xarray.Dataset) -> dict[str, list[float | None]]:
+def _columns_as_lists(data: xarray.Dataset) -> dict[str, list[float | None]]:
     return {str(name): plain_data(data[name].values) for name in (*data.coords, *data.data_vars)}
 
 

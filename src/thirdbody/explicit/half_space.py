@@ -105,7 +105,7 @@ class HalfSpace:
 
     @property
     def lattice(self) -> float:
-        """What the images of a pressure on one pixel take off its displacement [m/Pa]."""
+        """Displacement [m/Pa] that the periodic images of a pixel's pressure subtract."""
         n, m = self.shape
         constant = lattice_constant((n * self.spacing, m * self.spacing))
         return constant * self.spacing**2 / (math.pi * self.E_star)

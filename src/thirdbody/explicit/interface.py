@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue
+from ..errors import Advice, InvalidValue
 from ..laws.base import AbstractParticleLaw
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.topography import Topography
@@ -177,15 +177,16 @@ def _of_topography(surface: Topography, spacing: float | None) -> Map:
 
 
 def _sentence_of_smoothing(surface: Topography, z: Array) -> tuple[str, ...]:
-    """That waves were left out which nobody asked to leave out, and what it does."""
+    """Note that short waves were left out by default, and its effect."""
     if surface.given_cutoff is not None or surface.cutoff == 0:
         return ()
     kept = float(np.std(z) / np.std(surface.heights))
     return (
         f"{surface.source} is pressed without its waves below the recommended cut-off, "
         f"{value_of(surface.cutoff, 'm')}, as the roughness of the statistical model is: sigma is "
-        f"{percent(kept, digits=3)} of that of the heights, and the separation smaller (cutoff=0 "
-        "presses the heights as they are, a cutoff of your own those without shorter waves)",
+        f"{percent(kept, digits=3)} of that of the heights, and the separation smaller ("
+        + Advice("cutoff=0", "roughness.cutoff = 0")
+        + " presses the heights as they are, a cutoff of your own those without shorter waves)",
     )
 
 
@@ -195,7 +196,7 @@ def _table(law: AbstractParticleLaw, surfaces: MaterialPair, material: Material)
 
 
 def law_tables(contact: Contact) -> tuple[LawTable, ...]:
-    """What one particle of each population does."""
+    """Tables of the law of one particle, for each population."""
     return tuple(
         _table(contact.law_of(each), contact.surfaces, each.material)
         for each in contact.populations
@@ -307,7 +308,7 @@ def _refuse_countless(density: float, surface: Map) -> None:
 def _bodies_of_user(
     contact: Contact, surface: Map, given: Mapping[str, object], rng: np.random.Generator
 ) -> tuple[Bodies, int]:
-    """Particles of which every one is told: x, y, diameter, population."""
+    """Particles listed one by one by the user: x, y, diameter, population."""
     problems, told = [], {}
     for name in ("x", "y", "diameter"):
         try:

@@ -61,7 +61,7 @@ class AtLoads:
         return np.isnan(self.values["h"])
 
     def doubts(self, loads: Array, *, columns: str = "") -> list[str]:
-        """Where shares are not known, since too little was drawn: what is known, and what to do.
+        """Notes on shares that too small a sample leaves open, with their bounds and what to do.
 
         ``columns`` says whose separations these are, where other columns have others.
         """
@@ -114,8 +114,8 @@ class Pool:
     expected: dict[str, Array]
 
     @classmethod
-    def of(cls, records: list[dict[str, Any]], h: Array) -> Pool:
-        """Of what `one_surface` tells of each."""
+    def from_records(cls, records: list[dict[str, Any]], h: Array) -> Pool:
+        """Pool of the records that `one_surface` makes."""
         return cls(
             h=h,
             nominal=np.array([each["nominal"] for each in records]),

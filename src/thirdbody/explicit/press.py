@@ -223,7 +223,7 @@ class _Iterate:
 
 @dataclass(slots=True)
 class _WorkingSet:
-    """Pixels and particles (…_k) that may move, what they lack, and the measure of the error."""
+    """Pixels and particles (…_k) that may move, their residuals, and the error measure."""
 
     where: Index
     """Pixels of the set, flat."""
@@ -275,7 +275,7 @@ class _Step:
 
 
 class _Programme:
-    """What is pressed, and the steps of the iteration on it; arguments as those of `press`."""
+    """Quadratic programme of a pressed map and its iteration steps; arguments as of `press`."""
 
     def __init__(
         self,
@@ -306,7 +306,7 @@ class _Programme:
         self.own = self.top = np.empty(0)
         if len(bodies):
             self.own = self.placed.own_displacement(self.space.green(), self.space.lattice)
-            self.top = self.placed.at(self.z) + bodies.lift + bodies.diameter
+            self.top = self.placed.at_particles(self.z) + bodies.lift + bodies.diameter
 
     def first(self, start: tuple[Array, Array] | None) -> _Iterate:
         """A guess, or the start that is given, with the load wanted."""
@@ -357,10 +357,10 @@ class _Programme:
 
     def _beneath(self, u: Array, phi: Array) -> Array:
         """Displacement under each particle, without the dent that its law counts already [m]."""
-        return self.placed.at(u) - self.own * phi if len(self.bodies) else phi
+        return self.placed.at_particles(u) - self.own * phi if len(self.bodies) else phi
 
     def squeeze(self, x: _Iterate) -> Array:
-        """δ of each particle under its force [m]."""
+        """Squeeze δ of each particle under its force [m]."""
         return self.bodies.squeeze(x.phi * self.area)
 
     def working_set(self, x: _Iterate, squeeze: Array) -> _WorkingSet:
@@ -388,7 +388,7 @@ class _Programme:
         )  # fmt: skip
 
     def _lack_without_cap(self, x: _Iterate, sum_p: float, under: float, deepest: float) -> float:
-        r"""What pixels without a cap lack, at most :math:`t = \max(\lambda - g)` each [Pa m].
+        r"""Residual of pixels without a cap, at most :math:`t = \max(\lambda - g)` each [Pa m].
 
         Under a load no pressures of one sum can have more than tΣp − Σp(λ − g)₊ to gain. At a
         separation the sum is not known. There (1 − θ)(p + Dφ) + θK⁻¹z with θ = t/(t + h) leaves no

@@ -281,7 +281,7 @@ def _best(
     within: float,
     sign: float,
 ) -> Seated:
-    """Of ``spots`` places in a circle the one of the largest ``sign`` × height."""
+    """Place of the largest ``sign`` × height among ``spots`` places in a circle."""
     middle = _anywhere(z, spacing, count, rng)
     away = within * np.sqrt(rng.random((count, spots)))
     turn = 2 * math.pi * rng.random((count, spots))

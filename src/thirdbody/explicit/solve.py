@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -39,6 +39,11 @@ FEW = 20
 DENSE = 0.5
 """Real contact area above which the half-space is no longer one of separate contacts."""
 LEAST_SINGLE = 1e-7
+Cap = Literal["hardness", "none"]
+"""Highest pressure of asperities: the hardness of the softer surface, or none."""
+Precision = Literal["double", "single"]
+Maps = Literal["last", "all"]
+"""Whose maps are kept: of the last load, or of all."""
 
 
 @takes_units
@@ -53,11 +58,11 @@ def solve(
     seats: Any = "random",
     particles: Mapping[str, Any] | None = None,
     seed: int = 0,
-    cap: Literal["hardness", "none"] | float | None = "hardness",
+    cap: Cap | float | None = "hardness",
     tol: float = TOL,
     max_iterations: int = ITERATIONS,
-    precision: Literal["double", "single"] = "double",
-    maps: Literal["last", "all"] = "last",
+    precision: Precision = "double",
+    maps: Maps = "last",
     workers: int = 1,
     blocks: int | None = None,
 ) -> ExplicitState:
@@ -331,8 +336,8 @@ def _squeeze_columns(inside: Interface, state: Pressed) -> dict[str, Any]:
 def _options(
     tol: float,
     max_iterations: int,
-    precision: str,
-    maps: str,
+    precision: Precision,
+    maps: Maps,
     seed: int,
     workers: int,
     blocks: int | None,
@@ -344,8 +349,8 @@ def _options(
     elif precision == "single" and tol < LEAST_SINGLE:
         out.append(f"tol = {tol:g} needs precision = 'double'; single goes down to 1e-7")
     for name, value, words in (
-        ("precision", precision, ("double", "single")),
-        ("maps", maps, ("last", "all")),
+        ("precision", precision, get_args(Precision)),
+        ("maps", maps, get_args(Maps)),
     ):
         if value not in words:
             out.append(f"{name} = {value!r} must be one of {', '.join(map(repr, words))}")

@@ -51,6 +51,7 @@ class ExplicitState(StateRecord):
     """
 
     contact: Contact = field(repr=False)
+    """What was pressed."""
     h: Number = _as_equilibrium("h")
     F_star: Number = _as_equilibrium("F_star")
     pressure: Number = _as_equilibrium("pressure")
@@ -78,6 +79,7 @@ class ExplicitState(StateRecord):
     maps: xarray.Dataset = field(repr=False)
     particles: xarray.Dataset = field(repr=False)
     warnings: tuple[str, ...] = ()
+    """Where the map is too coarse or too small for the answer, a sentence each."""
     errors: Mapping[str, Number] = field(default_factory=dict)
     """Standard errors of h, A_t and the shares, over blocks of the map; empty unless asked for."""
 

@@ -94,7 +94,7 @@ def _sums(
 
 
 def places(surface: Map, rule: AbstractSeats, contact: Contact, rng: np.random.Generator) -> Array:
-    """ζ/σ of many places of the rule."""
+    """Relative seat heights ζ/σ of many places that follow the rule."""
     if not contact.populations or isinstance(rule, GivenSeats):
         return np.empty(0)
     count = int(min(PLACES, rule.room(surface.z)))

@@ -19,11 +19,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, get_args
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Problem
 from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
 from ..quantities.arguments import need_one
@@ -46,17 +46,30 @@ if TYPE_CHECKING:
 
 __all__ = [
     "COLUMNS",
+    "FLAKES",
+    "HERMITE",
     "KINDS",
     "REGIMES",
+    "SERIES",
     "AbstractAsperityLaw",
     "AbstractParticleLaw",
     "Branch",
     "Jump",
     "Law",
     "OneParticle",
+    "Seat",
     "SeatedLaw",
     "Squeezed",
 ]
+
+Reduced = Literal["force", "area", "stiffness"]
+"""What a law gives in reduced form."""
+Seat = Literal["rough", "plane", "offset"]
+"""Where particles rest: on the rough surface, on its mean plane, or on a plane above that."""
+SERIES = Advice("particle.Series", 'particle_law.name = "series"')
+FLAKES = Advice("particle.Flakes", 'particle_law.name = "flakes"')
+HERMITE = Advice("Hermite()", '"hermite"')
+"""Laws that are advised, in words of Python and of study files."""
 
 REGIMES = ("elastic", "elastoplastic", "plastic")
 COLUMNS = ("force", "elastic", "elastoplastic", "plastic", "second", "footprint", "projected")
@@ -89,7 +102,7 @@ class Branch(NamedTuple):
 
 
 class Jump(NamedTuple):
-    """What the published formulas step by at a breakpoint: upper over lower branch, less one [1].
+    """Steps of the published formulas at a breakpoint: upper over lower branch, less one [1].
 
     Examples
     --------
@@ -179,7 +192,7 @@ class AbstractAsperityLaw(Law):
     def problems(
         self, roughness: Roughness, particle_laws: Sequence[AbstractParticleLaw]
     ) -> list[str]:
-        """Why this law does not know such a surface, or such particles on it, one sentence each."""
+        """Reasons why this law does not know such a surface, or such particles on it."""
         return []
 
     def bound(self, *, R: Number, E_star: Number, H: Number, nu: float | None = None) -> Self:
@@ -206,9 +219,9 @@ class AbstractAsperityLaw(Law):
         """The formulas between the breakpoints, from zero interference upward."""
 
     # ---------------------------------------------------------------- reduced form
-    def reduced(self, quantity: str, y: ArrayLike) -> Array:
+    def reduced(self, quantity: Reduced, y: ArrayLike) -> Array:
         """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero without contact."""
-        need_one("quantity", quantity, "force", "area", "stiffness")
+        need_one("quantity", quantity, *get_args(Reduced))
         y = np.asarray(y, dtype=float)
         out = np.zeros_like(y)
         start = self.start
@@ -454,12 +467,13 @@ class AbstractParticleLaw(Law):
         """One particle of unit size of this material between these surfaces."""
 
     def of_shape(self, shape: Shape) -> AbstractParticleLaw:
-        """This law for particles of a shape; those of a `Sphere` are what it is written for."""
+        """This law for particles of a shape; most laws are written for a `Sphere`."""
         if isinstance(shape, Sphere):
             return self
         raise InvalidValue(
             f"Particles.shape: particles of the law {self.name} have a shape of their own; use "
-            "particle.Series, or remove shape"
+            + SERIES
+            + ", or remove shape"
         )
 
     def single(
@@ -494,13 +508,13 @@ class AbstractParticleLaw(Law):
         }
 
     def probe(self, eps: Array, *, surfaces: MaterialPair, particle: Material) -> ParticleSpots:
-        """Particles of unit size squeezed by ε, one a row (N, 1): what one particle does."""
+        """Spots of particles of unit size squeezed by ε, one a row (N, 1)."""
         each = np.ones((len(eps), 1))
         one = self.one(surfaces=surfaces, particle=particle)
         return one.spots(each, eps[:, None], share=None, number=each)
 
     def jammed(self, coverage: float) -> str:
-        """What to say of particles that would cover this part of the area, 1 or more."""
+        """Note on particles that would cover this part of the area, 1 or more."""
         return (
             f"particles of the law {self.name} would cover {coverage:.3g} of the nominal area and "
             "it must stay below 1"
@@ -509,13 +523,13 @@ class AbstractParticleLaw(Law):
     def warnings(
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> list[str]:
-        """Where this interface leaves the law's range, one sentence each."""
+        """Notes on interfaces outside the law's range, one sentence each."""
         return []
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeatedLaw(AbstractParticleLaw):
-    """A law whose particles rest somewhere: what one particle does, and the options of its seat.
+    """Base of laws whose particles rest on a seat: the response of one particle, and seat options.
 
     Parameters
     ----------
@@ -529,17 +543,12 @@ class SeatedLaw(AbstractParticleLaw):
         The share of nominal area in which loaded particles keep asperities apart.
     """
 
-    seat: str = choice("where particles rest", "rough", "plane", "offset", default="rough")
+    seat: Seat = choice("where particles rest", default="rough")
     h_0: float = quantity("h_0", "m", "seat height above the mean asperity plane", default=0.0)
     zeta_mean: float = quantity("m_ζ", "1", "mean seat height over σ", default=0.0)
     zeta_std: float = quantity("s_ζ", "1", "width of seat heights over σ", default=1.0, gt=0)
-    shadow: str = choice(
-        "area in which particles keep asperities apart",
-        "footprint",
-        "projected",
-        "covered",
-        "none",
-        default="footprint",
+    shadow: Literal["footprint", "projected", "covered", "none"] = choice(
+        "area in which particles keep asperities apart", default="footprint"
     )
 
     def _problems(self) -> list[str]:

@@ -69,7 +69,7 @@ class Spots:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Layout:
-    """Where the classes of whole particles stand: their gaps, and the sizes that they are of.
+    """Places of the classes of whole particles: their gaps and sizes.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class Layout:
         return self.sizes.partial_moment(0, size, cut) + pieces
 
     def of_size(self, scale: float, density: float) -> Layout:
-        """So many particles per nominal area, every length ``scale`` times as large."""
+        """Spots for a number of particles per area, all lengths times ``scale``."""
         return replace(
             self,
             x=scale * self.x,
@@ -123,7 +123,7 @@ class Layout:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ParticleSpots(Spots):
-    """Particles of one population; each has a contact with surface 1 and one with surface 2.
+    """Spots of particles of one population; each has a contact with surface 1 and with surface 2.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ class ParticleSpots(Spots):
 
     @property
     def half(self) -> Array:
-        """Depth at which a side of a particle has sunk in (M, n) [m]: its radius if it is round."""
+        """Depth at which a side of a particle has sunk in (M, n) [m]: the radius of a round one."""
         return self.radius if self.shape is None else 0.5 * self.x
 
     @property
@@ -204,7 +204,7 @@ class ParticleSpots(Spots):
         return thin
 
     def of_size(self, scale: float, density: float) -> ParticleSpots:
-        """So many particles per nominal area, every length ``scale`` times as large."""
+        """Spots for a number of particles per area, all lengths times ``scale``."""
         one, two = self.depths
         first, second = self.areas
         first_sink, second_sink = self.sinks

@@ -10,7 +10,7 @@ import math
 import threading
 import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +31,7 @@ class Span:
     high: float
     scale: str = "linear"
 
-    def at(self, u: Array) -> Array:
+    def values_at(self, u: Array) -> Array:
         """Values at u in [0, 1)."""
         if self.scale == "log":
             return self.low * (self.high / self.low) ** u
@@ -148,5 +148,7 @@ def _mixed(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return x ^ (x >> np.uint64(31))
 
 
+SweepDesign = Literal["grid", "zip", "latin", "sobol"]
+"""How a sweep puts values of several inputs together."""
 DESIGNS = {"latin": latin, "sobol": sobol}
 """The sampled designs by name."""

@@ -51,7 +51,7 @@ class Picture:
 
 @dataclass(frozen=True, kw_only=True)
 class Summary(ABC):
-    """What a study found, and the files it wrote; each study derives its own."""
+    """Findings of a study and the files it wrote; each study derives its class."""
 
     LEDGER: ClassVar[str] = "claims.json"
 

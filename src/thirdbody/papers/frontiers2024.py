@@ -106,7 +106,7 @@ def dry_change(reading: Reading, of: str, by: float) -> Measurement:
     """Dry real area after multiplying one input over that before, at the mean Hertz pressure."""
     p = float(BALL.hertz(LOAD, E=2 * contact().E_ss).mean)
     after = reading.trend(p, **{of: by}).area[0]
-    return Measurement.of(after / reading.trend(p).area[0])
+    return Measurement.from_values(after / reading.trend(p).area[0])
 
 
 def film_change(reading: Reading, of: str, by: float, speed: float) -> Measurement:
@@ -114,13 +114,13 @@ def film_change(reading: Reading, of: str, by: float, speed: float) -> Measureme
     before = lubricated(contact(reading.name), speed)
     after = lubricated(contact(reading.name, **{of: by}), speed)
     share = f"film carries {100 * before.film_share:.3g} %"
-    return Measurement.of(after.A_t / before.A_t, note=share)
+    return Measurement.from_values(after.A_t / before.A_t, note=share)
 
 
 def boundary_viscosity(reading: Reading) -> Measurement:
     """Viscosity at which boundary lubrication begins, with particles over without, at 0.02 m/s."""
     limits = [_boundary(contact(reading.name, density=density)) for density in (1.0, 0.0)]
-    return Measurement.of(limits[0] / limits[1])
+    return Measurement.from_values(limits[0] / limits[1])
 
 
 def _boundary(case: tb.Contact) -> float:
@@ -145,7 +145,7 @@ def crossing(reading: Reading) -> Measurement:
         return float(np.log(lubricated(case, u).A_t / lubricated(bare, u).A_t))
 
     u = np.exp(brentq(gain, np.log(BOUNDARY_SPEED), np.log(MIXED_SPEED), xtol=1e-8))
-    return Measurement.of(lubricated(case, float(u)).film_share, note=f"at {u:.3g} m/s")
+    return Measurement.from_values(lubricated(case, float(u)).film_share, note=f"at {u:.3g} m/s")
 
 
 @cache
@@ -179,7 +179,7 @@ def turning_pressure(reading: Reading, of: str, by: float, **also: float) -> Mea
     after = equal_gap(reading.name, **{**base, of: by, **also})[1]
     if not np.isfinite(after / before):
         return Measurement.absent("particles and asperities never carry alike")
-    return Measurement.of(after / before)
+    return Measurement.from_values(after / before)
 
 
 def turning_load_in_oil(reading: Reading, of: str, by: float) -> Measurement:
@@ -187,7 +187,7 @@ def turning_load_in_oil(reading: Reading, of: str, by: float) -> Measurement:
     before, after = (_oil_load(reading.name, **{of: factor}) for factor in (1.0, by))
     if not np.isfinite(after / before):
         return Measurement.absent("not between 0.01 N and 1 kN")
-    return Measurement.of(after / before)
+    return Measurement.from_values(after / before)
 
 
 def _oil_load(seat: str, viscosity: float = 1.0, density: float = 1.0) -> float:
@@ -222,7 +222,7 @@ def turning_ratios(reading: Reading, pressures: tuple[float, ...]) -> Measuremen
         if excess(low) > 0 or excess(high) < 0:
             return Measurement.absent(f"none from 0.2 to 15 at {p:g} Pa")
         found.append(SIZE / SIGMA * np.exp(brentq(excess, low, high, xtol=1e-6)))
-    return Measurement.of(min(found), max(found))
+    return Measurement.from_values(min(found), max(found))
 
 
 def area_panel() -> Panel:

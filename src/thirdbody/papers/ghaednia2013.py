@@ -136,7 +136,7 @@ def pressure_over_hardness(reading: Reading) -> Measurement:
     """Smallest mean pressure under the particles over the hardness of the steel."""
     trend = reading.trend()
     loaded = trend.pressure * trend.load_share / trend.area
-    return Measurement.of((loaded / tb.materials["S45C"].H).min())
+    return Measurement.from_values((loaded / tb.materials["S45C"].H).min())
 
 
 def closing_pressure(reading: Reading, **factors: float) -> Measurement:
@@ -144,7 +144,7 @@ def closing_pressure(reading: Reading, **factors: float) -> Measurement:
     low, high = 1e5, 1e10
     if reading.trend(low, **factors).load_share[0] < 1:
         ratio = reading.trend(low, **factors).ratio[0]
-        return Measurement.of(low, ratio, note="closed at the lowest pressure already")
+        return Measurement.from_values(low, ratio, note="closed at the lowest pressure already")
     if reading.trend(high, **factors).load_share[0] == 1:
         return Measurement.absent(f"open up to {high:g} Pa")
     while high / low > 1 + 1e-10:
@@ -153,7 +153,7 @@ def closing_pressure(reading: Reading, **factors: float) -> Measurement:
             high = middle
         else:
             low = middle
-    return Measurement.of(high, reading.trend(high * (1 + 1e-9), **factors).ratio[0])
+    return Measurement.from_values(high, reading.trend(high * (1 + 1e-9), **factors).ratio[0])
 
 
 STUDY = Study.read_data(

@@ -234,7 +234,7 @@ def largest_conductance_ratio(reading: Reading, conducting: bool) -> Measurement
     if conducting and reading.name != "elastic":
         return Measurement.absent("needs the radius of elastic spots")
     ratio = conductance_ratio(reading.name, reading.pressures, conducting=conducting)
-    return Measurement.of(ratio.max())
+    return Measurement.from_values(ratio.max())
 
 
 def pressure_over_hardness(reading: Reading, pressure: float) -> Measurement:
@@ -242,7 +242,7 @@ def pressure_over_hardness(reading: Reading, pressure: float) -> Measurement:
     trend = reading.trend(pressure)
     if trend.load_share[0] < 0.99:
         return Measurement.absent("the asperities carry load there")
-    return Measurement.of(pressure / trend.area[0] / tb.materials["S45C"].H)
+    return Measurement.from_values(pressure / trend.area[0] / tb.materials["S45C"].H)
 
 
 def flattening(reading: Reading, pressure: float) -> Measurement:
@@ -251,7 +251,9 @@ def flattening(reading: Reading, pressure: float) -> Measurement:
         return Measurement.absent("the particles lie on a part of the surface only")
     dusty = contact(reading.name)
     assert isinstance(dusty.particles, tb.Particles)
-    return Measurement.of(tb.solve(dusty, pressure=pressure).A_sa / dusty.particles.coverage)
+    return Measurement.from_values(
+        tb.solve(dusty, pressure=pressure).A_sa / dusty.particles.coverage
+    )
 
 
 # ------------------------------------------------------------------ figures

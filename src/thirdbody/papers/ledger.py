@@ -41,7 +41,7 @@ class Measurement:
     note: str = ""
 
     @classmethod
-    def of(cls, *values: SupportsFloat, note: str = "") -> Measurement:
+    def from_values(cls, *values: SupportsFloat, note: str = "") -> Measurement:
         return cls(tuple(float(value) for value in values), note)
 
     @classmethod
@@ -64,7 +64,7 @@ class Verdict:
 
     Examples
     --------
-    >>> Verdict(Measurement.of(0.9), "pass", "0.9; allowed < 1").passed
+    >>> Verdict(Measurement.from_values(0.9), "pass", "0.9; allowed < 1").passed
     True
     """
 

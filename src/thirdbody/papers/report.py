@@ -32,7 +32,7 @@ SIGNS = {
 
 @dataclass(frozen=True)
 class Study:
-    """A paper: what it is, how it is read, what it states, and what is drawn."""
+    """A paper: its readings, its statements, and its figures."""
 
     name: str
     title: str

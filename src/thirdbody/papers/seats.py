@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import thirdbody as tb
+from thirdbody.laws.base import Seat
 from thirdbody.quantities.files import whole
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def explicit_particles() -> dict[str, Any]:
 
 @cache
 def comparison() -> list[dict[str, Any]]:
-    """What ``thirdbody reproduce explicit`` gave: every state as its columns.
+    """States of the shipped comparison of seats, as columns.
 
     Returns
     -------
@@ -80,7 +81,7 @@ def comparison() -> list[dict[str, Any]]:
     return states
 
 
-def contact(diameter: float, seat: str = "rough", h_0: float = 0.0) -> tb.Contact:
+def contact(diameter: float, seat: Seat = "rough", h_0: float = 0.0) -> tb.Contact:
     """The interface of the runs.
 
     Parameters
@@ -172,11 +173,12 @@ def _draw_model(ax: Axes, diameter: float, loads: np.ndarray, h_0: float) -> Ite
 
     sigma = explicit_particles()["parameters"]["sigma"]
     blue, vermilion, green = (OKABE_ITO[name] for name in ("blue", "vermilion", "green"))
-    for seat, words, colour, dash, width in (
+    lines: tuple[tuple[Seat, str, str, str, float], ...] = (
         ("rough", "at a random place on the rough surface", blue, "-", 2.2),
         ("plane", "on the mean asperity plane", vermilion, "--", 1.4),
         ("offset", rf"on the asperity tops ($h_0$ = {h_0:g} $\sigma$)", green, "-.", 1.4),
-    ):
+    )
+    for seat, words, colour, dash, width in lines:
         height = h_0 * sigma if seat == "offset" else 0.0
         share = tb.solve(contact(diameter, seat, height), F_star=loads).particle_load_share
         share = np.where(np.asarray(share) > 0, share, np.nan)

@@ -131,7 +131,7 @@ def area_exponents(reading: Reading) -> Measurement:
     trend = reading.trend()
     fit = np.polyfit(np.log(trend.pressure), np.log(trend.area), 1)[0]
     n = trend.exponents
-    return Measurement.of(n.min(), n.max(), note=f"fitted over the range: {fit:.3f}")
+    return Measurement.from_values(n.min(), n.max(), note=f"fitted over the range: {fit:.3f}")
 
 
 @measure
@@ -139,7 +139,7 @@ def bare_exponents(reading: Reading) -> Measurement:
     """The same without particles."""
     trend = reading.trend()
     n = np.diff(np.log(trend.bare_area)) / np.diff(np.log(trend.pressure))
-    return Measurement.of(n.min(), n.max())
+    return Measurement.from_values(n.min(), n.max())
 
 
 @measure
@@ -149,7 +149,7 @@ def exponents_on_particles(reading: Reading) -> Measurement:
     n = trend.exponents[trend.load_share[1:] >= 0.99]
     if not len(n):
         return Measurement.absent("the particles never carry 99 % of the load")
-    return Measurement.of(n.min(), n.max())
+    return Measurement.from_values(n.min(), n.max())
 
 
 @measure
@@ -158,7 +158,7 @@ def area_change(
 ) -> Measurement:
     """Real area after multiplying one input, over the area before."""
     after = reading.trend(pressure, **{of: by}, **also)
-    return Measurement.of(after.area[0] / reading.trend(pressure, **also).area[0])
+    return Measurement.from_values(after.area[0] / reading.trend(pressure, **also).area[0])
 
 
 @measure
@@ -167,33 +167,33 @@ def area_change_either_way(
 ) -> Measurement:
     """The factor, above 1, by which multiplying one input raises or lowers the area."""
     (ratio,) = area_change(reading, of, by, pressure, **also).values
-    return Measurement.of(max(ratio, 1 / ratio), note="larger" if ratio > 1 else "smaller")
+    return Measurement.from_values(max(ratio, 1 / ratio), note="larger" if ratio > 1 else "smaller")
 
 
 @measure
 def load_share(reading: Reading, pressure: float, **factors: float) -> Measurement:
     """Share of the load on particles."""
-    return Measurement.of(reading.trend(pressure, **factors).load_share[0])
+    return Measurement.from_values(reading.trend(pressure, **factors).load_share[0])
 
 
 @measure
 def loss_over_loss(reading: Reading, of: str, by: float, pressure: float) -> Measurement:
     """Area lost to particles, 1 − A/A_bare, after multiplying one input, over that before."""
     before, after = (reading.trend(pressure, **{of: f}).ratio[0] for f in (1.0, by))
-    return Measurement.of((1 - after) / (1 - before))
+    return Measurement.from_values((1 - after) / (1 - before))
 
 
 @measure
 def exponent_at(reading: Reading, of: str, by: float, pressure: float) -> Measurement:
     """Exponent of A ∝ p^n at one pressure, with one input multiplied."""
     around = pressure * np.array([0.99, 1.01])
-    return Measurement.of(reading.trend(around, **{of: by}).exponents[0])
+    return Measurement.from_values(reading.trend(around, **{of: by}).exponents[0])
 
 
 @measure
 def area_ratio_at(reading: Reading, of: str, by: float, pressure: float) -> Measurement:
     """Real area over that without particles, with one input multiplied."""
-    return Measurement.of(reading.trend(pressure, **{of: by}).ratio[0])
+    return Measurement.from_values(reading.trend(pressure, **{of: by}).ratio[0])
 
 
 @measure
@@ -206,14 +206,14 @@ def recovery(reading: Reading, ratio: float) -> Measurement:
     i = lost[-1]
     part = (ratio - trend.ratio[i]) / (trend.ratio[i + 1] - trend.ratio[i])
     low, high = np.log(trend.pressure[i : i + 2])
-    return Measurement.of(math.exp(low + part * (high - low)))
+    return Measurement.from_values(math.exp(low + part * (high - low)))
 
 
 @measure
 def factor_without_loss(
     reading: Reading, of: str, pressure: float, low: float, high: float
 ) -> Measurement:
-    """Factor on one input at which the area with particles reaches that without."""
+    """Factor on one input at which the area with particles equals that without."""
 
     def is_lower(factor: float) -> bool:
         return bool(reading.trend(pressure, **{of: factor}).ratio[0] < 1 - 1e-9)
@@ -227,14 +227,14 @@ def factor_without_loss(
             low = middle
         else:
             high = middle
-    return Measurement.of(math.sqrt(low * high))
+    return Measurement.from_values(math.sqrt(low * high))
 
 
 @measure
 def area_ratios(reading: Reading) -> Measurement:
     """Smallest and largest real area over that without particles."""
     ratio = reading.trend().ratio
-    return Measurement.of(ratio.min(), ratio.max())
+    return Measurement.from_values(ratio.min(), ratio.max())
 
 
 @measure

@@ -157,7 +157,7 @@ def friction_steps(reading: Reading, of: tuple[float, ...]) -> Measurement:
     for roughness in of:
         mu = friction_over_sizes(reading, roughness)
         steps.append(mu[1:] / mu[:-1])
-    return Measurement.of(np.min(steps), np.max(steps))
+    return Measurement.from_values(np.min(steps), np.max(steps))
 
 
 def friction_grows(reading: Reading) -> Measurement:
@@ -176,18 +176,18 @@ def particle_over_asperity(reading: Reading) -> Measurement:
     for each in RATIOS:
         trend = slid(reading, size=each * SIGMA / SIZE)
         ratio.append(trend.mu_sa / trend.mu_ss)
-    return Measurement.of(np.min(ratio), np.max(ratio))
+    return Measurement.from_values(np.min(ratio), np.max(ratio))
 
 
 def friction_range(reading: Reading) -> Measurement:
     """Largest over smallest μ over loads and x_a/σ."""
     mu = friction_over_sizes(reading, 1.0)
-    return Measurement.of(mu.max() / mu.min())
+    return Measurement.from_values(mu.max() / mu.min())
 
 
 def share_at_small_load(reading: Reading, size: float, pressure: float) -> Measurement:
     """Particles' share of a small load."""
-    return Measurement.of(reading.trend(pressure, size=size).load_share[0])
+    return Measurement.from_values(reading.trend(pressure, size=size).load_share[0])
 
 
 def critical_load(reading: Reading, size: float) -> float | None:
@@ -204,7 +204,7 @@ def critical_load_steps(reading: Reading) -> Measurement:
     if len(loads) < 2:
         return Measurement.absent("fewer than two sizes have a critical load")
     note = "" if len(loads) == len(found) else f"{len(loads)} of {len(found)} sizes have one"
-    return Measurement.of(np.min(np.array(loads[1:]) / np.array(loads[:-1])), note=note)
+    return Measurement.from_values(np.min(np.array(loads[1:]) / np.array(loads[:-1])), note=note)
 
 
 def elastic_below(reading: Reading) -> Measurement:
@@ -214,7 +214,7 @@ def elastic_below(reading: Reading) -> Measurement:
         return Measurement.absent("no critical load")
     E = contact(FEW).E_ss
     trend = slid(reading, np.array([0.5 * value * E]))
-    return Measurement.of(
+    return Measurement.from_values(
         trend.elastic[0], note=f"elastoplastic {trend.elastoplastic[0]:.3g}, the rest plastic"
     )
 
@@ -226,7 +226,7 @@ def elastoplastic_above(reading: Reading, factor: float) -> Measurement:
         return Measurement.absent("no critical load")
     E = contact(FEW).E_ss
     trend = slid(reading, np.array([factor * value * E]))
-    return Measurement.of(trend.elastoplastic[0])
+    return Measurement.from_values(trend.elastoplastic[0])
 
 
 def two_body_above(reading: Reading, factor: float) -> Measurement:
@@ -235,7 +235,7 @@ def two_body_above(reading: Reading, factor: float) -> Measurement:
     if value is None:
         return Measurement.absent("no critical load")
     trend = slid(reading, np.array([factor * value * contact(FEW).E_ss]))
-    return Measurement.of(trend.ratio[0])
+    return Measurement.from_values(trend.ratio[0])
 
 
 def rule_holds(reading: Reading) -> Measurement:
@@ -244,7 +244,7 @@ def rule_holds(reading: Reading) -> Measurement:
     for each in RATIOS:
         trend = slid(reading, size=each * SIGMA / SIZE)
         agree.append((trend.mu < trend.bare_mu) == (trend.mu_sa < trend.bare_mu))
-    return Measurement.of(np.mean(agree))
+    return Measurement.from_values(np.mean(agree))
 
 
 def slope_follows(reading: Reading) -> Measurement:
@@ -253,7 +253,7 @@ def slope_follows(reading: Reading) -> Measurement:
     for small, large in zip(RATIOS[:-1], RATIOS[1:], strict=True):
         before, after = (slid(reading, size=each * SIGMA / SIZE) for each in (small, large))
         agree.append((after.mu < before.mu) == (before.mu_sa < before.mu_ss))
-    return Measurement.of(np.mean(agree))
+    return Measurement.from_values(np.mean(agree))
 
 
 def density_of_no_effect(reading: Reading, size: float, pressure: float) -> Measurement:
@@ -273,7 +273,7 @@ def density_of_no_effect(reading: Reading, size: float, pressure: float) -> Meas
             low = middle
         else:
             high = middle
-    return Measurement.of((low * high) ** 0.5 * base)
+    return Measurement.from_values((low * high) ** 0.5 * base)
 
 
 # ------------------------------------------------------------------ figures

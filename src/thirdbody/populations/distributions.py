@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
-from ..errors import Problem
+from ..errors import Advice, Problem
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.say import value_of
 from ..quantities.value import quantity
@@ -41,6 +41,9 @@ __all__ = [
     "Uniform",
     "Weibull",
 ]
+
+SINGLE = Advice("Monodisperse", 'distribution = "monodisperse"')
+"""The distribution of one single size."""
 
 NORMAL_CUT = 8.5
 """Standard deviations after which a Gaussian tail holds less than 1e-17."""
@@ -83,7 +86,7 @@ class TruncatedGaussian(Distribution):
         "m",
         "standard deviation of the diameter",
         gt=0,
-        hint="for one single size use Monodisperse",
+        hint="for one single size use " + SINGLE,
     )
     n: float = quantity("n", "1", "cut in standard deviations", default=3.0, gt=0)
 
@@ -95,7 +98,7 @@ class TruncatedGaussian(Distribution):
             Problem(
                 "std",
                 f"m must spread the diameters by more than "
-                f"rounding around {value_of(high, 'm')}; for one single size use Monodisperse",
+                f"rounding around {value_of(high, 'm')}; for one single size use " + SINGLE,
                 f"{self.std:g}",
             )
         ]
@@ -355,7 +358,7 @@ class Uniform(Distribution):
         return [
             Problem(
                 "high",
-                f"must be above low = {self.low:g} [m]; for one single size use Monodisperse",
+                f"must be above low = {self.low:g} [m]; for one single size use " + SINGLE,
                 f"{self.high:g}",
             )
         ]

@@ -172,7 +172,7 @@ class Ellipticity(Value):
 
     @classmethod
     def from_distribution(cls, ratio: Distribution) -> Ellipticity:
-        r"""The classes that stand for a density of ratios at one R_g: its Gauss rule.
+        r"""Classes for a density of ratios at one R_g, by its Gauss rule.
 
         The nodes are those of the polynomials in ln²λ that are orthogonal under the density: a
         contact does not change when R′ and R″ change places, so every sum is an even function

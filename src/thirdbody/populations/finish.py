@@ -66,7 +66,7 @@ def slopes(process: str, Rq: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finish(Value):
-    r"""One face as its drawing states it.
+    r"""Roughness of one face as its drawing states it.
 
     .. math:: R_q = \sqrt{\pi/2}\,R_a, \qquad R_z = 4 \dots 8\,R_a
 
@@ -137,14 +137,14 @@ class Finish(Value):
 
     @property
     def words(self) -> str:
-        """As on the drawing."""
+        """The face as a drawing writes it."""
         name = next(name for name in STATED if getattr(self, name) is not None)
         height = f"{name} {value_of(getattr(self, name), 'm')}"
         return f"{height}, {self.process}" if self.process else height
 
 
 class Drawing(NamedTuple):
-    """What follows from the faces: for each number the lowest, the usual and the highest value."""
+    """Numbers that follow from the faces: lowest, usual and highest value of each."""
 
     sigma: tuple[float, float, float]
     R: tuple[float, float, float] | None
@@ -154,7 +154,7 @@ class Drawing(NamedTuple):
 
 
 def drawing(faces: Sequence[Finish]) -> Drawing:
-    r"""The pair whose faces are stated; one face is against a smooth one.
+    r"""Numbers of the pair with these faces; one face alone is against a smooth one.
 
     .. math:: m_0 = R_q^2, \quad m_2 = s^2, \quad m_4 = \alpha m_2^2/m_0, \qquad
               R = \frac38\sqrt{\frac{\pi}{\sum m_4}}, \quad

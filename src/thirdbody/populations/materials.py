@@ -306,7 +306,7 @@ class MaterialLibrary(Mapping[str, Material]):
         ]
 
     def near(self, name: str) -> str | None:
-        """The entry that was probably meant: by another of its names, or by likeness."""
+        """Name of the entry that was probably meant: an alias, or the most similar name."""
         known = {name.casefold(): name for name in self}
         for own, entry in self.entries().items():
             for other in entry.get("aliases", ()):

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Literal, Self
+from typing import Any, Self
 
-from ..errors import InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Problem
 from ..quantities.units import to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
 from .materials import Material
 from .measured import cleanliness
+from .measured.cleanliness import Level, Limit
+from .measured.concentration import Amount
 from .shape import SPHERE, Angular, Sphere
 from .strength import WeibullStrength
 
@@ -82,7 +84,11 @@ class Particles(Value):
             out.append(
                 Problem(
                     "shape",
-                    "must be Sphere() or Angular(roundness=..., angle=...)",
+                    Advice(
+                        "must be Sphere() or Angular(roundness=..., angle=...)",
+                        'must be "sphere" or "angular", or a table: { name = "angular", '
+                        'roundness = 0.1, angle = "60 deg" }',
+                    ),
                     repr(self.shape),
                 )
             )
@@ -111,7 +117,7 @@ class Particles(Value):
         gap: float | str,
         diameter: Distribution,
         material: Material,
-        by: Literal["number", "mass", "volume", "mass per volume"] = "number",
+        by: Amount = "number",
         particle_density: float | str | None = None,
         oil_density: float | str = cleanliness.OIL_DENSITY,
         **others: Any,
@@ -174,7 +180,7 @@ class Particles(Value):
         *,
         gap: float | str,
         material: Material,
-        level: Literal["low", "middle", "high"] = "middle",
+        level: Level = "middle",
         smallest: float | str | None = None,
         largest: float | str | None = None,
         **others: Any,
@@ -284,8 +290,8 @@ class Particles(Value):
         concentration: float | str | None = None,
         gap: float | str | None = None,
         areal_density: float | str | None = None,
-        by: Literal["number", "mass", "volume", "mass per volume"] = "number",
-        limit: Literal["coarse", "middle", "fine"] = "middle",
+        by: Amount = "number",
+        limit: Limit = "middle",
         smallest: float | str | None = None,
         oil_density: float | str = cleanliness.OIL_DENSITY,
         **others: Any,

@@ -17,7 +17,7 @@ CUTS = math.radians(45)
 
 
 class Shape(Value):
-    """What particles of one size have in common: `Sphere` or `Angular`."""
+    """Base of the shapes of particles: `Sphere` or `Angular`."""
 
     __slots__ = ()
 

@@ -110,7 +110,7 @@ class Distribution(Named):
 
     @property
     def components(self) -> tuple[tuple[float, Distribution], ...]:
-        """Weights and simple distributions of which this one is made."""
+        """Weights and simple distributions that make up this one."""
         return ((1.0, self),)
 
     def moment(self, n: int) -> float:
@@ -138,7 +138,7 @@ def _ratio(value: float, scale: float) -> float:
 
 
 def _ratios(edges: tuple[float, ...]) -> tuple[float, ...]:
-    """Edges over the last, to 14 digits where these tell them apart; (1,) if they are one size."""
+    """Edges over the last, to 14 digits where these differ; (1,) if all are one size."""
     exact = tuple(edge / edges[-1] for edge in edges)
     short = tuple(_ratio(edge, edges[-1]) for edge in edges)
     if short[0] == short[-1]:

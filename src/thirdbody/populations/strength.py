@@ -6,13 +6,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Literal, Self
 
-from ..errors import InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Problem
 from ..quantities.value import Value, choice, quantity
 from .materials import Material
 
 __all__ = ["WeibullStrength"]
+
+OTHER_STRENGTH = Advice(
+    "give WeibullStrength(sigma_0=..., x_0=..., m=...), or material.replace(K_c=...)",
+    'give particles.strength = { sigma_0 = "60 MPa", x_0 = "10 mm", m = 3 } with numbers of your '
+    "own, or K_c with the numbers of the material",
+)
+"""What to do where a material has no strength."""
 
 TOUGHNESS, TOUGHNESS_SIZE, TOUGHNESS_MODULUS = 1.8, 1e-3, 3.0
 """σ_x √x/K_c and Weibull modulus of an estimate from toughness, and the size it is told at [m]."""
@@ -83,9 +90,9 @@ class WeibullStrength(Value):
     )
     x_c: float | None = quantity("x_c", "m", "size below which nothing breaks", default=None, ge=0)
     B: float = quantity("B", "1", "x_c over (K_c/H_a)²", default=96.0, gt=0)
-    fragments: str = choice("what pieces bear", "footprint", "gone", "all", default="footprint")
+    fragments: Literal["footprint", "gone", "all"] = choice("what pieces bear", default="footprint")
     ratio: float = quantity("κ", "1", "size of pieces over parent", default=0.5, gt=0, lt=1)
-    confinement: str = choice("tension inside", "sphere", "none", default="sphere")
+    confinement: Literal["sphere", "none"] = choice("tension inside", default="sphere")
     x_from: float | None = quantity("x_from", "m", "smallest size of the data", default=None,
                                     gt=0, usual=1.0)  # fmt: skip
     x_to: float | None = quantity("x_to", "m", "largest size of the data", default=None,
@@ -134,8 +141,7 @@ class WeibullStrength(Value):
         missing = ", ".join(name for name, value in known.items() if value is None)
         raise InvalidValue(
             f"the material {material.name or 'of these particles'} has no strength: it lacks "
-            f"{missing}, and K_c for an estimate; "
-            "give WeibullStrength(sigma_0=..., x_0=..., m=...), or material.replace(K_c=...)"
+            f"{missing}, and K_c for an estimate; " + OTHER_STRENGTH
         )
 
     @classmethod
@@ -171,7 +177,7 @@ class WeibullStrength(Value):
         return 3 / self.m if self.size_exponent is None else self.size_exponent
 
     @property
-    def kept(self) -> float:
+    def bearing_share(self) -> float:
         """χ, part of the volume of a broken particle whose pieces bear [1]."""
         kept = KEPT[self.fragments]
         return self.ratio if kept is None else kept

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache, wraps
 from numbers import Real
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar, get_origin
 
 import numpy as np
 
@@ -40,7 +40,7 @@ FAILURES = (
 
 
 def names_arguments(function: F) -> F:
-    """A function that names the argument which is not what its signature says, where it fails.
+    """Decorate a function: when it fails, the message names the argument that does not fit.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def names_arguments(function: F) -> F:
 
 
 def need_one(name: str, value: object, *options: str | int) -> None:
-    """Refuse a word or a number that an argument does not know, and that passes for another one.
+    """Refuse a word or a number that is none of the options.
 
     Raises
     ------
@@ -94,7 +94,7 @@ def need_one(name: str, value: object, *options: str | int) -> None:
 
 
 def only_one(**quantities: object) -> tuple[str, object]:
-    """Name and value of the one quantity that is given, not None."""
+    """Name and value of the only quantity that is not None."""
     given = {name: value for name, value in quantities.items() if value is not None}
     if len(given) != 1:
         names = ", ".join(given) or "none"
@@ -188,7 +188,7 @@ def misfits(
     *,
     numbers: Container[str] = (),
 ) -> list[Problem]:
-    """Arguments that are not what the signature of a function says, a mistake each.
+    """Problems of arguments that the signature of a function refuses, one each.
 
     Examples
     --------
@@ -372,12 +372,19 @@ def _fits_one(node: ast.expr, value: Any, space: Mapping[str, object]) -> bool:
                 for key, each in value.items()
             )
         )
+    if _are_words(name, space):
+        return isinstance(value, str)
     kind = _kind(name, space)
     return kind is None or isinstance(value, kind)
 
 
+def _are_words(name: str, space: Mapping[str, object]) -> bool:
+    """Whether an annotation names a `Literal`."""
+    return get_origin(space.get(name)) is Literal
+
+
 def _kind(name: str, space: Mapping[str, object]) -> type | None:
-    """The class that an annotation names; None where it names another thing, or is not known."""
+    """Class that an annotation names; None for anything else, or if it is not known."""
     found = space.get(name)
     if found is None:  # imported for types alone
         held = (vars(module).get(name) for key, module in list(sys.modules.items())
@@ -407,6 +414,8 @@ def _words(node: ast.expr, space: Mapping[str, object]) -> Iterator[str]:
                 yield f"a list of {_many(inner, space)}" if inner else "a list"
         elif name in MAPPINGS:
             yield "a mapping (dict) of names" if _inside(each) else "a mapping (dict)"
+        elif _are_words(name, space):
+            yield "text"
         elif name:
             article = "an" if name[0] in "AEIOU" else "a"
             yield f"{article} {name}"

@@ -192,7 +192,7 @@ def _scale(given: np.ndarray, factor: float) -> np.ndarray:
 
 
 def _factor(name: object, label: str, unit: str) -> float:
-    """What an array in the unit of its label is to be taken times."""
+    """Factor from the unit of an array's label to the unit wanted."""
     own = "" if label == "1" else label.replace("^", "**")
     wanted = spelled(unit) or "dimensionless"
     try:
@@ -214,7 +214,7 @@ def _why_not(value: Any, unit: str) -> str:
 
 
 def takes_units(function: F) -> F:
-    """A function that converts arguments which carry a unit, or refuses them.
+    """Decorate a function: arguments that carry a unit are converted, or refused.
 
     The unit of each stands in the docstring, in brackets; that of an input in ``vary`` is known to
     the contact. Arguments without a unit are passed on as they are; where the function fails on
@@ -424,7 +424,7 @@ def _unit_of_input(contact: Any, name: str) -> str | None:
     if not path:
         return USUAL.get(last)
     try:
-        owner = getattr(contact, "contact", contact).part(path)
+        owner = getattr(contact, "contact", contact).value_at(path)
     except (AttributeError, InvalidValue):
         return None
     item = getattr(type(owner), "__dataclass_fields__", {}).get(last)
@@ -445,7 +445,7 @@ def units_of(function: Callable[..., Any], owner: type = object) -> dict[str, st
 
 
 def _docstrings(function: Callable[..., Any], owner: type) -> Iterator[str]:
-    """Docstring of a function, then those of the methods that it overrides."""
+    """Docstrings of a function and of the methods that it overrides."""
     yield function.__doc__ or ""
     for base in owner.__mro__:
         method = base.__dict__.get(function.__name__)

@@ -167,7 +167,7 @@ def refused_by_disk(
 
 
 def _draft(target: Path) -> Path:
-    """Where a file is written; its name says who writes, so that others know whether he lives."""
+    """Path of the draft of a file; its name says which process writes it."""
     who = f"{_machine()}-{os.getpid():x}-{secrets.token_hex(2)}"
     return target.with_name(f".{target.stem}.{who}.part{target.suffix}")
 

@@ -89,7 +89,7 @@ USUAL = frozenset(
 
 
 def is_usual(word: str) -> bool:
-    """Whether a name of a unit is one of those that are used here.
+    """Whether this library writes a unit under this name.
 
     >>> is_usual("nm"), is_usual("psi"), is_usual("furlong"), is_usual("parsec")
     (True, True, False, False)

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
 
-from ..errors import SlowWarning, tell_of_range
+from ..errors import Advice, SlowWarning, tell_of_range
 
 __all__ = [
     "Cost",
@@ -113,7 +113,7 @@ def _lines(title: str, total: int, done: int, what: str) -> Report:
 
 
 class Stages:
-    """How far a work is that is done part after part, and within each part contact after contact.
+    """Progress of a work in parts, and within each part over contacts.
 
     Called with the name of each part as it begins.
     """
@@ -133,11 +133,11 @@ class Stages:
         """Show what part of the present part is done, where there is something to show it on."""
 
     def expect(self, contacts: int) -> None:
-        """So many contacts will take tables of their own: their cost is told once it is known."""
+        """Announce contacts that will need tables; their cost is reported once it is known."""
         self.expected, self.start = contacts, time.monotonic()
 
     def within(self, done: int, total: int) -> None:
-        """So many contacts of the present part are done, of about so many."""
+        """Report the number of contacts done in the present part, of about so many."""
         if done == 1:
             self.one_done = time.monotonic()
         if self.expected and not self.said and done >= MEASURED:
@@ -146,13 +146,13 @@ class Stages:
         self.moved(done, total)
 
     def moved(self, done: int, total: int, what: str = "") -> None:
-        """So much of the present part is done, of about so much: shown from the first second on."""
+        """Report the progress of the present part; it is shown from the first second on."""
         if time.monotonic() - self.start > SURE:
             words = f"{done:,} of about {max(done, total):,} {what}".rstrip()
             self.show(min(done / max(total, 1), 1.0), words)
 
     def cost(self, count: int, each: float, what: str) -> None:
-        """Tell what so many cost that take so many seconds each, once, where that is long."""
+        """Report the cost of so many items of so many seconds, once, if it is long."""
         if each * count > LONG and not self.said:
             self.said = True
             self.tell(f"about {count:,} {what}, {each:.2g} s each: some {duration(each * count)}")
@@ -185,7 +185,7 @@ class _Lines(Stages):
 
 @contextmanager
 def stages(title: str, total: int, wanted: bool = True) -> Iterator[Stages]:
-    """A function to call with the name of each of so many parts of a work, as it begins.
+    """A function to call at the start of each part of a work, with its name.
 
     A bar on a terminal, and elsewhere a line every half minute.
     """
@@ -255,7 +255,7 @@ def advance() -> None:
 
 
 def nested(outer: Callable[[str], None], count: int) -> Stages:
-    """The stages of a work of so many parts that is one part of another."""
+    """Stages of a work that is itself one part of another."""
     inner = Stages("")
     if isinstance(outer, Stages):
 
@@ -348,7 +348,7 @@ _SOLVING: ContextVar[Solving | None] = ContextVar("solving", default=None)
 
 @contextmanager
 def solving(report: Solving | None) -> Iterator[None]:
-    """States that are solved inside are told to ``report``: how many more, and why one by one."""
+    """Context in which solved states are reported: how many more, and why one by one."""
     before = _SOLVING.set(report)
     try:
         yield
@@ -357,7 +357,7 @@ def solving(report: Solving | None) -> Iterator[None]:
 
 
 def solved(count: float, why: str = "") -> None:
-    """So many more states are solved; ``why`` they are solved one by one, if they are."""
+    """Report more solved states; ``why`` says what makes them go one by one."""
     if (report := _SOLVING.get()) is not None:
         report(count, why)
 
@@ -385,7 +385,7 @@ def aside() -> Iterator[None]:
 
 
 class Cost:
-    """How many states of many are solved; warns once it is known that they take long.
+    """Counter of solved states that warns once they turn out to take long.
 
     Parameters
     ----------
@@ -425,11 +425,11 @@ class Cost:
             self._tell(min(int(self.done), self.total))
 
     def finished(self, states: int) -> None:
-        """So many states are solved for good."""
+        """Report the number of states that are solved for good."""
         self._tell(states)
 
     def _tell(self, states: int) -> None:
-        """Report a number that is higher than every one before: no state is told twice."""
+        """Report a number if it is higher than all before: no state is reported twice."""
         if states > self.told:
             self.told = states
             self.report(states)
@@ -439,7 +439,7 @@ class Cost:
         reason = f" ({why})" if why else ""
         tell_of_range(
             f"{self.total:,} {self.what} take some {duration(whole)}: {rate:.2g} a second, as they "
-            f"are solved one by one{reason}; progress=True shows how far they are",
+            f"are solved one by one{reason}" + Advice("; progress=True shows how far they are", ""),
             SlowWarning,
         )
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field, fields
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
-__all__ = ["Column", "Record", "StateRecord", "column", "declared_columns"]
+__all__ = ["Column", "MappedRecord", "Record", "StateRecord", "column", "declared_columns"]
 
 MOST_SHOWN = 6
 """States that a notebook shows; of more the first and the last."""
@@ -72,6 +73,23 @@ class Record:
         return {name: plain_data(getattr(self, name)) for name in kept}
 
 
+class MappedRecord(Record, Mapping[str, Any]):
+    """A record that is read by attribute, and indexed as its plain data."""
+
+    @cached_property
+    def _data(self) -> dict[str, Any]:
+        return self.to_dict()
+
+    def __getitem__(self, key: str) -> Any:
+        return self._data[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+
 class StateRecord(Record):
     """A result with columns, one number of each for every state.
 
@@ -101,7 +119,7 @@ class StateRecord(Record):
         return plain_data(self.columns())
 
     def attributes(self) -> dict[str, str]:
-        """What a data set says of all its states."""
+        """Attributes of a data set that hold for all its states."""
         return {"warnings": "\n".join(self.warnings)}
 
     def more_variables(self) -> tuple[dict[str, object], dict[str, object]]:

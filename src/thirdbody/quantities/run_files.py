@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue
+from ..errors import Advice, InvalidValue
 from .files import is_draft, make_folder, write_text
 
 __all__ = [
@@ -48,7 +48,7 @@ class Sealed(NamedTuple):
 
 
 def sealed(data: Mapping[str, Any]) -> str:
-    """The text of a record that says its own digest.
+    """Text of a record, with its digest.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def _digest(data: Mapping[str, Any]) -> str:
 
 
 def read_json(path: Path) -> dict[str, Any] | None:
-    """What a small file of JSON says; None where it is missing or broken."""
+    """Content of a small JSON file; None if it is missing or broken."""
     try:
         found = json.loads(path.read_text("utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -74,7 +74,7 @@ def read_json(path: Path) -> dict[str, Any] | None:
 
 
 def read_record(path: Path, unsealed: Collection[str]) -> Sealed | None:
-    """What a record says; None where it is missing, broken or changed.
+    """Content of a record; None if it is missing, broken or changed.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def fingerprint(path: Path) -> Fingerprint:
 
 
 def misfit(path: Path, wanted: Fingerprint) -> str:
-    """How a file differs from what was written; "" where it does not."""
+    """Difference of a file to what was written; "" if there is none."""
     try:
         size = path.stat().st_size if path.is_file() else None
         if wanted is None:
@@ -214,8 +214,8 @@ def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
     if there and not all(same):
         raise InvalidValue(
             f"{folder} holds {', '.join(there)} of another study, or of another program; "
-            "give another folder, remove what is not needed, or replace it (--force, in Python "
-            "force=True)"
+            "give another folder, remove what is not needed, or replace it "
+            + Advice("(--force, in Python force=True)", "(--force)")
         )
 
 

@@ -141,7 +141,7 @@ def concentration_of(value: float | None, by: str) -> str:
 
 
 def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: float = 0.0) -> str:
-    """A share, with its error where it has one; finer near the whole.
+    """Text of a share, with its error if it has one; finer near the whole.
 
     >>> percent(0.1234), percent(0.99996), percent(1), percent(0.3, 0.02), percent(None)
     ('12.3 %', '99.996 %', '100 %', '30 % (± 2 %)', 'not known')

@@ -41,7 +41,7 @@ def shared(
     part: str = "block",
     smaller: str = "a smaller chunk",
 ) -> Results[Result]:
-    """What every numbered part gives, in the order in which they come.
+    """Results of numbered parts, in the order in which they finish.
 
     Parameters
     ----------

@@ -79,7 +79,7 @@ class Table:
         return [*named, *(i for i in reversed(range(1, len(self.heads))) if i not in named)]
 
     def _fit_columns(self, shown: list[int], room: int) -> tuple[list[int], list[int], int]:
-        """Of these columns those that fit, their widths, and the gap between them."""
+        """Columns that fit the width, their widths, and the gap between them."""
         needs = {i: self._needs(i) for i in shown}
         going = [i for i in self._going() if i in shown]
         while True:

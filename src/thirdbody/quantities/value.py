@@ -8,14 +8,16 @@ the same declaration.
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
+import sys
 import types
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import MISSING, field
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self, get_args
 
 from ..errors import InvalidValue, NotCompiled, Note, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
@@ -74,8 +76,19 @@ def several(unit: str, meaning: str, *, default: Any = MISSING) -> Any:
 
 
 def choice(meaning: str, *options: str, default: str) -> Any:
-    """A dataclass field that holds one of a few words."""
+    """A dataclass field that holds one of a few words: ``options``, or those of its `Literal`."""
     return field(default=default, metadata={"choice": {"meaning": meaning, "options": options}})
+
+
+def _take_options(kind: type) -> None:
+    """Fill in the words of the choices of a class that is being made, from its annotations."""
+    fields = {n: getattr(member, "metadata", {}) for n, member in vars(kind).items()}
+    choices = {n: about["choice"] for n, about in fields.items() if "choice" in about}
+    for name in (n for n, about in choices.items() if not about["options"]):
+        words = inspect.get_annotations(kind)[name]
+        if isinstance(words, str):
+            words = eval(words, vars(sys.modules[kind.__module__]))
+        choices[name]["options"] = get_args(words)
 
 
 def allowed_range(about: dict[str, Any]) -> str:
@@ -110,7 +123,7 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
         or (about["le"] is not None and not number <= about["le"])
     )
     if outside:
-        return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+        return allowed_range(about) + ("; " + about["hint"] if about["hint"] else "")
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 
@@ -172,7 +185,7 @@ _told: ContextVar[bool] = ContextVar("_told", default=False)
 
 @contextmanager
 def slips_are_told() -> Iterator[None]:
-    """No warning of numbers that look like a slip: who reads them tells of them himself."""
+    """Context without warnings of unit slips; the caller reports them."""
     token = _told.set(True)
     try:
         yield
@@ -212,7 +225,7 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
 def _declarations(
     kind: type,
 ) -> tuple[tuple[str, dict[str, Any] | None, dict[str, Any] | None], ...]:
-    """Every field of a class, with what is declared of it as a quantity or a choice."""
+    """Fields of a class, each with its declared quantity or choice."""
     return tuple(
         (item.name, item.metadata.get("quantity"), item.metadata.get("choice"))
         for item in dataclasses.fields(kind)
@@ -243,6 +256,7 @@ class Value:
         super().__init_subclass__(**kwargs)
         if not stand_in:
             Value._classes[cls.__name__] = cls
+            _take_options(cls)
         for name, member in list(vars(cls).items()):
             if not name.startswith("_") and (taker := _taker(member)):
                 setattr(cls, name, taker)
@@ -328,7 +342,7 @@ class Value:
         return out
 
     @names_arguments
-    def part(self, path: str) -> Any:
+    def value_at(self, path: str) -> Any:
         """What a dotted name stands for: a field, or an item of a tuple by place or name."""
         where: Any = self
         for step in filter(None, path.split(".")):
@@ -342,7 +356,7 @@ class Value:
 
     @names_arguments
     def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
-        """A stand-in that holds an array (N,) in some of its quantities, one value a state.
+        """A copy that holds an array (N,) in some of its quantities, one value a state.
 
         Properties that are plain formulas then give arrays. It is no value: it has no hash and
         equals itself alone, so that no cache takes it. Values are checked against the range
@@ -518,7 +532,7 @@ def sequences(value: Value, *names: str) -> None:
 
 
 def _rows(value: Value) -> Iterator[Row]:
-    """Fields of a value, those of the values in it below a heading each."""
+    """Rows of the fields of a value, with a heading for each value inside."""
     from .notebook import Row, words_of
 
     inner: list[tuple[str, Value]] = []
@@ -543,7 +557,7 @@ def _rows(value: Value) -> Iterator[Row]:
 
 @cache
 def _stand_in(kind: type[Value]) -> type[Any]:
-    """The class of stand-ins of a class: all of it but its equality and its hash."""
+    """A subclass whose fields may hold arrays, without equality or hash: no cache takes it."""
     body = {"__slots__": (), "__eq__": object.__eq__, "__hash__": None}
     name = f"{kind.__name__}OfArrays"
     return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))

@@ -59,7 +59,7 @@ def _range(about: dict[str, Any], sampled: bool, reader: Reader, path: str, data
 
 
 def _problems_of_ends(about: dict[str, Any], path: str, data: Any, log: bool) -> list[Problem]:
-    """What is wrong with the ends of a range together; of each alone, its key tells."""
+    """Problems of the two ends of a range together."""
     try:
         low, high = (read_number(about, Unsaid(), path, data[end]) for end in ("from", "to"))
     except (InvalidValue, LookupError, TypeError):

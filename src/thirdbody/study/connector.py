@@ -45,6 +45,13 @@ class AskedConnector:
     forces: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+    table = "connector"
+    """The table of the study file."""
+
+    @property
+    def described(self) -> Connector:
+        """What the table describes."""
+        return self.connector
 
     def pressure(self, E: float) -> float:
         """Mean Hertz pressure of the smooth clean contacts under the first force [Pa].
@@ -56,7 +63,7 @@ class AskedConnector:
 
 
 def _connector(reader: Reader, path: str, data: Any) -> Any:
-    """The contacts, as a table of what they are given."""
+    """The contacts of [connector], as a table of arguments."""
     keys = keys_of(Connector) | {
         "force": amounts("force", FORCE)._replace(required=True),
         "conducting": words(None, 'names of particles that conduct, or "by material"'),

@@ -44,7 +44,7 @@ EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
 def _design(reader: Reader, path: str, data: Any) -> Any:
-    """What may be chosen, what is good, and what must hold."""
+    """The task of [design]: variables, objectives, limits."""
     if all(get(data, name) is not None for name in ("F_star", "pressure")):
         rule = f"and {path}.pressure: only one of these can be given"
         reader.mistakes.append(Problem(f"{path}.F_star", rule))
@@ -105,7 +105,7 @@ def _amount(where: str, value: Any) -> cleanliness.Concentration:
 
 
 def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, Any]:
-    """Names in quotes or as tables, and what is said of each."""
+    """Entries by dotted name, from names in quotes or nested tables."""
     out: dict[str, Any] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name

@@ -31,7 +31,7 @@ UNITS_OF_LISTS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """What a value class declares of one field that a study file may hold.
+    """Declaration of one field of a value class that a study file may hold.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ KINDS: Mapping[str, Literal["switch", "text", "word or number"]] = {
 
 @cache
 def declarations(kind: type) -> tuple[Declaration, ...]:
-    """What a value class declares of its fields, but for those that a contact fills in."""
+    """Declared fields of a value class, without those that a contact fills in."""
     return tuple(
         _declaration(item) for item in dataclasses.fields(kind) if item.name not in filled_in(kind)
     )
@@ -120,7 +120,7 @@ def needed_fields(kind: type) -> list[str]:
 
 @cache
 def filled_in(kind: Any) -> frozenset[str]:
-    """Options of an asperity law that a contact sets, whatever is given, or that are no number."""
+    """Options of an asperity law that a contact always sets, or that are no numbers."""
     if not issubclass(kind, asperity.AbstractAsperityLaw):
         return frozenset()
     found = set()
@@ -138,7 +138,7 @@ def filled_in(kind: Any) -> frozenset[str]:
 
 
 def idle(kind: type) -> dict[str, str]:
-    """Fields that have no part in how the contact carries load, and what each is."""
+    """Fields without influence on the load, each with its meaning."""
     out = {}
     for item in dataclasses.fields(kind):
         label = item.type in ("str", str) and "choice" not in item.metadata
@@ -149,7 +149,7 @@ def idle(kind: type) -> dict[str, str]:
 
 
 def about_of(name: str, about: dict[str, Any]) -> str:
-    """What a quantity is, with an example of how to write it."""
+    """Meaning of a quantity, with an example of how to write it."""
     unit, symbol = about["unit"], about["symbol"]
     example = EXAMPLES.get(unit, f"1 [{unit}]")
     if unit == "1" and problem_with(about, 0.5):

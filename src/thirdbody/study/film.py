@@ -66,7 +66,7 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
 def on_body(
     reader: Reader, film: Any, bodies: Body | None, forces: np.ndarray | None, E_star: float
 ) -> FilmConditions | None:
-    """The film; conjunction, load and speed are those of one contact of [body] where not given."""
+    """The film, with conjunction, load and speed of one contact of [body] where not given."""
     if not isinstance(film, dict):
         return film
     own: dict[str, Any] = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue
 from ..populations.particles import Particles
 from ..populations.shape import SPHERE, Angular, Sphere
 from ..populations.strength import WeibullStrength
@@ -64,7 +64,7 @@ def _of_material(reader: Reader, path: str, value: Any) -> dict[str, Any]:
 
 
 def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[str, Any]:
-    """A strength of one's own, or what is said of that of the material."""
+    """A strength with its numbers, or changes to that of the material."""
     given = data if isinstance(data, dict) else {}
     keys = dict(keys_of(WeibullStrength))
     keys["at"] = keys["x_0"]._replace(required=False)
@@ -102,5 +102,5 @@ def with_strength(particles: Particles, path: str, asked: Any) -> Particles:
     try:
         found = WeibullStrength.of(particles.material, **asked)
     except InvalidValue as error:
-        raise InvalidValue(*(Problem(path, f": {text}") for text in error.problems)) from None
+        raise error.under(path) from None
     return particles.replace(strength=found)

@@ -36,12 +36,12 @@ class Input:
 
     @property
     def name(self) -> str:
-        """As in the file."""
+        """Dotted name in the study file."""
         return f"{self.table}.{self.key}"
 
     @property
     def field(self) -> str:
-        """As in Python, for `Contact.replace`."""
+        """Dotted name in Python, for `Contact.replace`."""
         return field_of(self.table, self.key)
 
 

@@ -347,7 +347,7 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys, build)
 
 
-def _kept(reader: Reader, path: str, value: Any) -> Any:
+def _read_entries(reader: Reader, path: str, value: Any) -> Any:
     """A table of which the circuit says what its keys mean."""
     if not isinstance(value, dict) or not value:
         raise wrong(path, 'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }', value)
@@ -360,7 +360,7 @@ def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
         return FACTOR
     parent, _, last = name.rpartition(".")
     try:
-        owner, number_of_it = circuit.part(parent), circuit.part(name)
+        owner, number_of_it = circuit.value_at(parent), circuit.value_at(name)
     except InvalidValue:
         return None
     fields = getattr(owner, "__dataclass_fields__", {})
@@ -395,7 +395,7 @@ def _keys() -> dict[str, Key]:
         "oil": Key(None, True, 'the oil, with volume = "200 L", start and ingress', NOTHING, _oil),
         "filters": FILTERS,
         "uncertainty": Key(
-            _kept,
+            _read_entries,
             about='what is known of its numbers, e.g. "ingress" = { median = 1, gsd = 2 } (a '
             'factor), "filters.0.service" = { low = 0.5, high = 1 }',
             schema={"type": "object"},

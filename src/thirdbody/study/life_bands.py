@@ -107,16 +107,16 @@ def _check(circuit: OilCircuit, vary: Mapping[str, Uncertain]) -> None:
             problems.append(Problem(name, "must be Uncertain", repr(known)))
             continue
         if name == INGRESS:
-            if not known.at(1e-9) >= 0:
+            if not known.quantile(1e-9) >= 0:
                 problems.append(Problem(name, "is a factor on all that enters and must be >= 0"))
             continue
         try:
-            number = circuit.part(name)
+            number = circuit.value_at(name)
             if not isinstance(number, float):
                 problems.append(Problem(name, "is not a number of the circuit"))
                 continue
             for end in (0.0, 1.0):
-                _changed(circuit, {name: known.at(end)})
+                _changed(circuit, {name: known.quantile(end)})
         except InvalidValue as error:
             problems += list(error.problems)
     if problems:
@@ -195,7 +195,9 @@ def propagate_life(
         )
 
     for point in points:
-        found = end({name: vary[name].at(float(u)) for name, u in zip(names, point, strict=True)})
+        found = end(
+            {name: vary[name].quantile(float(u)) for name, u in zip(names, point, strict=True)}
+        )
         counts.append(found.counts[-1])
         for name, some in times.items():
             came = [each.time for each in found.events if each.name == name]
@@ -203,7 +205,9 @@ def propagate_life(
     quantiles = np.quantile(np.array(counts), probabilities, axis=0, method="hazen")
     low, high = min(probabilities), max(probabilities)
     swings = [
-        Swing(name, *(float(end({name: vary[name].at(p)}).counts[-1][1]) for p in (low, high)))
+        Swing(
+            name, *(float(end({name: vary[name].quantile(p)}).counts[-1][1]) for p in (low, high))
+        )
         for name in names
     ]
     return LifeBands(

@@ -26,7 +26,7 @@ KEYS = {name: amounts(name, about) for name, about in (LOADS | {"force": FORCE})
 
 
 def _load(reader: Reader, path: str, data: Any) -> Any:
-    """Which load is given, and its values."""
+    """Name and values of the load."""
     reader.only_one(path, data)
 
     def build(values: dict[str, Any]) -> tuple[str, np.ndarray]:

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Problem, in_study
 from ..quantities.nearest import guess
 from ..quantities.units import say
 from .fields import declarations
-from .vocabulary import in_words, near
+from .vocabulary import near
 
 __all__ = ["Known", "Missing", "Unknown", "clash", "in_file"]
 
@@ -23,7 +23,7 @@ class Missing(NamedTuple):
 
 
 class Unknown(NamedTuple):
-    """A key that no table, or another one, holds."""
+    """A key that is not known in its table."""
 
     path: str
     key: str
@@ -61,7 +61,7 @@ class Known:
         return Problem(_join(path, key), "is missing" + (f": {about}" if about else ""))
 
     def unknown(self, path: str, key: str, value: Any) -> tuple[Problem, str | None]:
-        """A key that is not known, and the key that was probably meant."""
+        """Problem of an unknown key, and the key that was probably meant."""
         known = self.keys.get(path, {})
         place, shown = _join(path, key), say(value)
         if why := self.refused.get(path, {}).get(key):
@@ -105,7 +105,7 @@ def clash(path: str, data: Mapping[str, Any], keys: Sequence[str], rule: str) ->
 
 
 def in_file(error: InvalidValue, kind: type, path: str, values: Mapping[str, Any]) -> InvalidValue:
-    """Mistakes of a value class at the keys of its table, with the value where it is not said."""
+    """Problems of a value class at the keys of its table, each with its value."""
     out = []
     for each in error.problems:
         value, entry = each.value, values.get(each.path)
@@ -114,7 +114,7 @@ def in_file(error: InvalidValue, kind: type, path: str, values: Mapping[str, Any
         if not said and all(isinstance(one, (str, float, int)) for one in items):
             value = say(entry)
         owner = path if each.owner == kind.__name__ else each.owner
-        out.append(each.changed(owner=owner, value=value).worded(in_words))
+        out.append(each.changed(owner=owner, value=value).worded(in_study))
     return InvalidValue(*out)
 
 

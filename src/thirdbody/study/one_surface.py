@@ -12,7 +12,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, RangeWarning, note_of
 from ..explicit.ensemble import counterpart, seats_on, spacing_for, surface_of
 from ..explicit.seats import GivenSeats
 from ..explicit.solve import solve
@@ -53,7 +53,7 @@ class OneSurface:
 
 
 def one_surface(study: Study, F_star: Any, *, points: int = POINTS) -> OneSurface:
-    """Press one small surface of a study: a window of the map it measured, or a synthetic one.
+    """Press one small surface of a study: a window of its measured map, or a synthetic one.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def one_surface(study: Study, F_star: Any, *, points: int = POINTS) -> OneSurfac
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, surface, spacing=spacing, F_star=loads, seats=seats, **how)
         heights = seats_on(contact, surface, spacing=spacing, seats=seats, seed=how.get("seed", 0))
-    told = tuple(dict.fromkeys(str(each.message) for each in heard))
+    told = tuple(dict.fromkeys(note_of(each.message) for each in heard))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         model = statistical(counterpart(contact, heights), F_star=loads)

@@ -110,7 +110,7 @@ def _load_entry_points() -> None:
 
 
 def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[type[Named]]:
-    """What running this brings; where it fails the registries are as before."""
+    """Run an import; if it fails, the registries are as before."""
     before = [(word, kind.registry, dict(kind.registry)) for kind, word in KINDS.items()]
     try:
         run()
@@ -137,7 +137,7 @@ def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[
 
 
 def _complete(where: str, kind: str, law: type[Named]) -> None:
-    """What a law must say of itself, and how to make one."""
+    """Problems of a law that lacks a declaration or cannot be made."""
     needed = ["title", "citation", "provenance"] if issubclass(law, Law) else []
     needed += ["year", "valid_range"] if kind == "law" else []
     missing = [name for name in needed if not hasattr(law, name)]

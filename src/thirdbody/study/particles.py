@@ -164,7 +164,7 @@ def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) ->
 
 
 def _unread(reader: Reader, path: str, value: Any) -> Any:
-    """Where one source of the sizes is read, the others only clash with it."""
+    """Value of a source of sizes that is not read, since another source is."""
     return value
 
 
@@ -181,7 +181,7 @@ def _names_of_amount(kind: str) -> tuple[str, ...]:
 def _problems_of_amount(
     path: str, given: Mapping[str, Any], kind: str, by_volume: bool
 ) -> list[Problem]:
-    """What is wrong with the keys that say how many particles there are."""
+    """Problems of the keys for the number of particles."""
     if kind == SETTLED:
         rule = "the class and the time say how many there are; remove areal_density"
         twice = "areal_density" in given
@@ -210,7 +210,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concent
 
 
 def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
-    """What was counted, and the options beside it."""
+    """Keys of a count of particles: what was counted, and its options."""
     keys = {
         name: word(WORDS[name]) if name in WORDS else KEYS_OF_AMOUNT[name] for name in COUNTED[kind]
     }

@@ -45,10 +45,17 @@ class AskedPlate:
     grains: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+    table = "plate"
+    """The table of the study file."""
+
+    @property
+    def described(self) -> Chuck:
+        """What the table describes."""
+        return self.chuck
 
 
 def _plate(reader: Reader, path: str, data: Any) -> Any:
-    """The plate, as a table of what it is given."""
+    """The plate of [plate], as a table of arguments."""
     return reader.table(path, data, keys_of(Chuck) | {"grain": amounts("grain", GRAIN)})
 
 

@@ -10,7 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
@@ -18,7 +18,7 @@ from ..quantities.units import EXAMPLES, quantity_to_si, say
 from ..quantities.value import allowed_range, problem_with, unit_meant
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
-from .vocabulary import in_words, near
+from .vocabulary import near
 
 __all__ = [
     "ANYTHING",
@@ -65,6 +65,8 @@ LIMITS = {
 }
 """Limits of a quantity as JSON Schema calls them; of a number, which is in SI, not of text."""
 ANYTHING: dict[str, Any] = {}
+SLIP = "unit of "
+"""How codes of notes on numbers begin whose unit looks like a slip."""
 NOTHING: dict[str, Any] = {"enum": []}
 """What JSON Schema says of a key under which all, or nothing, can stand."""
 
@@ -91,6 +93,8 @@ class Key(NamedTuple):
         Tables that have other keys than an empty one.
     items : callable, optional
         What reads each table of a list, where ``read`` takes one.
+    default : object
+        What counts where it is left out, as a file would write it; None where that is no one value.
     """
 
     read: ReadOne | None = None
@@ -100,6 +104,7 @@ class Key(NamedTuple):
     table: ReadOne | None = None
     also: tuple[dict[str, Any], ...] = ()
     items: ReadOne | None = None
+    default: bool | float | str | None = None
 
     def read_any(self, reader: Reader, path: str, value: Any) -> Any:
         """A value, whether it is a table or none."""
@@ -140,7 +145,7 @@ class Table:
 
 
 def rivals(path: str, key: str) -> tuple[str, ...]:
-    """The other keys of a table that cannot stand beside this one."""
+    """Keys of a table that cannot stand beside this one."""
     for name, keys in ONE_OF.items():
         if name.partition(".")[0] == path and key in keys:
             return tuple(other for other in keys if other != key)
@@ -148,7 +153,7 @@ def rivals(path: str, key: str) -> tuple[str, ...]:
 
 
 class Reader:
-    """What reads the tables of one file, and keeps what is wrong with them.
+    """Reader of the tables of one file, which collects all mistakes.
 
     Parameters
     ----------
@@ -182,7 +187,7 @@ class Reader:
         keys: Mapping[str, Key],
         build: Callable[[dict[str, Any]], Any] = dict,
     ) -> Any:
-        """What is built from the values of a table with these keys and no others.
+        """Object built from a table with these keys and no others.
 
         Its mistakes are kept, and an empty `InvalidValue` says that there are some.
         """
@@ -286,7 +291,8 @@ def keys_of(kind: type) -> dict[str, Key]:
             key = FIELDS[each.declared]
         else:
             continue
-        out[each.name] = key._replace(required=each.needed)
+        default = each.default if isinstance(each.default, bool | float | int | str) else None
+        out[each.name] = key._replace(required=each.needed, default=default)
     return out
 
 
@@ -308,7 +314,7 @@ def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
 def variants(
     tag: str, kinds: Mapping[str, type], about: str = "", *, required: bool = False
 ) -> Key:
-    """The key of a table that stands for one of several classes, which a word in it names."""
+    """Key of a table for one of several classes, chosen by a word in it."""
 
     def read(reader: Reader, path: str, data: Any) -> Any:
         return reader.variant(path, data, tag, kinds)
@@ -318,7 +324,7 @@ def variants(
 
 # -------------------------------------------------------------------------- keys of one value
 class Notes(Protocol):
-    """Who keeps what is to be said of a file."""
+    """Protocol of objects that collect notes on a file."""
 
     notes: list[str]
 
@@ -361,7 +367,7 @@ def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> 
         raise wrong(path, f"is not a finite number{allowed}", value)
     if why := problem_with(about, found):
         meant = "" if about["hint"] else f"; it is the {about['meaning']}"
-        raise wrong(path, in_words(why) + meant, value)
+        raise wrong(path, in_study(why) + meant, value)
     load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
     if likely := unit_meant(about, found, load=load):
         _refuse_slip(reader, path, value, f"{found:g} {about['unit']}", f"{found:g} {likely}")
@@ -375,10 +381,9 @@ def _refuse_slip(reader: Notes, path: str, value: Any, taken: str, meant: str) -
     else:
         has_unit = re.fullmatch(r"[\d\s.+-]*([eE][+-]?\d+)?\s*", value) is None
     if has_unit:
-        reader.notes.append(
-            f"{path} = {say(value)} is taken as {taken}: check its unit (upper and lower "
-            "case matter)"
-        )
+        what = f"{path} = {say(value)} is taken as {taken}"
+        action = "check its unit (upper and lower case matter)"
+        reader.notes.append(Note(what, code=SLIP + path, action=action))
         return
     rule = f"has no unit, so it would be {taken}, which is not plausible"
     any_value = f'With its unit any value is taken: "{taken}"'
@@ -469,7 +474,7 @@ def refused(why: str) -> Key:
 
 
 def _read_word_or_number(reader: Reader, path: str, value: Any) -> str | float:
-    """A word or a pure number; which ones, the object it is for knows."""
+    """A word or a pure number; the object checks which words it takes."""
     if isinstance(value, str) or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
     raise wrong(path, "must be a word in quotes or a number", value)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,7 +15,7 @@ from ..equilibrium.transitions import Transitions
 from ..errors import NoEquilibrium
 from ..quantities.carried import takes_units
 from ..quantities.plain_data import plain_data
-from ..quantities.record import Record
+from ..quantities.record import MappedRecord, Record
 from ..quantities.say import percent, value_of
 from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
@@ -25,6 +24,7 @@ from ..systems.mixed_film import COLUMNS
 from ..systems.stribeck import RegimeSpeeds
 from ..version import __version__
 from .load import force_sentences
+from .what_ifs import WhatIf, what_ifs_of_states
 from .whole import Study
 
 SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"
@@ -37,8 +37,8 @@ Columns = dict[str, list[Any]]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class _Result(Record, Mapping[str, Any]):
-    """A study and what was found; indexed, it is the plain data of `to_dict`."""
+class _Result(MappedRecord):
+    """A study and its results; indexed, it is the plain data of `to_dict`."""
 
     study: Study
     run_warnings: tuple[str, ...]
@@ -46,12 +46,12 @@ class _Result(Record, Mapping[str, Any]):
 
     @property
     def title(self) -> str:
-        """Of the study, where it has none "Study"."""
+        """Title of the study, "Study" if it has none."""
         return self.study.title or "Study"
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What reading and computing the study warn of, one sentence each."""
+        """Notes of reading and of solving the study, one sentence each."""
         return tuple(dict.fromkeys((*self.study.notes, *self.run_warnings)))
 
     @property
@@ -67,19 +67,6 @@ class _Result(Record, Mapping[str, Any]):
             return None
         area = film.conjunction.hertz(film.load, E=2 * contact.E_ss).area
         return float(area * sum(dust.areal_density for dust in contact.populations))
-
-    @cached_property
-    def _data(self) -> dict[str, Any]:
-        return self.to_dict()
-
-    def __getitem__(self, key: str) -> Any:
-        return self._data[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._data)
-
-    def __len__(self) -> int:
-        return len(self._data)
 
     def _plain_data(self, inputs: dict[str, Any], **found: Any) -> dict[str, Any]:
         """Plain data with what every study says: title, version, inputs, warnings, citations."""
@@ -120,6 +107,21 @@ class StudyResult(_Result):
         """Numbers of the states that have an equilibrium."""
         return np.flatnonzero(self.states.status == "ok").tolist()
 
+    @property
+    def central(self) -> int:
+        """Number of the state that stands for all: of forces the first, else the middle load."""
+        if self.forces:
+            return self.solved_states[0]
+        known = sorted(self.solved_states, key=lambda i: float(self.states.pressure[i]))
+        return known[(len(known) - 1) // 2]
+
+    @cached_property
+    def what_ifs(self) -> tuple[WhatIf, ...]:
+        """What the answer hangs on at the central state, the most first."""
+        if not self.solved_states:
+            return ()
+        return what_ifs_of_states(self.study, self.states, self.central)
+
     def need_state(self) -> None:
         """Refuse a result without a single state.
 
@@ -148,7 +150,7 @@ class StudyResult(_Result):
         return math.inf if held is None else float(held)
 
     def body_sentence(self) -> str:
-        """What holds of the bodies themselves, where it is not what the states say; else empty.
+        """Sentence on the bodies where it differs from that of the states, else "".
 
         States are of a surface under one pressure, which shares its load among all its particles.
         """
@@ -212,7 +214,7 @@ class StudyResult(_Result):
 
 @dataclass(frozen=True, eq=False)
 class Passing(Record):
-    """Of one population the share, by number, that is narrower than the separation."""
+    """Share by number of one population that is narrower than the separation."""
 
     name: str
     share: np.ndarray

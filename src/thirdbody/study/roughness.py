@@ -38,7 +38,7 @@ def _roughness(reader: Reader, path: str, data: Any) -> Any:
     if isinstance(data, dict) and "topography" in data:
         return _topography(reader, path, data)
     if is_drawn(data):
-        return _drawn(reader, path, data)
+        return _read_drawing(reader, path, data)
     keys = dict(keys_of(Roughness))
     about = keys["sigma"].about
     keys["sigma"] = keys["sigma"]._replace(about=f'{about}, or Ra = "0.2 um" of the drawing')
@@ -74,8 +74,8 @@ def is_drawn(data: Any) -> bool:
     return isinstance(data, dict) and not data.keys().isdisjoint({*STATED, *SIDES, "process"})
 
 
-def _drawn(reader: Reader, path: str, data: dict[str, Any]) -> Any:
-    """A height for the pair or one for each face, the process, and what is known better."""
+def _read_drawing(reader: Reader, path: str, data: dict[str, Any]) -> Any:
+    """Heights of the pair or of each face, the process, and numbers that replace its ranges."""
     keys = {name: key._replace(required=False) for name, key in keys_of(Roughness).items()}
     keys |= _height_keys() | dict.fromkeys(SIDES, FACE)
     before = len(reader.mistakes)
@@ -117,7 +117,7 @@ def _refuse(values: dict[str, Any]) -> None:
 
 
 def _problems_of_drawing(path: str, data: dict[str, Any]) -> list[Problem]:
-    """What is wrong with the heights that a drawing gives together."""
+    """Problems of the heights of a drawing taken together."""
     pair = [key for key in ("sigma", *STATED) if key in data]
     sides = [key for key in SIDES if key in data]
     if pair and sides:

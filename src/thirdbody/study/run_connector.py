@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,28 +12,25 @@ import numpy as np
 
 from ..errors import Note
 from ..quantities.plain_data import plain_data
-from ..quantities.record import Record, column, declared_columns
+from ..quantities.record import column
 from ..quantities.say import number, percent
 from ..systems.connector import Connector
-from ..version import __version__
+from .asked_result import AskedResult
 from .connector import AskedConnector, connector_of
 from .overrides import override
 from .toml import read
+from .what_ifs import HARDNESS, WhatIf
 from .whole import read_tables
 
-__all__ = ["ConnectorResult", "WhatIf", "load_connector", "run_connector"]
+__all__ = ["ConnectorResult", "load_connector", "run_connector"]
 
 NEEDED = frozenset({"surfaces", "particles", "connector"})
 AROUND = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Forces of the table over the one that is asked for."""
-SIZES, HARDNESS = 1.25, 1.2
-"""What sizes and hardness may be off by, as factors."""
+SIZES = 1.25
+"""What sizes may be off by, as a factor."""
 VAGUE = 0.2
 """Width of the bounds over the failure from which a note tells of it."""
-CITATIONS = (
-    "Williamson, Greenwood, Harris 1956, Proc. R. Soc. A 237, 560, doi:10.1098/rspa.1956.0197",
-    "Panjer 1981, ASTIN Bulletin 12, 22, doi:10.1017/S0515036100006796",
-)
 
 
 def load_connector(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedConnector:
@@ -55,50 +52,15 @@ def load_connector(path: str | os.PathLike[str], overrides: Iterable[str] = ()) 
     return read_tables(data, Path(path).parent, connector_of, lambda t: t.name in NEEDED)
 
 
-@dataclass(frozen=True, kw_only=True)
-class WhatIf(Record):
-    """What the failure of the connector would be if something were otherwise."""
-
-    what: str
-    """What is uncertain, in words."""
-    values: tuple[float, ...]
-    """What the answer is at the ends."""
-    between: str
-    """From what to what it is changed."""
-    action: str
-    """What to do about it."""
-    code: str = ""
-    """What it is about, where others look for it."""
-
-    @property
-    def low(self) -> float:
-        """The least of the answers."""
-        return min(self.values)
-
-    @property
-    def high(self) -> float:
-        """The largest."""
-        return max(self.values)
-
-    @property
-    def ratio(self) -> float:
-        """The largest over the least."""
-        return self.high / self.low if self.low > 0 else np.inf if self.high > 0 else 1.0
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ConnectorResult(Record, Mapping[str, Any]):
-    """What `run_connector` finds; indexed, it is the plain data of `to_dict`.
+class ConnectorResult(AskedResult):
+    """Results of `run_connector`; indexed, they are the plain data of `to_dict`.
 
     Attributes
     ----------
     asked : AskedConnector
     places : tuple of int
         The forces that were asked for, among those of the table.
-    what_ifs : tuple of WhatIf
-        What the answer hangs on, the most first.
-    run_warnings : tuple of str
-        What is to be said of the answer.
     """
 
     asked: AskedConnector
@@ -110,50 +72,21 @@ class ConnectorResult(Record, Mapping[str, Any]):
     failure_of_all: np.ndarray = column("f_all", "1", "how often the connector stays open")
     in_the_way: float = 0.0
     threshold: float = 0.0
-    what_ifs: tuple[WhatIf, ...] = ()
-    run_warnings: tuple[str, ...] = ()
 
-    @property
-    def title(self) -> str:
-        """Of the study, where it has none "Connector"."""
-        return self.asked.title or "Connector"
+    title_without = "Connector"
+    citations = (
+        "Williamson, Greenwood, Harris 1956, Proc. R. Soc. A 237, 560, doi:10.1098/rspa.1956.0197",
+        "Panjer 1981, ASTIN Bulletin 12, 22, doi:10.1017/S0515036100006796",
+    )
 
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What reading and computing warn of, one sentence each."""
-        return tuple(dict.fromkeys((*self.asked.notes, *self.run_warnings)))
+    def inputs(self) -> dict[str, Any]:
+        """The connector, and the forces that are asked for."""
+        connector = self.asked.connector.to_dict()
+        return {"connector": connector, "force": plain_data(self.asked.forces)}
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
-        """Columns, a row a force, and their units."""
-        told = declared_columns(type(self))
-        columns = {name: plain_data(getattr(self, name)) for name in told}
-        return columns, {name: each.unit for name, each in told.items()}
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        return {
-            "title": self.asked.title,
-            "version": __version__,
-            "inputs": {
-                "connector": self.asked.connector.to_dict(),
-                "force": plain_data(self.asked.forces),
-            },
-            "states": self.table()[0],
-            "in_the_way": self.in_the_way,
-            "threshold": self.threshold,
-            "what_ifs": [each.to_dict() for each in self.what_ifs],
-            "warnings": list(self.warnings),
-            "citations": list(CITATIONS),
-        }
-
-    def __getitem__(self, key: str) -> Any:
-        return self.to_dict()[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.to_dict())
-
-    def __len__(self) -> int:
-        return len(self.to_dict())
+    def numbers(self) -> dict[str, Any]:
+        """What holds for every force."""
+        return {"in_the_way": self.in_the_way, "threshold": self.threshold}
 
 
 def run_connector(asked: AskedConnector) -> ConnectorResult:
@@ -199,14 +132,11 @@ def run_connector(asked: AskedConnector) -> ConnectorResult:
     at = found.places[0]
     notes = [*_bounds_note(found, at), *_breaking_note(plug)]
     what_ifs = _what_ifs(plug, float(shown[at]))
-    return ConnectorResult(
-        **{name: getattr(found, name) for name in found.__dataclass_fields__}
-        | {"what_ifs": what_ifs, "run_warnings": tuple(notes)}
-    )
+    return replace(found, what_ifs=what_ifs, run_warnings=tuple(notes))
 
 
 def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
-    """What the answer hangs on, each varied alone."""
+    """Effect of each uncertain input, varied alone."""
 
     def failures(*plugs: Connector) -> tuple[float, ...]:
         return tuple(each.failure_of_all(force) for each in plugs)

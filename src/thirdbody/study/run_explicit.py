@@ -10,14 +10,14 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, RangeWarning, tell_of_range
+from ..errors import InvalidValue, RangeWarning, note_of, tell_of_range
 from ..explicit.blocks import BLOCKS
 from ..explicit.ensemble import (
     COMPARED,
@@ -28,7 +28,7 @@ from ..explicit.ensemble import (
     spacing_for,
     surface_of,
 )
-from ..explicit.solve import solve
+from ..explicit.solve import Maps, solve
 from ..explicit.state import COLUMNS, ExplicitState
 from ..quantities.plain_data import plain_data
 from ..quantities.run_files import MARK, claim_folder, read_json
@@ -68,7 +68,7 @@ def run_explicit(
     study: Study,
     *,
     folder: Path | None = None,
-    maps: Literal["last", "all"] = "last",
+    maps: Maps = "last",
     workers: int = 1,
     scheduler: str | None = None,
     progress: bool | Callable[[int], None] = False,
@@ -136,7 +136,7 @@ def run_explicit(
     for each in heard:
         if each not in about:  # about the folder, not the answer
             tell_of_range(each.message, each.category)
-    sentences = [*notes, *made.data.pop("warnings"), *(str(each.message) for each in about)]
+    sentences = [*notes, *made.data.pop("warnings"), *(note_of(each.message) for each in about)]
     data = {
         "title": study.title,
         "version": __version__,
@@ -196,7 +196,7 @@ def claim_results(out: str | os.PathLike[str], study: Study, *, maps: str = "las
 
 
 def _unmarked_study(folder: Path) -> dict[str, Any] | None:
-    """The study whose results lie in a folder, as these say it."""
+    """Study whose results lie in a folder without a mark, as read from these."""
     found = read_json(folder / "explicit.json")
     if found is not None and {"version", "inputs", "table"} <= set(found):
         told = {name: found.get(name) for name in ("version", "inputs", "surfaces")}
@@ -213,10 +213,10 @@ def _run_measured(
     contact: Contact,
     loads: np.ndarray,
     asked: dict[str, Any],
-    maps: Literal["last", "all"],
+    maps: Maps,
     workers: int,
 ) -> ExplicitResult:
-    """One map: the numbers are its own, and the model beside it has its seats."""
+    """Results of one measured map, beside the model with the seats of this map."""
     (face,) = study.faces
     how: dict[str, Any] = {"maps": maps, "workers": workers, "blocks": BLOCKS}
     state = solve(contact, face, F_star=loads, **how, **asked)

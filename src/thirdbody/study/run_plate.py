@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,17 +13,16 @@ import numpy as np
 
 from ..errors import Note
 from ..populations.particles import Particles
-from ..quantities.plain_data import plain_data
-from ..quantities.record import Record, column, declared_columns
+from ..quantities.record import column
 from ..quantities.say import percent, value_of
 from ..systems.chuck import Chuck
 from ..systems.connector import name_of
 from ..systems.plate_over_particle import THIN, Bump
-from ..version import __version__
+from .asked_result import AskedResult
 from .overrides import override
 from .plate import AskedPlate, plate_of
-from .run_connector import HARDNESS, WhatIf
 from .toml import read
+from .what_ifs import HARDNESS, WhatIf
 from .whole import read_tables
 
 __all__ = ["PlateResult", "load_plate", "run_plate"]
@@ -32,7 +31,6 @@ NEEDED = frozenset({"surfaces", "particles", "plate"})
 QUANTILES = (0.5, 0.9, 0.99, 0.999)
 """Particles of the table where no diameters are asked for, by number."""
 THICKNESS = 1.1
-CITATIONS = ("Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed., ch. 3",)
 
 
 def load_plate(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedPlate:
@@ -55,8 +53,8 @@ def load_plate(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> A
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class PlateResult(Record, Mapping[str, Any]):
-    """What `run_plate` finds; indexed, it is the plain data of `to_dict`.
+class PlateResult(AskedResult):
+    """Results of `run_plate`; indexed, they are the plain data of `to_dict`.
 
     Attributes
     ----------
@@ -67,10 +65,8 @@ class PlateResult(Record, Mapping[str, Any]):
         Mean number of bumps above the limit [1], and how often there is none [1].
     lifting : tuple of float
         Diameter of the particle of each kind that lifts the plate to the limit [m].
-    what_ifs : tuple of WhatIf
-        What the answer hangs on, the most first: of heights [m], or of bumps above the limit.
-    run_warnings : tuple of str
-        What is to be said of the answer.
+    what_ifs
+        Of heights [m], or of bumps above the limit.
     """
 
     asked: AskedPlate
@@ -84,52 +80,21 @@ class PlateResult(Record, Mapping[str, Any]):
     bumps: float | None = None
     none: float | None = None
     lifting: tuple[float, ...] = ()
-    what_ifs: tuple[WhatIf, ...] = ()
-    run_warnings: tuple[str, ...] = ()
 
-    @property
-    def title(self) -> str:
-        """Of the study, where it has none "Plate"."""
-        return self.asked.title or "Plate"
+    title_without = "Plate"
+    citations = ("Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed., ch. 3",)
 
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What reading and computing warn of, one sentence each."""
-        return tuple(dict.fromkeys((*self.asked.notes, *self.run_warnings)))
+    def inputs(self) -> dict[str, Any]:
+        """The plate on its chuck."""
+        return {"plate": self.asked.chuck.to_dict()}
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
-        """Columns, a row a particle, and their units."""
-        told = declared_columns(type(self))
-        columns = {name: plain_data(getattr(self, name)) for name in told}
-        return columns, {name: each.unit for name, each in told.items()}
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        return {
-            "title": self.asked.title,
-            "version": __version__,
-            "inputs": {"plate": self.asked.chuck.to_dict()},
-            "states": self.table()[0],
-            "bumps": self.bumps,
-            "none": self.none,
-            "lifting": list(self.lifting),
-            "what_ifs": [each.to_dict() for each in self.what_ifs],
-            "warnings": list(self.warnings),
-            "citations": list(CITATIONS),
-        }
-
-    def __getitem__(self, key: str) -> Any:
-        return self.to_dict()[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.to_dict())
-
-    def __len__(self) -> int:
-        return len(self.to_dict())
+    def numbers(self) -> dict[str, Any]:
+        """Number of bumps above the limit, and the particles that lift the plate to it."""
+        return {"bumps": self.bumps, "none": self.none, "lifting": list(self.lifting)}
 
 
 def run_plate(asked: AskedPlate) -> PlateResult:
-    """How high a plate stands over particles of its study, and how often above its limit.
+    """Heights of a plate over particles of its study, and how often they exceed the limit.
 
     Parameters
     ----------
@@ -182,7 +147,7 @@ def run_plate(asked: AskedPlate) -> PlateResult:
 
 
 def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> tuple[WhatIf, ...]:
-    """What the number of bumps, or else the height, hangs on, each varied alone."""
+    """Effect of each input on the number of bumps, or else on the height, varied alone."""
 
     def heights(*chucks: Chuck, sizes: tuple[float, ...] = (1.0,)) -> tuple[float, ...]:
         if counted:

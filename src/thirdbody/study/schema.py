@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,8 @@ from .tables import TABLES
 __all__ = ["Describer", "study_schema"]
 
 DRAFT = "http://json-schema.org/draft-07/schema#"
+REMARKS = ("description", "default")
+"""What a schema says of a key beside what may stand there."""
 DEEPEST = 5
 """Names in the path of a table inside tables beyond which all may stand."""
 
@@ -48,7 +51,7 @@ def study_schema() -> dict[str, Any]:
 
 
 class Describer(Reader):
-    """Walks through the tables of a file like a `Reader`, and says of each what it may hold.
+    """Walker through the tables of a file, as a `Reader`, that says what each may hold.
 
     ``table`` gives JSON Schema in the place of a value, and keeps the keys in ``known``.
     """
@@ -70,7 +73,9 @@ class Describer(Reader):
             return {}
         properties = {}
         for name, key in keys.items():
-            described = {"description": key.about} if key.about else {}
+            described: dict[str, Any] = {"description": key.about} if key.about else {}
+            if _in_json(key.default):
+                described["default"] = key.default
             where = f"{path}.{name}" if path else name
             properties[name] = described | _any_of(self._ways(key, where, get(data, name)))
         self.known.keys[path] = {name: key.about for name, key in keys.items()}
@@ -115,7 +120,7 @@ class Describer(Reader):
 
 
 def _any_of(ways: Iterable[dict[str, Any]]) -> dict[str, Any]:
-    """The schema of a value of which these are the ways to write it; tables become one."""
+    """Schema of a value that may be written in any of these ways; tables become one."""
     tables: list[dict[str, Any]] = []
     out: list[dict[str, Any]] = []
     for schema in _each_way(ways):
@@ -150,12 +155,22 @@ def _merged(tables: list[dict[str, Any]]) -> dict[str, Any]:
     properties = {}
     for name, several in ways.items():
         about = next((each["description"] for each in several if "description" in each), None)
-        described = {} if about is None else {"description": about}
-        bare = ({k: v for k, v in each.items() if k != "description"} for each in several)
+        described: dict[str, Any] = {} if about is None else {"description": about}
+        defaults = [each.get("default") for each in several]
+        if defaults[0] is not None and all(each == defaults[0] for each in defaults):
+            described["default"] = defaults[0]
+        bare = ({k: v for k, v in each.items() if k not in REMARKS} for each in several)
         properties[name] = described | _any_of(bare)
     first, *others = (table.get("required", []) for table in tables)
     needed = [name for name in first if all(name in other for other in others)]
     return _schema_of(properties, needed)
+
+
+def _in_json(default: object) -> bool:
+    """Whether a default can stand in a schema: finite, and not the empty text of a label."""
+    if isinstance(default, float):
+        return math.isfinite(default)
+    return default is not None and default != ""
 
 
 def _schema_of(properties: dict[str, Any], needed: list[str]) -> dict[str, Any]:

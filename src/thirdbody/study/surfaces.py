@@ -56,7 +56,7 @@ def _surfaces(reader: Reader, path: str, data: Any) -> Any:
 
 
 def _own_materials(reader: Reader, path: str, given: Any) -> Any:
-    """The name of a file, whose materials the tables read after this one can name."""
+    """Name of a file of materials; tables read after this one may use its names."""
     name = text.read(reader, path, given)  # type: ignore[misc]
     try:
         reader.library = materials.load(reader.folder / name)

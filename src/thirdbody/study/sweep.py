@@ -24,7 +24,7 @@ __all__ = ["SWEEP", "ends", "plan", "with_nested_names"]
 
 
 def _sweep(reader: Reader, path: str, data: Any) -> Any:
-    """What is varied, how, and what is kept of it."""
+    """The plan of [sweep]: what varies, how, and what is stored."""
     sampled = get(data, "design") not in (None, "grid", "zip")
     keys = {
         "design": word(("grid", "zip", *DESIGNS)),
@@ -53,7 +53,7 @@ def _vary(sampled: bool, reader: Reader, path: str, data: Any) -> Any:
 def _inputs_that_vary(
     sampled: bool, tables: dict[str, list[Input]], prefix: str, reader: Reader, path: str, data: Any
 ) -> Any:
-    """Those of the table of this name, and of the tables in it."""
+    """Inputs of the table of this name and of the tables in it."""
     keys: dict[str, Key] = {}
     refused: dict[str, str] = {}
     for each in tables.get(prefix, []):

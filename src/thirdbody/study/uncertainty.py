@@ -16,7 +16,7 @@ __all__ = ["UNCERTAINTY", "field_of_input", "read_uncertain"]
 
 
 def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
-    """What is known of the inputs, by names like those of the file."""
+    """Distributions of the inputs, by names as in the file."""
     if not isinstance(given, dict) or not given:
         rule = "must be a table of inputs, e.g. "
         raise wrong(
@@ -55,7 +55,7 @@ def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
 def field_of_input(
     where: str, name: str, inputs: list[Input], whole: dict[str, Any]
 ) -> tuple[str, dict[str, Any]]:
-    """Dotted name of the field and what it is, for an input as the file calls it."""
+    """Dotted name of the field and its meaning, for an input as the file calls it."""
     name = name.strip()
     table, _, last = name.rpartition(".")
     if table == "load" and last in LOADS:
@@ -80,7 +80,7 @@ def field_of_input(
 
 
 def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
-    """One distribution: which it is follows from its keys."""
+    """One distribution; its keys decide which."""
     given = dict(entry) if isinstance(entry, dict) else {}
     spacing = given.pop("spacing", None)
     kind = next((kind for kind, names in KINDS.items() if set(names) == set(given)), None)
@@ -105,7 +105,7 @@ def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any
 
 
 def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
-    """Names of uncertain inputs, in quotes or as tables, and what is said of each."""
+    """Entries of uncertain inputs, from names in quotes or nested tables."""
     out: dict[str, Any] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name

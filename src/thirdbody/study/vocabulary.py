@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 from ..populations.distributions import Distribution
 from ..populations.heights import Heights
 from ..quantities import nearest
-from ..quantities.study_words import in_study_words
 from ..quantities.value import quantity
 
-__all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "in_words", "near"]
+__all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "near"]
 
 DISTRIBUTIONS = Distribution.registry
 """Every size distribution by the word that study files use."""
@@ -45,11 +43,3 @@ def near(word: str, options: Iterable[str]) -> str | None:
     options = list(options)
     known = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in options)
     return nearest.near(next(known, word), options)
-
-
-def in_words(sentence: str) -> str:
-    """Class names and calls of the library in the words of study files."""
-    sentence = in_study_words(sentence)
-    for name, kind in DISTRIBUTIONS.items():
-        sentence = re.sub(rf"\b{kind.__name__}\b(?!\.)", f'distribution = "{name}"', sentence)
-    return sentence

@@ -161,7 +161,7 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 
 
 def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> list[Path]:
-    """The files that a study is read from: its own, and those that stand in it by name."""
+    """Files from which a study is read: its own, and those that it names."""
     own = Path(path)
     out, waiting = [own], [override(read(own), list(overrides))] if own.is_file() else []
     while waiting:
@@ -187,7 +187,7 @@ def read_tables(
     build: Callable[[Reader, dict[str, Any]], Asked],
     needs: Callable[[Table], bool],
 ) -> Asked:
-    """What a parsed file in ``folder`` asks for, built of its tables, of which some it needs."""
+    """Object that a parsed file in ``folder`` describes, built from its tables."""
     load_installed()
     data = with_nested_names(data)
     reader = Reader(folder, data)

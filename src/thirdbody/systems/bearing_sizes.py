@@ -64,7 +64,7 @@ class BearingSize(NamedTuple):
 
     @names_arguments
     def bearing(self, **others: Any) -> BallBearing:
-        """The bearing, with the least clearance of its class unless another is given."""
+        """The bearing, with the least clearance of its class unless one is given."""
         given = {
             "bore": self.bore,
             "outer_diameter": self.outer_diameter,

@@ -250,7 +250,7 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
 def _with_and_without(
     contact: Contact, body: Body, force: float, hertz: Hertz, held: float, shared: dict[str, Any]
 ) -> dict[str, Any]:
-    """Contacts that hold a particle and contacts that hold none, each under its whole load.
+    """Contacts with a particle and contacts without, each under its whole load.
 
     Of those that hold some, the mean number of particles is 1/(1 − exp(−N)) times that of all.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -13,7 +13,10 @@ from ..errors import Problem
 from ..quantities.value import Value, choice, quantity
 from .conjunctions import Hertz, Line, Point
 
-__all__ = ["BallInGroove", "BallOnFlat", "Body", "Cylinders", "Flat", "Roller"]
+__all__ = ["BallInGroove", "BallOnFlat", "Body", "Cylinders", "Flat", "Ring", "Roller"]
+
+Ring = Literal["inner", "outer"]
+"""Which ring of a bearing a rolling body touches."""
 
 
 def _diameter(meaning: str, **options: Any) -> Any:
@@ -21,7 +24,7 @@ def _diameter(meaning: str, **options: Any) -> Any:
 
 
 class Body(Value, ABC):
-    """One of the pairs of bodies that a study can name under [body]; `BODIES` lists them."""
+    """Base of the pairs of bodies of a table [body]; `BODIES` lists them."""
 
     __slots__ = ()
     bodies: float
@@ -122,7 +125,7 @@ class BallInGroove(Body):
     contact_angle: float = quantity(
         "β", "rad", "contact angle", default=0.0, ge=0, lt=math.pi / 2, hint="write '45 deg'"
     )
-    ring: str = choice("where the groove is", "inner", "outer", default="inner")
+    ring: Ring = choice("where the groove is", default="inner")
     bodies: float = _bodies()
 
     def _problems(self) -> list[str]:
@@ -176,7 +179,7 @@ class Roller(Body):
     track_diameter: float | None = quantity(
         "d_r", "m", "diameter of the track", default=None, gt=0, usual=10.0
     )
-    ring: str = choice("where the track is", "inner", "outer", default="inner")
+    ring: Ring = choice("where the track is", default="inner")
     bodies: float = _bodies()
 
     def _problems(self) -> list[str]:

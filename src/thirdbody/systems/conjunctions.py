@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -241,7 +241,8 @@ class Oil(Value):
     Examples
     --------
     >>> oil = Oil(eta=0.04, alpha=2e-8, eyring_stress=5e6)
-    >>> float(oil.at(0.0)), bool(oil.at(1e9) < oil.replace(viscosity="barus").at(1e9))
+    >>> barus = oil.replace(viscosity="barus")
+    >>> float(oil.at_pressure(0.0)), bool(oil.at_pressure(1e9) < barus.at_pressure(1e9))
     (0.04, True)
     """
 
@@ -251,9 +252,9 @@ class Oil(Value):
     )
     eyring_stress: float | None = quantity("τ_E", "Pa", "Eyring stress", default=None, gt=0)
     limiting_stress: float | None = quantity("τ_L", "Pa", "limiting stress", default=None, gt=0)
-    viscosity: str = choice("viscosity under pressure", "roelands", "barus", default="roelands")
+    viscosity: Literal["roelands", "barus"] = choice("viscosity under pressure", default="roelands")
 
-    def at(self, pressure: Number) -> Number:
+    def at_pressure(self, pressure: Number) -> Number:
         """Viscosity under a pressure [Pa s].
 
         Parameters
@@ -282,5 +283,7 @@ class Oil(Value):
         """
         if self.eyring_stress is None:
             return np.full(np.broadcast_shapes(np.shape(rate), np.shape(pressure)), np.nan)
-        stress = self.eyring_stress * np.arcsinh(self.at(pressure) * rate / self.eyring_stress)
+        stress = self.eyring_stress * np.arcsinh(
+            self.at_pressure(pressure) * rate / self.eyring_stress
+        )
         return stress if self.limiting_stress is None else np.minimum(stress, self.limiting_stress)

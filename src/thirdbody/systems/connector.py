@@ -52,6 +52,8 @@ CLASSES = 300
 """Classes of size, equally wide in ln x."""
 SHARED = 20.0
 """Loads of a curve within this factor share their steps."""
+APART = 1e-3
+"""Bounds farther apart than this are computed anew, with the steps of one load."""
 SQUEEZES = 4096
 """Squeezes at which the load of a particle is tabled."""
 HEIGHTS, COARSE = 40, 256
@@ -241,8 +243,11 @@ class Connector(Value):
         out, left = np.empty(len(every)), every.copy()
         kinds = self._kinds(conduct=False)
         while np.any(left >= 0):
-            here = left >= left.max() / SHARED
-            out[here] = np.mean(_open(kinds, left[here], 0.0), axis=0)
+            here = np.flatnonzero(left >= left.max() / SHARED)
+            low, high = _open(kinds, left[here], 0.0)
+            out[here] = 0.5 * (low + high)
+            for i in here[high - low > APART]:  # the steps of the largest load are too long
+                out[i] = np.mean(_open(kinds, left[[i]], 0.0))
             left[here] = -1.0
         return out
 
@@ -257,7 +262,7 @@ class Connector(Value):
         return -math.expm1(self.contacts * math.log1p(-min(failure**self.parallel, 1 - 1e-16)))
 
     def bounds(self, load: float) -> tuple[float, float]:
-        """What the failure of one pair lies between, the load of each particle rounded.
+        """Bounds of the failure of one pair, the load of each particle rounded.
 
         Parameters
         ----------
@@ -294,7 +299,7 @@ def name_of(dust: Particles, i: int) -> str:
 
 
 class _Kind:
-    """One kind of dust in classes of size: how many are in the way, and what each carries."""
+    """One kind of dust in size classes: how many are in the way, and the load of each."""
 
     def __init__(self, plug: Connector, dust: Particles, name: str) -> None:
         self.name, self.material = name, dust.material
@@ -336,7 +341,7 @@ class _Kind:
         return float(self.within(1 - height / self.x).sum())
 
     def number_below(self, loads: Array, height: float) -> Array:
-        """Those of them that carry no more than these loads [N]."""
+        """Number of particles that carry at most these loads [N]."""
         eps, load = self.curve
         reach = 1 - height / self.x
         all_ = self.within(reach)

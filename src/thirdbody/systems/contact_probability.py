@@ -151,7 +151,7 @@ class ContactProbability(Value):
         return 0.5 * (low + high)
 
     def bounds(self, load: ArrayLike) -> tuple[Array, Array]:
-        """What P lies between, the load of each particle rounded up and down.
+        """Bounds of P, the load of each particle rounded up and down.
 
         Parameters
         ----------

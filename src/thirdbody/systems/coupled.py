@@ -120,6 +120,7 @@ class Coupled(Record):
     branch_of_load: dict[str, Array] = field(repr=False)
     """Points along the load: ``pressure`` [Pa], ``T`` [K], ``mu`` [1]."""
     warnings: tuple[str, ...] = ()
+    """Where a state leaves the range of a model, a sentence each."""
 
     @property
     def stable(self) -> CoupledState | None:
@@ -229,7 +230,7 @@ class _Loop:
             return self.cold
         return self.cooling.temperature(mu * p * v, v=v)
 
-    def made(self, x: Array, v: float, p: float) -> Array:
+    def unknowns_made(self, x: Array, v: float, p: float) -> Array:
         """The unknowns that the contact makes at unknowns x."""
         mu, hot, hot_particles = self.numbers(x, v, p)
         T = self.bulk(mu, v, p) - self.cold
@@ -242,7 +243,10 @@ class _Loop:
         for i in range(len(x)):
             step = np.zeros_like(x)
             step[i] = SLOPE
-            columns.append((self.made(x + step, v, p) - self.made(x - step, v, p)) / (2 * SLOPE))
+            columns.append(
+                (self.unknowns_made(x + step, v, p) - self.unknowns_made(x - step, v, p))
+                / (2 * SLOPE)
+            )
         return float(np.max(np.linalg.eigvals(np.stack(columns, axis=1)).real))
 
 
@@ -493,14 +497,14 @@ class _Walk:
     def __init__(self, loop: _Loop, name: str, v: float, p: float) -> None:
         self.loop, self.name, self.v, self.p = loop, name, v, p
         cold = np.zeros(2 if loop.flash else 1)
-        rise = float(np.max(loop.made(cold, v, p)))
+        rise = float(np.max(loop.unknowns_made(cold, v, p)))
         if not math.isfinite(rise):
             raise NoEquilibrium("the contact has no state at the temperature without friction")
         self.begins = min(math.log(COOLEST / rise) if rise > 0 else -1.0, -0.5) / DECADES
         v_0, p_0 = self.speed_and_load(self.begins)
         self.branch: Branch = follow_branch(
             self.residual,
-            x=loop.made(cold, v_0, p_0),
+            x=loop.unknowns_made(cold, v_0, p_0),
             parameter=self.begins,
             step=STEP,
             inside=self.inside,
@@ -515,7 +519,7 @@ class _Walk:
         """What is made less what is put in."""
         if not np.all(x < 1 / LAST):
             return np.full_like(x, math.nan)
-        return self.loop.made(x, *self.speed_and_load(place)) - x
+        return self.loop.unknowns_made(x, *self.speed_and_load(place)) - x
 
     def inside(self, x: Array, place: float) -> bool:
         """Whether a point belongs to the branch that is followed."""

@@ -40,7 +40,7 @@ NODES = (40, 60, 90, 135, 200, 300, 450)
 
 # ------------------------------------------------------------------------------ the skin
 def crowded_warning(status: str) -> tuple[str, ...]:
-    """What a status that is not "ok" is warned of."""
+    """Warning for a status that is not "ok"."""
     return () if status == "ok" else (status,)
 
 
@@ -306,7 +306,7 @@ def _newton(skin: Skin, grid: Grid, d: float, sunk: Array) -> tuple[Array, Array
 def balance_at(
     skin: Skin, shape: Shape, d: float, near: Balance | None = None, tolerance: float = TAIL
 ) -> Balance:
-    """The balance at one approach d [m], on the grid of a state ``near`` it or a finer one."""
+    """Balance at one approach d [m], on the grid of a state ``near`` it or a finer one."""
     extent = shape.extent(skin, d) if near is None else near.extent
     first = 0 if near is None else NODES.index(len(near.gap))
     series = np.zeros(1) if near is None else near.series

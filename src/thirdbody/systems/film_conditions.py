@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -71,7 +71,7 @@ class Entrainment(Value):
     concentration: float = quantity("c", "1", "volume of particles per volume of oil", gt=0, lt=0.6)
     entry_ratio: float = quantity("ε", "1", "entry ratio", gt=0)
     friction: float = quantity("μ", "1", "friction of a particle", ge=0, le=2)
-    height: str = choice("layer of oil that brings particles", "size", "film", default="size")
+    height: Literal["size", "film"] = choice("layer of oil that brings particles", default="size")
 
     def per_volume(self, diameter: Distribution) -> float:
         """Particles per volume of oil n_v [1/m³]."""
@@ -169,7 +169,7 @@ class FilmConditions(Value):
         "u_s/u", "1", "sliding over entrainment speed", default=None, ge=0
     )
     formula: AbstractFilm | None = None
-    hertz: str = choice("which Hertz pressure is nominal", "mean", "maximum", default="mean")
+    hertz: Literal["mean", "maximum"] = choice("which Hertz pressure is nominal", default="mean")
     few: float = quantity(
         "s_few", "1", "share of the solids below which the film is full", default=FEW, ge=0, le=1
     )

@@ -15,7 +15,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypedDict
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -131,7 +131,7 @@ class AbstractFilm(Law):
         """
 
     def warnings(self, regimes: Any, ratio: float) -> list[str]:
-        """Where films of these regimes leave the range of the formula, one sentence each."""
+        """Notes on films outside the range of the formula, one sentence each."""
         out: list[str] = []
         for name, (low, high) in self.limits.items():
             if not low <= ratio <= high:
@@ -416,7 +416,7 @@ class NijenbanningVennerMoes(_Joined):
     shape = "point"
     limits = {"ratio": (1e-6, 1.0)}
 
-    blend: str = choice("ratio in the exponent s", "EI/RI", "EI/EP", default="EI/RI")
+    blend: Literal["EI/RI", "EI/EP"] = choice("ratio in the exponent s", default="EI/RI")
 
     @staticmethod
     def limits_of(*, M: Number, L: Number, D: float) -> Asymptotes:

@@ -18,6 +18,7 @@ from ..contact.particle_averages import size_average
 from ..contact.particle_sums import Part
 from ..errors import InvalidValue, Problem
 from ..laws.asperity import JG, AbstractAsperityLaw, Hermite
+from ..laws.base import HERMITE
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
 from ..numerics.quadrature import panel_rule
 from ..populations.distributions import Monodisperse
@@ -492,7 +493,7 @@ class GhaedniaMultiscale(Value):
                     "law",
                     "has a length of its own; "
                     "particles of all sizes need a law that only knows indentation over radius, "
-                    "e.g. Hermite()",
+                    "e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
                 )
             )

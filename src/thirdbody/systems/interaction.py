@@ -216,7 +216,7 @@ def mean_interaction(
 
 
 def _check_sum(contact: Contact) -> None:
-    """Only a sum over summits lacks what contacts do to each other."""
+    """Refuse laws of a whole surface, which include the interaction already."""
     if contact.asperity_law.of_surface:
         raise InvalidValue(
             f"asperity_law {contact.asperity_law.name}: its pressures already press each other's "

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
 
 import numpy as np
 
 from ..errors import Problem
 from ..quantities.carried import takes_units
 from ..quantities.value import choice, quantity
-from .body_shapes import BallInGroove, Body
+from .body_shapes import BallInGroove, Body, Ring
 from .conjunctions import Hertz, Line, Point
 from .load_sharing import BALLS, ROLLERS, RadialShare, share_radial_load
 
@@ -29,7 +29,7 @@ __all__ = [
     "preloaded_load",
 ]
 
-RINGS = ("inner", "outer")
+RINGS: tuple[Ring, ...] = get_args(Ring)
 
 BALLS_RELIEVED = 2**1.5
 """Force over preload at which the other nut carries nothing [1]."""
@@ -44,14 +44,14 @@ STEEL_E_STAR = 2.07e11 / 2 / (1 - 0.3**2)
 
 
 class RadialBearing(Body):
-    """What ball and roller bearings have in common: how they share a radial load and turn."""
+    """Base of ball and roller bearings: shared radial load and rotation."""
 
     __slots__ = ()
     bore: float
     outer_diameter: float
     clearance: float
     shaft_speed: float | None
-    ring: str
+    ring: Ring
     rated_as: ClassVar[str]
     """Kind of bearing by which ISO 281 rates it."""
     rolling_bodies: ClassVar[str]
@@ -62,7 +62,7 @@ class RadialBearing(Body):
     """Of a ball or a roller [m]."""
 
     @abstractmethod
-    def on_ring(self, ring: str) -> Any:
+    def on_ring(self, ring: Ring) -> Any:
         """The contact of a rolling body with the inner or outer ring."""
 
     @abstractmethod
@@ -70,7 +70,7 @@ class RadialBearing(Body):
         """Load over approach of the rings to the power ``exponent``, of one rolling body."""
 
     @abstractmethod
-    def widths(self, loads: Any, ring: str, E_star: float) -> Any:
+    def widths(self, loads: Any, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks of rolling bodies under their loads [N] on a ring [m]."""
 
     @property
@@ -85,7 +85,7 @@ class RadialBearing(Body):
 
     @property
     def pitch_diameter(self) -> float:
-        """Of the circle of the rolling bodies d_m [m]."""
+        """Diameter of the circle of the rolling bodies d_m [m]."""
         return 0.5 * (self.bore + self.outer_diameter)
 
     @property
@@ -117,7 +117,7 @@ class RadialBearing(Body):
         found = [self.share_load(float(each), E_star).largest for each in forces.ravel()]
         return np.reshape(found, forces.shape)[()]
 
-    def hertz_of(self, load: Any, ring: str, E_star: float) -> Hertz:
+    def hertz_of(self, load: Any, ring: Ring, E_star: float) -> Hertz:
         """The smooth dry contact of a rolling body under its own load [N] on one of the rings."""
         return self.on_ring(ring).hertz(load, E=2 * E_star)
 
@@ -129,20 +129,20 @@ class RadialBearing(Body):
             return None
         return 0.25 * self.shaft_speed * self.pitch_diameter * (1 - self.gamma**2)
 
-    def overrollings(self, ring: str) -> float | None:
+    def overrollings(self, ring: Ring) -> float | None:
         """Rolling bodies that pass a place of a ring per second [1/s]; None without shaft speed."""
         if self.shaft_speed is None:
             return None
         sign = 1 if ring == "inner" else -1
         return self.bodies * self.shaft_speed / (4 * math.pi) * (1 + sign * self.gamma)
 
-    def swept_area(self, share: RadialShare, ring: str, E_star: float) -> float:
-        """Track that all together roll over while each goes by one length of rolling [m²/m]."""
+    def swept_area(self, share: RadialShare, ring: Ring, E_star: float) -> float:
+        """Area that all rolling bodies sweep while each rolls by unit length [m²/m]."""
         loads: NDArray[np.float64] = share.loads[share.loads > 0]
         return float(np.sum(self.widths(loads, ring, E_star)))
 
-    def track_area(self, share: RadialShare, ring: str, E_star: float) -> float:
-        """Of the track below the most loaded rolling body, all around the ring [m²]."""
+    def track_area(self, share: RadialShare, ring: Ring, E_star: float) -> float:
+        """Area of the track below the most loaded rolling body, all around the ring [m²]."""
         sign = -1 if ring == "inner" else 1
         around = math.pi * self.pitch_diameter * (1 + sign * self.gamma)
         return float(self.widths(share.largest, ring, E_star) * around)
@@ -213,7 +213,7 @@ class BallBearing(RadialBearing):
     shaft_speed: float | None = quantity(
         "ω", "rad/s", "speed of the shaft", default=None, gt=0, hint="write '3000 rpm'"
     )
-    ring: str = choice("on which ring the contact is", "inner", "outer", default="inner")
+    ring: Ring = choice("on which ring the contact is", default="inner")
     dynamic_rating: float | None = quantity(
         "C", "N", "basic dynamic load rating", default=None, gt=0
     )
@@ -229,10 +229,10 @@ class BallBearing(RadialBearing):
 
     @property
     def rolling_diameter(self) -> float:  # type: ignore[override]
-        """Of a ball D_w [m]."""
+        """Diameter of a ball D_w [m]."""
         return self.ball_diameter
 
-    def on_ring(self, ring: str) -> Point:
+    def on_ring(self, ring: Ring) -> Point:
         """The ellipse of a ball on the inner or outer ring."""
         inner = ring == "inner"
         return BallInGroove(
@@ -247,7 +247,7 @@ class BallBearing(RadialBearing):
         yielding = sum(self.on_ring(ring).approach(1.0, E=2 * E_star) for ring in RINGS)
         return float(yielding**-BALLS)
 
-    def widths(self, loads: Any, ring: str, E_star: float) -> Any:
+    def widths(self, loads: Any, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks: of the ellipses across the motion [m]."""
         return 2 * self.on_ring(ring).semi_axes(loads, E=2 * E_star)[1]
 
@@ -336,7 +336,7 @@ class RollerBearing(RadialBearing):
     shaft_speed: float | None = quantity(
         "ω", "rad/s", "speed of the shaft", default=None, gt=0, hint="write '3000 rpm'"
     )
-    ring: str = choice("on which ring the contact is", "inner", "outer", default="inner")
+    ring: Ring = choice("on which ring the contact is", default="inner")
     dynamic_rating: float | None = quantity(
         "C", "N", "basic dynamic load rating", default=None, gt=0
     )
@@ -352,10 +352,10 @@ class RollerBearing(RadialBearing):
 
     @property
     def rolling_diameter(self) -> float:  # type: ignore[override]
-        """Of a roller D_w [m]."""
+        """Diameter of a roller D_w [m]."""
         return self.roller_diameter
 
-    def on_ring(self, ring: str) -> Line:
+    def on_ring(self, ring: Ring) -> Line:
         """The line of a roller on the inner or outer ring."""
         sign = 1 if ring == "inner" else -1
         track = self.pitch_diameter - sign * self.roller_diameter
@@ -365,7 +365,7 @@ class RollerBearing(RadialBearing):
         """Load over approach of the rings to the power 10/9, of one roller [N/m^(10/9)]."""
         return float((self.length**0.8 / (2 * 1.36)) ** ROLLERS * E_star)
 
-    def widths(self, loads: Any, ring: str, E_star: float) -> Any:
+    def widths(self, loads: Any, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks: the length of the rollers [m]."""
         return np.full_like(np.asarray(loads, float), self.length)
 
@@ -528,7 +528,7 @@ class BallScrew(Body):
     shaft_speed: float | None = quantity(
         "ω", "rad/s", "speed of the screw", default=None, gt=0, hint="write '1500 rpm'"
     )
-    side: str = choice("where the contact is", "screw", "nut", default="screw")
+    side: Literal["screw", "nut"] = choice("where the contact is", default="screw")
 
     def _problems(self) -> list[str]:
         if self.pitch_diameter <= self.diameter:
@@ -563,7 +563,7 @@ class BallScrew(Body):
 
     @property
     def lead_angle(self) -> float:
-        """Of the circle of balls φ [rad]."""
+        """Lead angle of the circle of balls φ [rad]."""
         return math.atan(self.lead / (math.pi * self.pitch_diameter))
 
     @property
@@ -754,7 +754,7 @@ class Gear(Body):
 
     @property
     def pitch_diameters(self) -> tuple[float, float]:
-        """Of pinion and wheel, d_1 and d_2 [m]."""
+        """Diameters of pinion and wheel, d_1 and d_2 [m]."""
         size = self.module / math.cos(self.helix_angle)
         return size * self.pinion_teeth, size * self.wheel_teeth
 

@@ -29,7 +29,7 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, tell_of_range
+from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, note_of, tell_of_range
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
 from ..quantities.record import StateRecord, column, declared_columns
@@ -346,7 +346,7 @@ def mixed_film(
         "A_ss": state.A_ss,
         "A_sa": state.A_sa,
         **_traction(oil, state, slide_roll, u, h_T, p * film_share, p, (ss, sa)),
-        "viscosity": oil.at(p * film_share),
+        "viscosity": oil.at_pressure(p * film_share),
         "regime": _regimes(ss + sa, few, most),
         "residual": np.abs(film_share + (ss + sa) - 1),
         "status": np.asarray(state.status, dtype=str),
@@ -438,7 +438,9 @@ def _solve_heard(contact: Contact, d: float | Array) -> tuple[Equilibrium, list[
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, d=d)
-    return state, [str(each.message) for each in heard if issubclass(each.category, RangeWarning)]
+    return state, [
+        note_of(each.message) for each in heard if issubclass(each.category, RangeWarning)
+    ]
 
 
 def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, bool]:
@@ -532,7 +534,7 @@ def _root(excess: Callable[[Array], Array], count: int, speed: Array) -> Array:
 
 
 def _ranges(bodies: Lubricated, u: Array, ratio: Array) -> list[str]:
-    """Where the model is extrapolated, one sentence each; the ratio is that of film and σ."""
+    """Notes on extrapolations, one sentence each; the ratio is that of film and σ."""
     conjunction, heights = bodies.conjunction, bodies.contact.roughness.heights
     at = full_range(conjunction.shape).asymptotes(**bodies.operation(u))
     out = bodies.film.warnings(at.regime, conjunction.ratio)

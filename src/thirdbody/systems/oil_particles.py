@@ -15,12 +15,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
 from ..contact.broken_averages import broken_average
-from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter, sink, sunk
+from ..effects.single.dent import Debris, Dent, dent_of, dents_after, flattened_diameter, sink, sunk
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
 from ..errors import InvalidValue, Problem, tell_of_range
@@ -28,12 +28,12 @@ from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
-from ..laws.particle.series import Series
+from ..laws.particle.series import Deep, Series
 from ..laws.particle.squashed import widest_disc
 from ..numerics.quadrature import panel_rule, subdivide
 from ..populations.distributions import Distribution
 from ..populations.materials import Material, MaterialPair
-from ..populations.measured.cleanliness import suspension_of_iso4406
+from ..populations.measured.cleanliness import Level, suspension_of_iso4406
 from ..populations.strength import WeibullStrength
 from ..quantities.arguments import need_one
 from ..quantities.say import number, percent, value_of
@@ -190,13 +190,12 @@ class FilmParticles(Value):
     number: float = quantity("n", "1/m^3", "particles per volume of oil", ge=0)
     film: float = quantity("h", "m", "film height", gt=0, hint="0.5 um is 0.5e-6")
     entry: float = quantity("ε", "1", "entry ratio", ge=0)
-    debris: str = choice("what particles do when pressed", "by_hardness", "hard", "ductile",
-                         "brittle", default="by_hardness")  # fmt: skip
+    debris: Debris = choice("what particles do when pressed", default="by_hardness")
     fragment: float | None = quantity("x_f", "m", "size of fragments", default=None, gt=0)
     slip: float = quantity("s", "m", "sliding distance under a passing particle", default=0, ge=0)
     f_ab: float | None = quantity("f_ab", "1", "removed part of a groove", default=None, ge=0, le=1)
     law: AbstractAsperityLaw = field(default_factory=Hermite)
-    deep: str = choice("particles beyond small indentations", "table", "off", default="table")
+    deep: Deep = choice("particles beyond small indentations", default="table")
     friction_factor: float = quantity(
         "m_f", "1", "shear factor on the faces of particles", default=0.2, gt=0, le=1
     )
@@ -257,7 +256,7 @@ class FilmParticles(Value):
         cls,
         code: str,
         *,
-        level: Literal["low", "middle", "high"] = "middle",
+        level: Level = "middle",
         smallest: float | str | None = None,
         largest: float | str | None = None,
         **others: Any,
@@ -303,7 +302,7 @@ class FilmParticles(Value):
         return self._share(x, 0, size) + self._share(size, 3) / size**3
 
     def _size(self, count: float, lowest: float) -> float:
-        """The size that so many pressed ones per particle of the oil exceed."""
+        """Size that a given number of pressed particles per particle of the oil exceeds."""
         from scipy.optimize import brentq
 
         top = self.diameter.support[1]
@@ -327,7 +326,7 @@ class FilmParticles(Value):
             gap, top = self.film / scale, shape.support[1]
             if gap >= top:
                 continue
-            breakage = Breakage.of(self.strength, self.material, scale)
+            breakage = Breakage.of_material(self.strength, self.material, scale)
             average = broken_average(self._particle(), shape, breakage)
             found = average.pieces(
                 np.array([[gap]]), np.array([[top - gap]]), eps,
@@ -405,7 +404,7 @@ class FilmParticles(Value):
         return self._sunk(side, float(particle.sides[side].delta_1))
 
     def _sunk(self, side: int, depth: float) -> float:
-        """Smallest size that sits so deep in a side, over its size; infinite for none."""
+        """Smallest size that sinks this deep into a side, over its size; infinite for none."""
         from scipy.optimize import brentq
 
         particle = self._particle()

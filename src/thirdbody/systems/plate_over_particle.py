@@ -32,7 +32,7 @@ THIN = 3.0
 
 
 class Bump(NamedTuple):
-    """What a particle does to the plate above it: one number each, in SI.
+    """Bump of a plate above a particle: one number each, in SI.
 
     Examples
     --------

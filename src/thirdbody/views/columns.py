@@ -25,7 +25,7 @@ class Cell(NamedTuple):
 
 
 class Shown(NamedTuple):
-    """A column as a reader gets it: in sentences of its own unit, in a workbook in one for all.
+    """A column for readers: unit in sentences, and one unit for all states in a workbook.
 
     ``unit`` is an SI unit, "1", or "share", which is printed in per cent; shares below ``least``
     are printed as such.

@@ -53,7 +53,7 @@ def _count(failure: float) -> str:
 
 
 def answer(found: ConnectorResult) -> list[str]:
-    """How often it fails, in one or two sentences."""
+    """Sentences on how often the connector fails."""
     plug = found.asked.connector
     many = _makes(found)
     out: list[str] = []
@@ -86,7 +86,7 @@ def _makes(found: ConnectorResult) -> str:
 
 
 def uncertainty(found: ConnectorResult) -> list[str]:
-    """What moves the answer most, and what the wipe may do: a sentence each, with what to do."""
+    """Sentences on what moves the answer most and on the wipe, each with what to do."""
     every = [each for each in found.what_ifs if each.ratio > 1]
     heads = ["Most uncertain"] + ["Besides"] * len(every)
     return [

@@ -34,7 +34,7 @@ def rows(found: OneSurface, i: int) -> dict[str, tuple[str, str]]:
 
 
 def headline(found: OneSurface, i: int) -> str:
-    """Who carries, here and in the statistical answer, and how much such a surface can say."""
+    """Sentences on who carries, here and in the model, and how sure such a surface is."""
     state = found.state
     F = float(np.atleast_1d(state.F_star)[i])
     told = rows(found, i)

@@ -12,7 +12,7 @@ from ..systems.mixed_film import FULL
 if TYPE_CHECKING:
     from ..study import FilmResult
 
-__all__ = ["bodies", "point", "share", "summary"]
+__all__ = ["answer", "bodies", "point", "share", "summary"]
 
 
 def point(result: FilmResult, i: int) -> dict[str, str]:
@@ -45,6 +45,27 @@ def point(result: FilmResult, i: int) -> dict[str, str]:
     return rows
 
 
+def answer(result: FilmResult) -> list[str]:
+    """Who carries, and where regimes change, in two sentences."""
+    states, ends = result.states, sorted({0, len(result.states["speed"]) - 1})
+
+    def both(name: str, unit: str = "") -> str:
+        said = [states[name][i] for i in ends]
+        return " to ".join(dict.fromkeys(
+            share(each) if not unit else value_of(each, unit, 3) for each in said
+        ))  # fmt: skip
+
+    lambdas = " to ".join(number(states["lambda_ratio"][i], 2) for i in ends)
+    solids = [f"asperities {both('ss_share')}"]
+    solids += [f"particles {both('sa_share')}"] if result.passing else []
+    where = f"From {both('speed', 'm/s')}" if len(ends) > 1 else f"At {both('speed', 'm/s')}"
+    return [
+        f"{where} the film of {both('h_T', 'm')} carries {both('film_share')} of the load "
+        f"(lambda = {lambdas}), {' and '.join(solids)}.",
+        f"Lubrication is {', and '.join(_regimes(result))}.",
+    ]
+
+
 def bodies(result: FilmResult) -> str:
     """The bodies, their load and its Hertz pressure."""
     film = result.conditions
@@ -56,7 +77,7 @@ def bodies(result: FilmResult) -> str:
 
 
 def summary(result: FilmResult) -> list[str]:
-    """Where regimes change, what passes, and why there is no friction, a sentence each."""
+    """Sentences on regimes, on what passes, and on friction that is not known."""
     states = result.states
     out = [f"Lubrication is {', and '.join(_regimes(result))}."]
     ends = sorted({0, len(states["speed"]) - 1})

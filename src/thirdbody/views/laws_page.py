@@ -31,7 +31,7 @@ VALIDATED = {
 
 
 def laws_page() -> str:
-    """The page docs/laws.md: every law that ships, as its class describes it.
+    """The page docs/laws.md: every shipped law, described by its class.
 
     ``thirdbody laws --markdown`` prints it.
 

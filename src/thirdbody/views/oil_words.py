@@ -9,8 +9,18 @@ import numpy as np
 
 from ..quantities.say import join_words, number, percent, value_of
 from ..study.dirty_oil import DirtyOil, Life, PopulationDents
+from ..study.oil_what_ifs import OilWhatIf
 
-__all__ = ["DROP", "HEADS", "MEANS", "answer", "filter_answer", "filter_rows", "rows"]
+__all__ = [
+    "DROP",
+    "HEADS",
+    "MEANS",
+    "answer",
+    "filter_answer",
+    "filter_rows",
+    "rows",
+    "uncertainty",
+]
 
 HEADS = ("population", "load", "dents/h", "mm²/pass", "depth", "5 % above", "deepest", "width")
 MEANS = {
@@ -28,15 +38,33 @@ DROP = ("width", "mm²/pass", "deepest", "load")
 
 
 def answer(found: DirtyOil) -> list[str]:
-    """Which population dents, who carries, and what life is left: a sentence each."""
+    """Sentences on who dents, who carries, and the life that is left."""
     out = [_dents(found.populations, found.where), _carries(found)]
     if found.life is not None:
         out.append(_life(found.life))
     return out
 
 
+def uncertainty(what_ifs: Sequence[OilWhatIf]) -> list[str]:
+    """What moves dents and life most, by how much, and what to do about it."""
+    if not what_ifs or not what_ifs[0].ratio > 1:
+        return []
+    most = what_ifs[0]
+    ends = [f"{' to '.join(_count(each) for each in most.dents)} dents an hour"]
+    if all(map(math.isfinite, most.depth)):
+        depths = dict.fromkeys(value_of(each, "m", 3) for each in most.depth)
+        if len(depths) > 1:
+            ends.append(f"one in twenty of the deepest beyond {' to '.join(depths)}")
+    if all(map(math.isfinite, most.a_ISO)):
+        ends.append(f"a_ISO {' to '.join(number(each, 2) for each in most.a_ISO)}")
+    return [
+        f"Most uncertain: {most.what}. With {most.between}, there are {join_words(ends)}; "
+        f"{most.action}."
+    ]
+
+
 def _dents(parts: Sequence[PopulationDents], where: str) -> str:
-    """Who dents most often and who deepest."""
+    """Sentence on who dents most often and who deepest."""
     if not any(each.per_hour > 0 for each in parts):
         return f"Nothing dents {where}: no particle of the oil is larger than the film and hard."
     often = max(parts, key=lambda each: each.per_hour)

@@ -22,7 +22,7 @@ This page is made from the classes: `thirdbody outputs --markdown > docs/outputs
 
 
 def entries() -> list[dict[str, Any]]:
-    """Every output with its source, its numbers and its columns, ready for JSON.
+    """Every output with its source, numbers and columns, ready for JSON.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def outputs_page() -> str:
                 f"`{option['key']}`",
                 option["symbol"],
                 option["unit"],
-                "**yours**" if option["required"] else _shown(option["default"]),
+                "**yours**" if option["required"] else _default_text(option["default"]),
                 option["allowed"],
                 option["meaning"],
             ]
@@ -85,7 +85,7 @@ def outputs_page() -> str:
     return "\n".join(parts)
 
 
-def _shown(default: Any) -> str:
+def _default_text(default: Any) -> str:
     return "" if default is None else f"{default:g}" if isinstance(default, float) else str(default)
 
 

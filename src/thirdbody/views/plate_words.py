@@ -22,7 +22,7 @@ FEW = 1e-6
 
 
 def answer(found: PlateResult) -> list[str]:
-    """How high it stands, and how often too high, in one or two sentences."""
+    """Sentences on the height of the plate, and how often it is too high."""
     i, chuck = found.at, found.asked.chuck
     height, grain = float(found.height[i]), float(found.grain[i])
     out = [
@@ -48,7 +48,7 @@ def answer(found: PlateResult) -> list[str]:
 
 
 def uncertainty(found: PlateResult) -> list[str]:
-    """What moves the answer most, by how much, and what to do about it."""
+    """Sentences on what moves the answer most, by how much, and what to do."""
     most = found.what_ifs[0]
     if not most.ratio > 1:
         return []

@@ -28,6 +28,7 @@ from .report.figures import first_figure
 from .report.found import Found, some_of
 from .report.make import USUAL, curve_over
 from .report.sources import Row, alike, laws_of, rows_of, sources_of, value_rows
+from .state_words import answer, details, uncertainty
 from .workbook import Grid, Sheet, cell_of, cell_of_words, sheet_of_table
 
 if TYPE_CHECKING:
@@ -36,7 +37,14 @@ if TYPE_CHECKING:
     from ..contact.contact import Contact
     from ..study import FilmResult, StudyResult
 
-__all__ = ["film_sheets", "grid_of", "state_sheets"]
+__all__ = [
+    "amount_cells",
+    "film_sheets",
+    "grid_of",
+    "grid_of_words",
+    "note_line",
+    "state_sheets",
+]
 
 CHART_DPI = 150
 MOST_ROWS = 100
@@ -46,32 +54,33 @@ MOST_LOADS = 6
 
 
 # -------------------------------------------------------------------------- the answer
-def state_sheets(result: StudyResult, sentences: Sequence[str]) -> list[Sheet]:
-    """Sheets of what `run_study` found.
-
-    Parameters
-    ----------
-    result : StudyResult
-    sentences : sequence of str
-        The answer in words, as the command prints it.
-    """
+def state_sheets(result: StudyResult) -> list[Sheet]:
+    """Sheets of what `run_study` found."""
     states, contact = result.states, result.study.contact
     columns = state_columns(contact)
     table = grid_of(columns, {each.name: getattr(states, each.name) for each in columns})
     if not contact.two_body:
         table = _with_column(table, "mode", modes_of(result))
-    found: list[str | Grid | bytes] = [*result.force_sentences, *sentences, *_some_rows(table)]
+    found: list[str | Grid | bytes] = [*answer(result), *_some_rows(table), *uncertainty(result)]
     if not contact.two_body:
         found.append(_critical_grid(result))
     if contact.outputs:
         found.append(_output_grid(result))
+    found += details(result)
     found.append(_png(_figure_of_states(result)))
     meanings = _meanings_of_states(result)
     return _sheets(result, found, _rows_of_study(result), meanings)
 
 
-def film_sheets(result: FilmResult, sentences: Sequence[str]) -> list[Sheet]:
-    """Sheets of what `run_film` found; arguments as of `state_sheets`."""
+def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[Sheet]:
+    """Sheets of what `run_film` found.
+
+    Parameters
+    ----------
+    result : FilmResult
+    sentences : sequence of str or Grid
+        The answer in words and tables, as the command prints it.
+    """
     from ..systems.mixed_film import COLUMNS
     from .plot.film import stribeck
 
@@ -104,9 +113,14 @@ def _some_rows(grid: Grid) -> list[str | Grid]:
 
 
 def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
-    """A table for a reader: each column in the unit in which most of its values are read."""
+    """A table for readers, each column in the unit that suits most of its values."""
     drawn = [each.column(np.atleast_1d(values[each.name]).tolist()) for each in columns]
     return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))
+
+
+def grid_of_words(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Grid:
+    """A table of the screen as it is printed: words, and numbers with their units."""
+    return Grid(list(heads), [tuple(row) for row in rows])
 
 
 def _with_column(grid: Grid, head: str, words: Sequence[Any]) -> Grid:
@@ -131,7 +145,7 @@ def _critical_grid(result: StudyResult) -> Grid:
 
 
 def _output_grid(result: StudyResult) -> Grid:
-    """What the outputs say, under each load; of many under some."""
+    """Grid of the outputs under each load; of many loads, some."""
     states = result.states
     some = some_of(len(states.status), MOST_LOADS)
     rows = []
@@ -188,7 +202,7 @@ def _sheets(
 
 
 def _rows_of_study(result: StudyResult) -> list[Row]:
-    """Loads, bodies and the contact: what a study says, and what the library takes beside it."""
+    """Rows of loads, bodies and contact: inputs of the study, and assumed ones."""
     study = result.study
     about, name = LOADS[study.load], study.load
     values = study.values.tolist()
@@ -208,16 +222,22 @@ def _rows_of_study(result: StudyResult) -> list[Row]:
 
 
 def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
-    """A row an input: its number in the unit in which it is read."""
+    """Grid of inputs, a row each, in units that suit them."""
     lines = [
-        (row.meaning, row.symbol, *_amount(row), "default" if row.default else "study", row.name)
+        (
+            row.meaning,
+            row.symbol,
+            *amount_cells(row),
+            "default" if row.default else "study",
+            row.name,
+        )
         for row in rows
     ]
     for label, body in alike(bodies_of(contact)):
         for key, about in NUMBERS.items():
             if (value := getattr(body, key)) is not None:
                 row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])
-                said = (f"{label}: {row.meaning}", row.symbol, *_amount(row))
+                said = (f"{label}: {row.meaning}", row.symbol, *amount_cells(row))
                 lines.append((*said, body.name, key))
     return Grid(("input", "symbol", "value", "unit", "from", "name"), lines)
 
@@ -241,7 +261,7 @@ def _source_grid(contact: Contact) -> Grid:
     return Grid(("of", "name", "", "", "source"), rows)
 
 
-def _amount(row: Row) -> tuple[Cell | str, str]:
+def amount_cells(row: Row) -> tuple[Cell | str, str]:
     """A number in the unit in which it is read, and the unit; or words and none."""
     if row.amount is None:
         return row.value, ""
@@ -256,7 +276,7 @@ def _notes(
     meanings: Mapping[str, str],
 ) -> tuple[Grid, ...]:
     """Warnings with what to do, the columns of the states, and what is to be cited."""
-    notes = [_note_line(each) for each in ranked(result.warnings)] or [("none", None, "")]
+    notes = [note_line(each) for each in ranked(result.warnings)] or [("none", None, "")]
     told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
     cited = [(line, None, "") for line in (*result.citations, f"thirdbody {__version__}")]
     return (
@@ -266,7 +286,8 @@ def _notes(
     )
 
 
-def _note_line(note: str) -> tuple[str, Cell | None, str]:
+def note_line(note: str) -> tuple[str, Cell | None, str]:
+    """A note, its effect on the answer, and what to do about it."""
     if not isinstance(note, Note):
         return note, None, ""
     what = note.removesuffix(f"; {note.action}") if note.action else note

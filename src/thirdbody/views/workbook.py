@@ -55,7 +55,7 @@ class Grid(NamedTuple):
 
 @dataclass(frozen=True)
 class Sheet:
-    """What stands on one sheet, from top to bottom.
+    """Content of one sheet, from top to bottom.
 
     Attributes
     ----------
@@ -88,7 +88,7 @@ def cell_of(value: Any) -> Cell | str | None:
 
 
 def cell_of_words(text: str) -> tuple[Cell | str, str]:
-    """A number that is printed with its unit, and the unit; words as they are, and none.
+    """Number and unit of a printed value; other words as they are, without a unit.
 
     >>> cell_of_words("226.4 nm"), cell_of_words("12.5 %"), cell_of_words("mixed")
     ((Cell(value=226.4, text='226.4'), 'nm'), (Cell(value=0.125, text='12.5 %'), ''), ('mixed', ''))
@@ -157,7 +157,7 @@ def workbook_bytes(sheets: Sequence[Sheet]) -> bytes:
 
 
 def _draw_sheet(drawn: Worksheet, sheet: Sheet) -> None:
-    """Its parts below each other; the head of a sheet that is one table stays in sight."""
+    """Write the parts of a sheet below each other; the head of a table stays in sight."""
     from openpyxl.styles import Font
 
     widths = _widths([part for part in sheet.parts if isinstance(part, Grid)])

@@ -80,8 +80,9 @@ class Best(Record):
     objectives : dict
         Value of every objective there.
     feasible : bool
-        Whether every limit holds there; if not, nothing tried was feasible, and ``reason`` says
-        why not at the point that came nearest.
+        Whether every limit holds there; if not, nothing tried was feasible.
+    reason : str
+        Why the point that came nearest is not feasible; empty where one is.
     load, loads : str, array (L,)
         Which load is given, and its values.
     of_states, of_points : dict of Column
@@ -418,7 +419,7 @@ def _band(
     """Where the first objective loses less than this part of it, between two places."""
     label = task.objectives[0].label
     value, own = best.costs[label], best.numbers[name]
-    among = task.variables[name].span.at(np.linspace(*places, GRID + 1))
+    among = task.variables[name].span.values_at(np.linspace(*places, GRID + 1))
     grid = np.unique(np.append(among, own))
     place = int(np.searchsorted(grid, own))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,10 +48,10 @@ class Objective(Value):
     """
 
     of: str
-    aim: str = choice("what is good", "smallest", "largest", "window", default="smallest")
-    over_loads: str = choice("what counts of the loads", "mean", "worst", default="mean")
-    over_scatter: str = choice(
-        "what counts of the samples", "mean", "nominal", "worst", "robust", "tail", default="mean"
+    aim: Literal["smallest", "largest", "window"] = choice("what is good", default="smallest")
+    over_loads: Literal["mean", "worst"] = choice("what counts of the loads", default="mean")
+    over_scatter: Literal["mean", "nominal", "worst", "robust", "tail"] = choice(
+        "what counts of the samples", default="mean"
     )
     low: float = quantity("m_lo", "1", "lower end of the window", default=0.25)
     high: float = quantity("m_hi", "1", "upper end of the window", default=0.75)
@@ -70,9 +71,12 @@ class Objective(Value):
     @property
     def label(self) -> str:
         """What results call it."""
-        how = [self.aim if self.aim == "window" else "worst" if self.over_loads == "worst" else ""]
-        how.append("" if self.over_scatter in ("mean", "nominal") else self.over_scatter)
-        return ":".join([self.of, *filter(None, how)])
+        how = [self.of]
+        if self.aim == "window" or self.over_loads == "worst":
+            how.append("window" if self.aim == "window" else "worst")
+        if self.over_scatter not in ("mean", "nominal"):
+            how.append(self.over_scatter)
+        return ":".join(how)
 
     def cost(self, metric: Array, weights: Array) -> Array:
         """What is to be small: (P,) for metrics (P, S, J), sample 0 nominal."""
@@ -176,8 +180,8 @@ class Suspension(Value):
     concentration: float | None = quantity(
         "c", "1", "how much of the fluid is particles", default=None, gt=0
     )
-    by: str = choice(
-        "what the concentration is", "mass", "volume", "number", "mass per volume", default="mass"
+    by: Literal["mass", "volume", "number", "mass per volume"] = choice(
+        "what the concentration is", default="mass"
     )
     particle_density: float | None = quantity(
         "ρ_p", "kg/m^3", "density of the particles", default=None, gt=0

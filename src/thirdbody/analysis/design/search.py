@@ -75,7 +75,7 @@ class Variable(NamedTuple):
         """Every number that moves with it."""
         if self.moved is None:
             return {self.name: value}
-        return self.moved.at((value - self.moved.values[0]) / self.moved.scales[0])
+        return self.moved.numbers_at((value - self.moved.values[0]) / self.moved.scales[0])
 
 
 @dataclass(frozen=True)
@@ -135,11 +135,11 @@ class Task:
         names, lists = list(self.materials), list(self.materials.values())
         return [dict(zip(names, pick, strict=True)) for pick in itertools.product(*lists)]
 
-    def at(self, u: Array) -> list[dict[str, float]]:
+    def values_at(self, u: Array) -> list[dict[str, float]]:
         """Values of the variables at points of the unit cube (P, k)."""
         return [
             {
-                each.name: float(np.clip(each.span.at(part), each.low, each.high))
+                each.name: float(np.clip(each.span.values_at(part), each.low, each.high))
                 for part, each in zip(row, self.variables.values(), strict=True)
             }
             for row in np.clip(u, 0.0, 1.0)
@@ -243,7 +243,8 @@ class Task:
 
         def solve(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
             some = {name: values[which] for name, values in vary.items()}
-            return state_columns(contact, vary=some or None, **as_load(self.load, loads[which]))
+            given = as_load(self.load, loads[which])
+            return state_columns(contact, vary=some or None, fewest=1, **given)
 
         try:
             return columns_tried(solve, count)
@@ -349,7 +350,7 @@ class Task:
             u = np.linspace(0, 1, points or GRID)[:, None]
         else:
             u = self._spread(points or SAMPLES)
-        self.evaluate(self.at(u), materials)
+        self.evaluate(self.values_at(u), materials)
 
     def _spread(self, count: int) -> Array:
         """Points of the unit cube; sizes with several amounts each, which cost little more."""
@@ -392,7 +393,7 @@ class Task:
         place = int(np.searchsorted(every, u[0]))
         low, high = every[max(place - 1, 0)], every[min(place + 1, len(every) - 1)]
         minimize_scalar(
-            lambda t: self.evaluate(self.at(np.array([[t]])), materials)[0].rank,
+            lambda t: self.evaluate(self.values_at(np.array([[t]])), materials)[0].rank,
             bounds=(low, high),
             method="bounded",
             options={"xatol": 1e-4 * (high - low)},
@@ -409,7 +410,7 @@ class Task:
         def values(u: Array) -> Array:
             """Cost and what is broken, finite."""
             if u.tobytes() not in known:
-                (point,) = self.evaluate(self.at(u[None]), materials)
+                (point,) = self.evaluate(self.values_at(u[None]), materials)
                 cost = next(iter(point.costs.values())) / unit
                 # a little inside, so that what is found there is feasible
                 broken = [min(point.broken.get(what, 1.0), 1.0) + 1e-6 for what in names]

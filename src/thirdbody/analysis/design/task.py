@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of
 from ...equilibrium.solve import given_load
-from ...errors import InvalidValue
+from ...errors import Advice, InvalidValue
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
 from ..inputs import input_of as moved_input
@@ -103,7 +103,7 @@ def _choices(
     for name, allowed in vary.items():
         try:
             if _is_materials(allowed):
-                if not isinstance(contact.part(name), Material):
+                if not isinstance(contact.value_at(name), Material):
                     raise InvalidValue(f"vary[{name!r}] lists materials, but {name} is not one")
                 materials[name] = list(allowed)
             else:
@@ -162,7 +162,7 @@ def _suspension_problems(
     if listed and suspension.particle_density is not None:
         out.append(
             "Suspension.particle_density cannot hold for several materials; give each its own, "
-            "material.replace(density=...)"
+            + Advice("material.replace(density=...)", "key density")
         )
     every = listed or [contact.populations[0].material]
     out += [

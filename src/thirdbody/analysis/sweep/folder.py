@@ -160,7 +160,7 @@ class Folder:
     def marker(self, number: int) -> Path:
         return self.path / "done" / f"{number}.json"
 
-    def part(self, number: int) -> Path:
+    def part_file(self, number: int) -> Path:
         return self.path / "parts" / f"{number}.npz"
 
     def mark(self, number: int, study: str, summary: Mapping[str, Any], files: list[Path]) -> None:
@@ -304,8 +304,12 @@ class Folder:
         files, problems = marker.get("files"), []
         if files is None:
             out.unchecked += 1
-            if (self.path / "parts").is_dir() and not finished and not self.part(number).exists():
-                problems = [f"{self.part(number)} is missing"]
+            if (
+                (self.path / "parts").is_dir()
+                and not finished
+                and not self.part_file(number).exists()
+            ):
+                problems = [f"{self.part_file(number)} is missing"]
         elif not (finished and self._parts_only(files)):  # which go once they are put together
             problems = [text for name, told in files.items() for text in self._misfit(name, told)]
             out.checked += len(files)

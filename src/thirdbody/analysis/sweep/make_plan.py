@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from ...equilibrium.columns import columns_of, quantity_of
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import unknown_inputs
 from ...errors import InvalidValue, Problem
-from ...numerics.sampling import DESIGNS, Span
+from ...numerics.sampling import DESIGNS, Span, SweepDesign
 from ...quantities.arguments import only_one
 from ...quantities.value import Value, problem_with
 from .plan import CHUNK, Arrays, Listed, Plan, Sampled
@@ -34,7 +34,7 @@ def make_plan(
     F_star: object = None,
     d: object = None,
     vary: Mapping[str, object] | None = None,
-    design: str = "grid",
+    design: SweepDesign = "grid",
     samples: int | None = None,
     seed: int = 0,
     columns: Sequence[str] | None = None,
@@ -44,7 +44,7 @@ def make_plan(
     """The plan that these arguments describe; see `sweep`."""
     load, loads = only_one(pressure=pressure, F_star=F_star, d=d)
     entries: dict[str, object] = dict(vary or {})
-    problems = _not_known("design", design, ("grid", "zip", *DESIGNS))
+    problems = _not_known("design", design, get_args(SweepDesign))
     if load in entries:
         raise InvalidValue(Problem(f"vary[{load!r}]", "is the load, which is given already"))
     problems += unknown_inputs(contact, entries)

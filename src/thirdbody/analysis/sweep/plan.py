@@ -108,7 +108,7 @@ class Sampled:
     def inputs(self) -> Arrays:
         draw = DESIGNS[self.design]
         u = draw(self.count, len(self.spans), self.seed, self.start, self.stop)
-        return {name: span.at(u[:, j]) for j, (name, span) in enumerate(self.spans.items())}
+        return {name: span.values_at(u[:, j]) for j, (name, span) in enumerate(self.spans.items())}
 
     def to_dict(self) -> dict[str, object]:
         own = {"design": self.design, "samples": self.count, "seed": self.seed}
@@ -196,7 +196,7 @@ class Task:
         }
         if self.reduction is not None:
             kept = {name: solved[name] for name in (*self.columns, "status")}
-            return self.reduction.part(kept, self.outer), summary
+            return self.reduction.reduce_samples(kept, self.outer), summary
         out = {name: solved[name] for name in self.columns}
         if self.coded:
             if "mode" in out:

@@ -109,7 +109,7 @@ class Reduction:
         )
 
     # ------------------------------------------------------------------ one part of cells
-    def part(self, columns: Arrays, outer: int) -> Arrays:
+    def reduce_samples(self, columns: Arrays, outer: int) -> Arrays:
         """What is kept of the samples of these cells; the first ``outer`` axes make the cells."""
         out: Arrays = {}
         shape = next(iter(columns.values())).shape[:outer]

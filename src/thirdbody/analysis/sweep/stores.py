@@ -118,14 +118,14 @@ class _NetCDF:
                 compression_opts=1 if dims else None,
                 shuffle=bool(dims),
             )
-            made.attrs.update(_plain(attrs))
+            made.attrs.update(_with_bytes_of_codes(attrs))
         for name, (dims, values, attrs) in layout.coords.items():
             text = values.dtype.kind == "U"
             made = out.file.create_variable(
                 name, dims, h5py.string_dtype() if text else _number(values).dtype
             )
             made[...] = values.astype(object) if text else _number(values)
-            made.attrs.update(_plain(attrs))
+            made.attrs.update(_with_bytes_of_codes(attrs))
         out.label(_labels(layout))
         return out
 
@@ -136,7 +136,7 @@ class _NetCDF:
             self.file[name][region or ...] = values
 
     def label(self, attrs: Mapping[str, object]) -> None:
-        self.file.attrs.update(_plain(attrs))
+        self.file.attrs.update(_with_bytes_of_codes(attrs))
 
     def close(self) -> None:
         self.file.close()
@@ -152,7 +152,7 @@ def _number(values: NDArray[Any]) -> NDArray[Any]:
     return values.astype("i1") if values.dtype.kind == "b" else values
 
 
-def _plain(attrs: Mapping[str, object]) -> dict[str, object]:
+def _with_bytes_of_codes(attrs: Mapping[str, object]) -> dict[str, object]:
     """Lists of codes as the bytes that CF asks for."""
     return {
         key: np.array(value, "i1") if isinstance(value, list) else value

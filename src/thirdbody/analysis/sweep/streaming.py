@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -40,6 +40,7 @@ __all__ = ["Folder", "in_memory", "run"]
 
 Result = tuple[Arrays, dict[str, Any]]
 
+Format = Literal["zarr", "netcdf"]
 FORMATS = {"zarr": ("zarr",), "netcdf": ("h5netcdf", "h5py")}
 """Formats and the packages they need."""
 
@@ -267,7 +268,7 @@ def _carry_out(
         store = _mended(plan, folder, layout, name, found)
     elif not (intact and len(done) == plan.count):
         (path / "parts").mkdir(exist_ok=True)
-        done = {n: one for n, one in done.items() if folder.part(n).exists()}
+        done = {n: one for n, one in done.items() if folder.part_file(n).exists()}
     _warn(damage_words(path, found))
     _warn(unchecked_words(path, found))
     states = _summary(done.values())["states"]
@@ -279,7 +280,7 @@ def _carry_out(
             if direct:
                 files = store.write(_where(plan, number), arrays, durable=True)
             else:
-                files = [folder.part(number)]
+                files = [folder.part_file(number)]
                 _save_part(files[0], arrays)
             folder.mark(number, name, summary, files)
             done[number] = summary
@@ -329,7 +330,7 @@ def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, objec
     store = kind.create(draft, layout)
     step = 1 if plan.reduction is None else _parts(plan)
     for first in range(0, plan.count, step):
-        parts = (_load_part(folder.part(number)) for number in range(first, first + step))
+        parts = (_load_part(folder.part_file(number)) for number in range(first, first + step))
         arrays = next(parts) if plan.reduction is None else _reduced(plan.reduction, parts)
         store.write(_where(plan, first), arrays)
     store.label(attrs)

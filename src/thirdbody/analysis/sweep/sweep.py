@@ -7,16 +7,18 @@ to be solved anywhere, any number of times, with the same result.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
 from ...contact.contact import Contact
 from ...errors import InvalidValue
+from ...numerics.sampling import SweepDesign
 from ...quantities.carried import takes_units
 from ...quantities.files import refused_by_disk
 from .make_plan import make_plan
 from .plan import CHUNK
+from .streaming import Format
 
 if TYPE_CHECKING:
     import os
@@ -36,13 +38,13 @@ def sweep(
     F_star: ArrayLike | Mapping[str, object] | None = None,
     d: ArrayLike | Mapping[str, object] | None = None,
     vary: Mapping[str, object] | None = None,
-    design: Literal["grid", "zip", "latin", "sobol"] = "grid",
+    design: SweepDesign = "grid",
     samples: int | None = None,
     seed: int = 0,
     columns: Sequence[str] | None = None,
     reduce: Mapping[str, object] | None = None,
     out: str | os.PathLike[str] | None = None,
-    format: Literal["zarr", "netcdf"] = "zarr",
+    format: Format = "zarr",
     chunk: int = CHUNK,
     workers: int = 1,
     client: Client | None = None,

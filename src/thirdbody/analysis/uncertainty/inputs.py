@@ -60,9 +60,9 @@ class Uncertain:
 
     Examples
     --------
-    >>> Uncertain.uniform(low=80e-9, high=120e-9).at(0.5)
+    >>> Uncertain.uniform(low=80e-9, high=120e-9).quantile(0.5)
     1e-07
-    >>> round(Uncertain.normal(mean=7.7e9, std=0.5e9).at(0.975) / 1e9, 3)
+    >>> round(Uncertain.normal(mean=7.7e9, std=0.5e9).quantile(0.975) / 1e9, 3)
     8.68
     >>> Uncertain.lognormal(median=1e11, gsd=1.5).cdf(1e11)
     0.5
@@ -159,7 +159,7 @@ class Uncertain:
         return cls.normal(mean=float(number.nominal_value), std=float(number.std_dev))
 
     @takes_units
-    def at(self, u: ArrayLike) -> Any:
+    def quantile(self, u: ArrayLike) -> Any:
         """The value that is exceeded with probability 1 − u."""
         from scipy.special import ndtri
 
@@ -284,19 +284,19 @@ class Drawn(NamedTuple):
     moved: tuple[Moved | str, ...]
     known: tuple[Uncertain, ...]
 
-    def at(self, values: Sequence[Any]) -> Arrays:
+    def moved_numbers(self, values: Sequence[Any]) -> Arrays:
         """Every number of the contact that moves, from the values of the inputs."""
         out: Arrays = {}
         for moved, value in zip(self.moved, values, strict=True):
             if isinstance(moved, str):
                 out[moved] = np.asarray(value)
             else:
-                out |= moved.at((np.asarray(value) - moved.values[0]) / moved.scales[0])
+                out |= moved.numbers_at((np.asarray(value) - moved.values[0]) / moved.scales[0])
         return out
 
     def points(self, u: Array) -> Arrays:
         """Numbers of the contact at points of the unit cube (N, k)."""
-        return self.at([known.at(u[:, j]) for j, known in enumerate(self.known)])
+        return self.moved_numbers([known.quantile(u[:, j]) for j, known in enumerate(self.known)])
 
     @property
     def nominal(self) -> list[Any]:
@@ -359,11 +359,11 @@ def drawn_inputs(
 
 def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[str]:
     """Why the ends of a distribution cannot stand for the input."""
-    for end in (known.at(0.0), known.at(1.0)):
+    for end in (known.quantile(0.0), known.quantile(1.0)):
         if isinstance(moved, str):
             why = None if moved == "d" or end > 0 else "must be > 0"
         else:
-            values = moved.at((end - moved.values[0]) / moved.scales[0])
+            values = moved.numbers_at((end - moved.values[0]) / moved.scales[0])
             found = (problem_with(declared(contact, n), float(v)) for n, v in values.items())
             why = next(filter(None, found), None)
         if why:

@@ -390,11 +390,11 @@ class Propagation(Record):
         for j, known in enumerate(problem.known):
             for probability in probabilities:
                 row = list(problem.nominal)
-                row[j] = known.at(probability)
+                row[j] = known.quantile(probability)
                 rows.append(row)
         values = np.array(rows)
         values[np.isnan(values)] = load
-        vary, count = problem.at(list(values.T)), len(values)
+        vary, count = problem.moved_numbers(list(values.T)), len(values)
         if not tables_each(self.contact, vary):  # the compiled engine takes no fewer
             spare = problem.points(points_of(FEWEST, len(self.inputs), 0, 0))
             vary = {name: np.append(column, spare[name]) for name, column in vary.items()}

@@ -21,7 +21,7 @@ from ..sliders import CODES, shifted
 from ..solver import apart
 from ..state import Answer, State, look, measured
 from ..text import with_micro
-from ..widgets import Plot, put, show_figures
+from ..widgets import Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 from .interface import facts_of
 
@@ -73,11 +73,11 @@ def changes(before: dict[str, object], after: dict[str, object]) -> list[str]:
     """
     old, new = dict(flat(before)), dict(flat(after))
 
-    def said(table: dict[str, object], name: str) -> str:
+    def shown_text(table: dict[str, object], name: str) -> str:
         return text_of(table[name]) if name in table else "none"
 
     return [
-        f"{name}: {said(old, name)} → {said(new, name)}"
+        f"{name}: {shown_text(old, name)} → {shown_text(new, name)}"
         for name in dict.fromkeys([*old, *new])
         if name != "title" and old.get(name) != new.get(name)
     ]
@@ -110,9 +110,9 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
     forces press."""
     forced = before.forced or after.forced
     same = before.load == after.load and not forced
-    points = (before.solve(at if same else _own(before, after, at)), after.solve(at))
+    points = (before.solve(at if same else _load_before(before, after, at)), after.solve(at))
     told = [
-        dict(facts_of(each, answer.held))
+        dict(facts_of(each, answer.particles_held))
         for each, answer in zip(points, (before, after), strict=True)
     ]
     rows = []
@@ -124,7 +124,7 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
     return Beside(_sentence(points), rows, _figures(before, after))
 
 
-def _own(before: Answer, after: Answer, at: float) -> float:
+def _load_before(before: Answer, after: Answer, at: float) -> float:
     """The load of the study before that is compared: its own, or the same load in its words."""
     if before.forced or after.forced:
         return before.default_at()
@@ -202,17 +202,21 @@ class BeforeAfter:
         self.read: tuple[dict[str, object], Answer | None] | None = None
         """The study before, and its answer."""
         self.shown: tuple[Answer, Answer, float] | None = None
-        self.said = put(ui.label().classes("headline"), {"data-fact": "before and after"})
+        self.said = set_attributes(
+            ui.label().classes("headline"), {"data-fact": "before and after"}
+        )
         self.said.props("role=status")
         self.start = ui.label().classes("stale").props('data-fact="before begun"')
         self.wrong = ui.label().classes("problem").props('role=alert data-said="before"')
         with ui.row().classes("w-full items-end gap-3"):
             self.which = ui.select(self._options(), value=OPENED, label="before")
-            put(self.which.props("dense options-dense").classes("wide"), {"data-path": "before"})
-            keep = ui.button("Keep as it is now", icon="push_pin", on_click=self._kept)
-            put(keep.props("no-caps outline"), {"data-path": "before.keep"})
+            set_attributes(
+                self.which.props("dense options-dense").classes("wide"), {"data-path": "before"}
+            )
+            keep = ui.button("Keep as it is now", icon="push_pin", on_click=self._keep_study)
+            set_attributes(keep.props("no-caps outline"), {"data-path": "before.keep"})
             back = ui.button("Go back to before", icon="history", on_click=self._back)
-            put(back.props("no-caps flat"), {"data-path": "before.back"})
+            set_attributes(back.props("no-caps flat"), {"data-path": "before.back"})
         self.changed = ui.column().classes("w-full gap-0").props('data-figure="changes"')
         self.rows = ui.column().classes("w-full scroll-x")
         with ui.element("div").classes("figures w-full"):
@@ -229,7 +233,7 @@ class BeforeAfter:
             return self.state.kept
         return self.state.opened if name in (OPENED, KEPT) else example(name)
 
-    def _kept(self) -> None:
+    def _keep_study(self) -> None:
         self.state.kept = self.state.study
         self.which.set_options(self._options(), value=KEPT)
         self.state.tell()
@@ -244,17 +248,18 @@ class BeforeAfter:
         answer = state.answer
         assert answer is not None
         self._tell(before)
-        old = now = answer
+        now: Answer = answer
+        old: Answer | None = answer
         if before != state.study:
             old = await self._answer(before)
         elif (fewer := cleaner(before)) is not None:
             now = await self._answer(fewer) or answer
         if old is None:
             return
-        if self.shown == (old, now, state.at):
+        if self.shown == (old, now, state.operating_load):
             return
-        found = await apart(beside, old, now, state.at)
-        self.shown = (old, now, state.at)
+        found = await apart(beside, old, now, state.operating_load)
+        self.shown = (old, now, state.operating_load)
         self.said.set_text(found.sentence)
         start = (
             "" if old is not now and before != state.study else SAME if old is not now else ALONE

@@ -11,7 +11,7 @@ from ...equilibrium.words import load_of
 from ...quantities.say import number, percent, signed, value_of
 from ..figures import AXES, SCALES, Figure, figure, line
 from ..state import Answer, State, loads_as
-from ..widgets import plot_place, put
+from ..widgets import plot_place, set_attributes
 from ..widgets import table as shown_table
 from ..work import Asked, Work
 from ..worker import Laws, compared
@@ -94,7 +94,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             return
         plot.set_visibility(True)
         plot.update_figure(law_figure(shown, str(what.value)))
-        _table(await state.ask(_here, state.at), table)
+        _table(await state.ask(_here, state.operating_load), table)
 
     async def tell() -> None:
         await work.tell(state)
@@ -143,7 +143,7 @@ def _table(found: Laws, place: ui.element) -> None:
     place.clear()
     with place:
         said = load_of(conditions["pressure"][0], conditions["F_star"][0])
-        put(
+        set_attributes(
             ui.label(f"At the operating load, {said}").classes("subhead"),
             {"data-fact": "compared at"},
         )

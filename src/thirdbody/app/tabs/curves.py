@@ -30,7 +30,7 @@ from ..figures import (
     span,
 )
 from ..state import Answer, State
-from ..widgets import Plot, put, show_figures
+from ..widgets import Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 from .interface import abouts, swatch
 
@@ -206,10 +206,14 @@ class Curves:
     async def _place(self, answer: Answer) -> None:
         """Where the line of the operating load is."""
         state, axis = self.state, str(self.against.value)
-        at = await state.ask(_solved, state.at) if answer.load == "d" else state.at
+        at = (
+            await state.ask(_solved, state.operating_load)
+            if answer.load == "d"
+            else state.operating_load
+        )
         F_star = at / answer.contact.E_ss if answer.load == "pressure" else at
         here = F_star * (1.0 if axis == "F_star" else answer.contact.E_ss * SCALES[axis])
-        put(self.grid, {"data-at": repr(here)})
+        set_attributes(self.grid, {"data-at": repr(here)})
 
     async def _show(self, answer: Answer, *, critical: bool) -> None:
         asked = (answer, str(self.against.value), critical)

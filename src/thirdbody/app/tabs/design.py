@@ -178,7 +178,7 @@ class Search:
             return
         *path, last = name.split("+")[0].split(".")
         try:
-            now = float(answer.contact.part(field_of(".".join(path), last)))
+            now = float(answer.contact.value_at(field_of(".".join(path), last)))
         except (InvalidValue, TypeError, ValueError):
             return
         self.low.set_value(text_of(engineering(now / 5, unit)))

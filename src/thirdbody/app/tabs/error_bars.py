@@ -32,7 +32,7 @@ from ..figures import (
 )
 from ..inputs import Inputs
 from ..state import State
-from ..widgets import plot_place, put
+from ..widgets import plot_place, set_attributes
 from ..work import Asked, Work
 from ..worker import Bands
 from .outputs import bounded
@@ -287,7 +287,7 @@ class ErrorBars:
 
     def _key(self) -> object:
         state = self.state
-        return state.answer, state.get("uncertainty"), str(self.of.value), state.at
+        return state.answer, state.get("uncertainty"), str(self.of.value), state.operating_load
 
     async def _ask(self) -> Asked | None:
         await self.state.settle()
@@ -305,7 +305,7 @@ class ErrorBars:
             "folder": str(self.state.folder),
             "load": answer.load,
             "loads": space(values[0], values[-1], LOADS).tolist(),
-            "at": self.state.at,
+            "at": self.state.operating_load,
             "of": str(self.of.value),
             "samples": int(self.samples.value or 1024),
         }
@@ -379,7 +379,7 @@ def _offer(inputs: Inputs, state: State) -> None:
         low, high = (value_of(end, unit_of(contact, name)) for end in ends.values())
         ui.label(f"{words_of(contact, name)} between {low} and {high}").classes("hint")
     known = own if isinstance(own, dict) else {}
-    put(
+    set_attributes(
         ui.button(
             "Take these ranges into the study",
             icon="input",

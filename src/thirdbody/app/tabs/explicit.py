@@ -12,7 +12,7 @@ from ...quantities.say import percent, prefixed, value_of
 from ...study.one_surface import POINTS
 from ..figures import INKS, Figure, Part, figure, line
 from ..state import Answer, State
-from ..widgets import facts, plot_place, put
+from ..widgets import facts, plot_place, set_attributes
 from ..work import Asked, Work
 from ..worker import Pressing
 
@@ -133,7 +133,9 @@ class Explicit:
 
     def __init__(self, state: State) -> None:
         self.state = state
-        self.words = put(ui.label().classes("headline second"), {"data-fact": "explicit headline"})
+        self.words = set_attributes(
+            ui.label().classes("headline second"), {"data-fact": "explicit headline"}
+        )
         self.work = Work(
             "explicit",
             "Press the surface",
@@ -158,14 +160,18 @@ class Explicit:
 
     def _key(self) -> object:
         answer = self.state.answer
-        return None if answer is None else (answer.contact, answer.study.explicit, self.state.at)
+        return (
+            None
+            if answer is None
+            else (answer.contact, answer.study.explicit, self.state.operating_load)
+        )
 
     async def _ask(self) -> Asked | None:
         await self.state.settle()
         if self.state.answer is None:
             self.work.fail("the study has a mistake; see its entries")
             return None
-        load = await self.state.ask(_load, self.state.at)
+        load = await self.state.ask(_load, self.state.operating_load)
         asked = {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}
         return asked | {"points": POINTS}
 

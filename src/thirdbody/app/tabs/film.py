@@ -27,7 +27,7 @@ from ..solver import apart
 from ..state import Answer, State, look, measured
 from ..text import with_micro
 from ..widgets import facts as named_values
-from ..widgets import plot_place, put
+from ..widgets import plot_place, set_attributes
 from ..widgets import table as shown_table
 
 __all__ = ["START", "TITLE", "build", "film_figures", "solved"]
@@ -184,7 +184,7 @@ class Film:
         with self.dents:
             self.oil_rows = ui.column().classes("w-full scroll-x")
             self.fine = ui.input("a filter: its β ratio at sizes").classes("w-full narrow")
-            put(self.fine, {"data-path": "film.filter", "hint": FILTER})
+            set_attributes(self.fine, {"data-path": "film.filter", "hint": FILTER})
             self.fine.props("dense debounce=400").on_value_change(self._filtered)
         with ui.element("div").classes("figures w-full"):
             with ui.column().classes("w-full gap-1") as self.beside:
@@ -249,7 +249,7 @@ class Film:
         kept = before is not None and np.array_equal(before.states["speed"], found.states["speed"])
         self.answer, self.found = answer, found
         self.i = self.i if kept else middle
-        put(self.slider, {"max": len(found.states["speed"]) - 1})
+        set_attributes(self.slider, {"max": len(found.states["speed"]) - 1})
         self.slider.set_value(self.i)
         self._show(found)
         await self._tell(answer, found)
@@ -288,7 +288,9 @@ class Film:
         with self.words:
             for i, text in enumerate(said):
                 style = "whole-contact" if i == 0 else ""
-                put(ui.label(with_micro(text)).classes(style), {"data-fact": f"film: answer {i}"})
+                set_attributes(
+                    ui.label(with_micro(text)).classes(style), {"data-fact": f"film: answer {i}"}
+                )
         self.more.clear()
         with self.more:
             for text in more:

@@ -151,7 +151,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         force.draw()
         answer.classes(**{"add" if state.answer.study.forces is not None else "remove": "second"})
         film.set_visibility(state.answer.study.film is not None)
-        bad, found = await state.ask(drawing_of, state.at, seed["now"])
+        bad, found = await state.ask(drawing_of, state.operating_load, seed["now"])
         status.set_text(bad)
         status.set_visibility(bool(bad))
         if bad:
@@ -260,7 +260,7 @@ def drawing_of(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     point = answer.solve(at, tb.outputs.Counts())
     if str(point.status) != "ok":
         return str(point.status), None
-    held = answer.held
+    held = answer.particles_held
     made = section(answer.contact, point, seed=seed, held=held)
     svg = to_svg(made, title="Cross-section of the interface, to scale")
     return "", (svg, _caption(made, held), made.names, facts_of(point, held), headline(point, held))

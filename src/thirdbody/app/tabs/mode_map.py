@@ -182,7 +182,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         contact = state.answer.contact
         if len(contact.populations) != 1:
             return None
-        return size_of(contact), await state.ask(_pressure, state.at)
+        return size_of(contact), await state.ask(_pressure, state.operating_load)
 
     async def show(result: ModeMap) -> None:
         nonlocal shown

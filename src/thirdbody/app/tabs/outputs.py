@@ -14,6 +14,7 @@ from nicegui import ui
 import thirdbody as tb
 
 from ...analysis.uncertainty.propagation import about_result
+from ...contact.output import AbstractOutput
 from ...equilibrium.columns import about
 from ...quantities.say import prefixed, value_of
 from ..figures import AXES, SCALES, Figure, clipped, figure, line, mark, plain, symbol, wrapped
@@ -46,7 +47,7 @@ START = (
     "The study asks for no output: these need no number of their own. Switch on what is to stay "
     "in the study."
 )
-BEGUN = ("counts", "thermal_conductance")
+BEGUN: tuple[AbstractOutput, ...] = (tb.outputs.Counts(), tb.outputs.ThermalConductance())
 """Outputs that are shown where the study asks for none."""
 WIDE_FROM = 30
 """Largest value over smallest from which an axis is logarithmic."""
@@ -198,7 +199,7 @@ class Outputs:
         if names_of_outputs(state) != self.asked:  # undone, or another study
             self._renewed()
         self.inputs.tell()
-        made, rows = await state.ask(_figures_and_rows, state.at)
+        made, rows = await state.ask(_figures_and_rows, state.operating_load)
         for name in [name for name in self.plots if name not in made]:
             self.plots.pop(name).widget.delete()
         groups = {name: group_of(name.split(" [")[0]) for name in made}
@@ -232,8 +233,7 @@ def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], lis
 def _begun(answer: Answer) -> Answer:
     """The answer with outputs that need no number of their own."""
     contact = answer.contact
-    every = [tb.outputs.REGISTRY[name]() for name in BEGUN]
-    fitting = tuple(each for each in every if not each.problems(contact))
+    fitting = tuple(each for each in BEGUN if not each.problems(contact))
     made = dataclasses.replace(answer.study, contact=contact.replace(outputs=fitting))
     return Answer(made)
 

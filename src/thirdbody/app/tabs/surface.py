@@ -20,7 +20,7 @@ from ..solver import apart
 from ..state import State, missing
 from ..text import with_micro
 from ..uploads import take
-from ..widgets import facts, plot_place, put, upload
+from ..widgets import facts, plot_place, set_attributes, upload
 from ..work import Asked, Work
 from ..worker import Reading, in_little
 from ..worker import Surface as Found
@@ -125,7 +125,7 @@ class Surface:
     def _options(self) -> None:
         for name, hint in ENTRIES:
             entry = ui.input(name).props("dense").classes("w-52")
-            self.texts[name] = put(entry, {"hint": hint, "data-path": f"surface.{name}"})
+            self.texts[name] = set_attributes(entry, {"hint": hint, "data-path": f"surface.{name}"})
         form = ui.select(FORMS, value="", label="form removed")
         self.texts["detrend"] = form.props("dense").classes("w-36")
 
@@ -135,7 +135,7 @@ class Surface:
         with ui.row():
             for label, name in TAKEN:
                 button = ui.button(label, icon="input", on_click=lambda _, n=name: self._take(n))
-                put(button.props("no-caps"), {"data-take": name})
+                set_attributes(button.props("no-caps"), {"data-take": name})
         self.plots: dict[str, ui.plotly] = {}
         with ui.element("div").classes("figures w-full"):
             for name in ("heights", "rms_gradient", "R", "eta"):
@@ -187,7 +187,8 @@ class Surface:
     async def _begin(self) -> None:
         """The example of the library, until a file is dropped."""
         with self.box, contextlib.suppress(InvalidValue):
-            found = await apart(in_little, "surface", {"file": "example", "options": {}})
+            example: dict[str, object] = {"file": "example", "options": {}}
+            found = await apart(in_little, "surface", example)
             if self.result is None and self.file == "example" and not self.box.is_deleted:
                 self._show(cast(Found, found))
 

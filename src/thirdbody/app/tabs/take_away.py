@@ -13,7 +13,7 @@ from ..exports import FIGURES, figure_of, to_csv, to_json
 from ..python_text import to_python
 from ..state import Answer, State
 from ..text import LONGEST_STUDY, from_toml, to_toml
-from ..widgets import put, upload
+from ..widgets import set_attributes, upload
 from ..work import Work
 
 __all__ = ["TITLE", "build"]
@@ -60,7 +60,7 @@ class TakeAway:
                 button = ui.button(
                     label, icon="download", on_click=lambda _, n=name, k=kind: self._send(n, k)
                 )
-                put(button.props("no-caps outline"), {"data-download": name})
+                set_attributes(button.props("no-caps outline"), {"data-download": name})
         state = self.state
         Work(
             "report",
@@ -74,7 +74,7 @@ class TakeAway:
                 button = ui.button(
                     suffix.upper(), icon="image", on_click=lambda _, s=suffix: self._picture(s)
                 )
-                put(button.props("no-caps outline"), {"data-download": suffix})
+                set_attributes(button.props("no-caps outline"), {"data-download": suffix})
 
     def _link(self) -> None:
         ui.label("A link that reopens this page on this machine").classes("subhead")
@@ -134,7 +134,11 @@ class TakeAway:
             return
         try:
             whole = name == "study.toml"
-            content = to_toml(state.study) if whole else await state.ask(_content, name, state.at)
+            content = (
+                to_toml(state.study)
+                if whole
+                else await state.ask(_content, name, state.operating_load)
+            )
             ui.download.content(content, name, kind)
         except InvalidValue as error:
             self.said.set_text("; ".join(error.problems))
@@ -153,8 +157,8 @@ class TakeAway:
         state = self.state
         self.editor.set_value(to_toml(state.study))
         if state.answer is not None:
-            self.script.set_text(to_python(state.answer.study, state.at))
-        at = state.wanted if state.answer is None else state.at
+            self.script.set_text(to_python(state.answer.study, state.operating_load))
+        at = state.wanted if state.answer is None else state.operating_load
         self.link.set_value(f"{_origin()}/?{query_of(state, at)}")
         self.problems.clear()
         with self.problems:
@@ -168,7 +172,9 @@ def _content(answer: Answer, name: str, at: float) -> str:
         "study.py": lambda: to_python(answer.study, at),
         "states.csv": lambda: to_csv(answer.study),
         "states.json": lambda: to_json(answer.study),
-        "section.svg": lambda: to_svg(section(answer.contact, answer.solve(at), held=answer.held)),
+        "section.svg": lambda: to_svg(
+            section(answer.contact, answer.solve(at), held=answer.particles_held)
+        ),
     }
     return made[name]()
 

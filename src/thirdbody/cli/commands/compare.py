@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from ...analysis.compare import Comparison
     from ...equilibrium.load import ForceLoad
     from ...study import Study
+    from ...views.workbook import Sheet
 
 __all__ = ["command"]
 
@@ -99,7 +101,7 @@ def command(options: Options) -> None:
         from ...views.comparison import save
 
         written = save(found.dataset(), options.out, at=index, force=options.force)
-    files.write(*found.flat())
+    files.write(*found.flat(), sheets=partial(_sheets, asked, found, index))
     written += files.paths
     _show_comparison(asked.title, found, index)
     tell_written(*written)
@@ -139,13 +141,80 @@ def _equal_loads(asked: Study) -> ForceLoad[NDArray[np.float64]]:
     return {"F_star": loads}
 
 
+def _sheets(asked: Study, found: Comparison, index: int) -> list[Sheet]:
+    from ...contact.evaluation import bodies_of
+    from ...equilibrium.columns import COLUMNS
+    from ...views.question_sheets import inputs_of, question_sheets
+
+    heads, rows, notes = _table(found, index)
+    told = [f"{i + 1} {text}" for i, text in enumerate(notes)]
+    title = f"{asked.title or 'Study'}: {_at_load(found, index)}"
+    columns, units = found.flat()
+    known = {**COLUMNS, "law": "asperity law"}
+    meanings = {
+        name: str(getattr(known.get(name), "meaning", known.get(name, ""))) for name in columns
+    }
+    return question_sheets(
+        title,
+        _answer(found, index),
+        (heads, rows),
+        told,
+        states=(columns, units),
+        meanings=meanings,
+        inputs=inputs_of({"": asked.contact}, bodies_of(asked.contact)),
+        warnings=[*filter(None, found.attrs["warnings"].splitlines())],
+        citations=[*filter(None, found.attrs["citations"].splitlines())],
+    )
+
+
+def _at_load(found: Comparison, index: int) -> str:
+    load = load_of(*(float(found.loads[name][index]) for name in ("pressure", "F_star")))
+    return f"every law at {load}, differences against {found.attrs['own_law']}"
+
+
+def _answer(found: Comparison, index: int) -> list[str]:
+    """Between what the laws say of the area, and of who carries."""
+    columns = {name: each[:, index] for name, each in found.columns.items()}
+    known = [i for i, status in enumerate(columns["status"]) if status == "ok"]
+    laws = list(found.laws)
+    own = laws.index(found.attrs["own_law"])
+
+    def ends(name: str) -> tuple[int, int]:
+        by = sorted(known, key=lambda i: float(columns[name][i]))
+        return by[0], by[-1]
+
+    low, high = ends("A_t")
+    told = [f"{percent(columns['A_t'][i])} ({laws[i]})" for i in (low, high)]
+    out = f"By the choice of a law the real area is between {' and '.join(told)} of the nominal one"
+    if own in known:
+        away = [signed(columns["A_t_difference"][i], 1, "%") for i in (low, high)]
+        out += f", {' to '.join(away)} about {laws[own]}"
+    if "particle_load_share" not in columns:
+        return [f"{out}."]
+    shares = [percent(columns["particle_load_share"][i]) for i in ends("particle_load_share")]
+    return [f"{out}.", f"Particles carry {' to '.join(dict.fromkeys(shares))} of the load."]
+
+
 def _show_comparison(title: str, found: Comparison, index: int) -> None:
     """One row a law, at one load; what is to be said of a law stands below, numbered."""
     console = terminal()
+    console.print(f"{title or 'Study'}: {_at_load(found, index)}")
+    for sentence in _answer(found, index):
+        console.print(sentence)
+    heads, rows, notes = _table(found, index)
+    more = "--csv FILE tells all"
+    shown = Table(heads, right=True, words=["law"], drop=DROP, more=more, legend=MEANS)
+    for row in rows:
+        shown.add_row(*row)
+    console.print(shown)
+    for i, note in enumerate(notes):
+        console.print(f"{i + 1} {note}")
+
+
+def _table(found: Comparison, index: int) -> tuple[list[str], list[list[str]], list[str]]:
+    """Heads, a row a law at one load, and what is to be said of laws, which rows number."""
     particles = "particle_load_share" in found.columns
     own = found.attrs["own_law"]
-    load = load_of(*(float(found.loads[name][index]) for name in ("pressure", "F_star")))
-    console.print(f"{title or 'Study'}: every law at {load}, differences against {own}")
 
     def cells(law: str, value: dict[str, Any], note: str) -> list[str]:
         if value["status"] != "ok":
@@ -166,14 +235,10 @@ def _show_comparison(title: str, found: Comparison, index: int) -> None:
     heads = ["law", "A_t", "diff. of A_t", "F/A_t", "d/sigma", "diff. of d/sigma"]
     heads += ["elastic", "el.-plastic"]
     heads += ["plastic", "particles' load"] if particles else ["plastic"]
-    more = "--csv FILE tells all"
-    shown = Table([*heads, "note"], right=True, words=["law"], drop=DROP, more=more, legend=MEANS)
-    notes: list[str] = []
+    rows, notes = [], []
     for i, (law, text) in enumerate(zip(found.laws, found.notes, strict=True)):
         if text:
-            notes.append(f"{len(notes) + 1} {law}: {text}")
+            notes.append(f"{law}: {text}")
         values = {name: column[i, index].item() for name, column in found.columns.items()}
-        shown.add_row(*cells(law, values, str(len(notes)) if text else ""))
-    console.print(shown)
-    for note in notes:
-        console.print(note)
+        rows.append(cells(law, values, str(len(notes)) if text else ""))
+    return [*heads, "note"], rows, notes

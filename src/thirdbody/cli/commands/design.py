@@ -5,11 +5,12 @@ from __future__ import annotations
 import sys
 from contextlib import nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...quantities.progress import heartbeat
-from ...quantities.say import concentration_of, number, percent, value_of
+from ...quantities.say import concentration_of, join_words, number, percent, value_of
 from ...quantities.tables import Table
 from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, argument, option, read_study
 from ..show import MOST_ROWS, some, terminal
@@ -18,6 +19,7 @@ from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, 
 if TYPE_CHECKING:
     from ...analysis.design.design import Best
     from ...study import Study
+    from ...views.workbook import Sheet
 
 __all__ = ["command"]
 
@@ -51,7 +53,12 @@ def command(options: Options) -> None:
     warn_of(best.warnings)
     columns = {name: each.values.tolist() for name, each in best.of_points.items()}
     units = {name: each.about.get("units", "") for name, each in best.of_points.items()}
-    files.write(columns, units, data=lambda: {"title": asked.title, **best.to_dict()})
+    files.write(
+        columns,
+        units,
+        sheets=partial(_sheets, asked, best, columns, units),
+        data=lambda: {"title": asked.title, **best.to_dict()},
+    )
     tell_written(*files.paths)
     if options.figure is not None:
         from ...views.plot.design import plot_trials
@@ -61,24 +68,42 @@ def command(options: Options) -> None:
         _page(asked, best)
 
 
+def _sheets(
+    asked: Study, best: Best, columns: dict[str, Any], units: dict[str, str]
+) -> list[Sheet]:
+    from ...contact.citations import cite
+    from ...contact.evaluation import bodies_of
+    from ...views.question_sheets import inputs_of, question_sheets
+
+    said = _Words(asked, best)
+    return question_sheets(
+        asked.title or "design",
+        said.answer(),
+        said.chosen(),
+        [f"limits in force: {said.limits('; '.join(best.active)) or 'none'}"],
+        states=(columns, units),
+        meanings={name: each.about.get("long_name", "") for name, each in best.of_points.items()},
+        inputs=inputs_of({"": best.contact}, bodies_of(best.contact)),
+        warnings=best.warnings,
+        citations=cite(best.contact).splitlines(),
+    )
+
+
 def _page(asked: Study, best: Best) -> None:
     from ...analysis.design.design import FLAT
 
     out = terminal()
     out.print(asked.title or "design")
     said = _Words(asked, best)
-    if not best.feasible:
-        why = said.limits(best.reason)
-        out.print(f"\nNothing tried obeys the limits. Nearest is what follows: {why}")
+    for sentence in said.answer():
+        out.print(sentence)
     front = best.of_points["front"].values
     several = len(best.objectives) > 1
     out.print("\none of the best" if several else "\nbest")
-    heads = ("chosen", "value", "within 5 % from", "to")
+    heads, rows = said.chosen()
     table = Table(heads, right=True, words=["chosen"])
-    for name, value in best.values.items():
-        band = best.tolerance.get(name)
-        shown = [said.amount(name, end) for end in band] if band else ["", ""]
-        table.add_row(said.name(name), said.amount(name, value), *shown)
+    for row in rows:
+        table.add_row(*row)
     out.print(table)
     for name, (low, high) in best.plateau.items():
         ends = f"{said.amount(name, low)} to {said.amount(name, high)}"
@@ -138,6 +163,41 @@ class _Words:
         if not isinstance(value, (int, float)):
             return value if isinstance(value, str) else str(value.name)
         return value_of(value, declared(self.contact, name.split("+")[0])["unit"], 3)
+
+    def answer(self) -> list[str]:
+        """What to take, or why nothing obeys the limits."""
+        best = self.best
+        if best.feasible:
+            return [self.sentence()]
+        why = self.limits(best.reason)
+        return [f"Nothing tried obeys the limits. Nearest is what follows: {why}", self.sentence()]
+
+    def chosen(self) -> tuple[tuple[str, ...], list[list[str]]]:
+        """Heads, and a row for each variable: its value and how far it may be off."""
+        rows = []
+        for name, value in self.best.values.items():
+            band = self.best.tolerance.get(name)
+            ends = [self.amount(name, end) for end in band] if band else ["", ""]
+            rows.append([self.name(name), self.amount(name, value), *ends])
+        return ("chosen", "value", "within 5 % from", "to"), rows
+
+    def sentence(self) -> str:
+        """What to take, how far it may be off, and what it gives."""
+        chosen = []
+        for name, value in self.best.values.items():
+            band = self.best.tolerance.get(name)
+            within = ""
+            if band:
+                low, high = (self.amount(name, end) for end in band)
+                within = f" (within 5 % of the best from {low} to {high})"
+            chosen.append(f"{self.name(name)} {self.amount(name, value)}{within}")
+        gives = [
+            f"{self.objective(label)} = {self.metric(label, value)}"
+            for label, value in self.best.objectives.items()
+        ]
+        best = "Best" if len(gives) == 1 else "One of the best"
+        best = best if self.best.feasible else "Nearest"
+        return f"{best}: {join_words(chosen)}, for {join_words(gives)}."
 
     def about(self, of: str) -> tuple[str, str]:
         """Unit and meaning of a number of the states."""

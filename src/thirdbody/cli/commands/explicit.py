@@ -125,6 +125,8 @@ def _show(data: dict[str, Any]) -> None:
         data["source"]
     )  # fmt: skip
     console.print(f"{data['title'] or 'Study'} (thirdbody {data['version']})")
+    if data.get("summary"):
+        console.print(data["summary"])
     console.print(f"{source}, every particle at its place, against the statistical model")
     table, synthetic = data["table"], "h_cv" in data["table"]
     heads = ["F*", "", "explicit"]
@@ -164,8 +166,6 @@ def _show(data: dict[str, Any]) -> None:
             f"Seats above 2.5 sigma, which carry small loads: {percent(seats['high'])}; "
             f"Gaussian: {percent(seats['high_gaussian'])}."
         )
-    if data.get("summary"):
-        console.print(data["summary"])
 
 
 def _cell(name: str, value: float | None, error: float | None) -> str:

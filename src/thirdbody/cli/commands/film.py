@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
@@ -28,7 +29,8 @@ from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, 
 if TYPE_CHECKING:
     from ...study import FilmResult
     from ...study.dirty_oil import DirtyOil
-    from ...views.workbook import Sheet
+    from ...study.oil_what_ifs import OilWhatIf
+    from ...views.workbook import Grid, Sheet
 
 __all__ = ["command"]
 
@@ -63,6 +65,7 @@ def command(options: Options) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
     from ...study.dirty_oil import dirty_oil, need_particles, read_filter
+    from ...study.oil_what_ifs import what_ifs_of_oil
 
     fine = None if options.filter_text is None else read_filter(options.filter_text)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
@@ -76,7 +79,9 @@ def command(options: Options) -> None:
         result = run_film(asked)
         oil = dirty_oil(asked)
         filtered = None if fine is None else dirty_oil(asked, filter=fine)
+        what_ifs = () if oil is None else what_ifs_of_oil(asked, oil)
     warn_of(result.run_warnings)
+    found = _Found(result, oil, filtered, what_ifs)
     drawn = None
     if options.figure is not None:
         from ...views.plot.film import stribeck
@@ -84,42 +89,82 @@ def command(options: Options) -> None:
         drawn = stribeck(result.states, result.regime_speeds)
     files.write(
         *result.table(),
-        sheets=partial(_sheets, result, oil, filtered),
-        data=partial(_data, result, oil, filtered),
+        sheets=partial(_sheets, found),
+        data=partial(_data, found),
     )
     tell_written(*files.paths)
     if options.figure is not None and drawn is not None:
         write_figure(options.figure, drawn)
     if options.json != STDOUT:
-        _show(result, oil, filtered)
+        _show(found)
 
 
-def _data(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -> dict[str, Any]:
-    found = {"oil": oil, "oil_filtered": filtered}
-    return result.to_dict() | {
-        name: each.to_dict() for name, each in found.items() if each is not None
-    }
+class _Found(NamedTuple):
+    """Everything that the command finds."""
+
+    result: FilmResult
+    oil: DirtyOil | None
+    filtered: DirtyOil | None
+    what_ifs: tuple[OilWhatIf, ...]
+
+    def answer(self) -> list[str]:
+        """What the particles of the oil do, or who carries where there are none."""
+        from ...views import film_words, oil_words
+
+        if self.oil is None:
+            return film_words.answer(self.result)
+        first = [] if self.filtered is None else [oil_words.filter_answer(self.oil, self.filtered)]
+        return [*first, *oil_words.answer(self.oil)]
+
+    def oil_table(self) -> tuple[Sequence[str], list[list[str]]]:
+        """Heads and rows of the populations, before and after a filter where there is one."""
+        from ...views import oil_words
+
+        assert self.oil is not None
+        if self.filtered is None:
+            return oil_words.HEADS, oil_words.rows(self.oil)
+        return ("", "before", "after the filter"), oil_words.filter_rows(self.oil, self.filtered)
+
+    def rest(self) -> list[str]:
+        """What stands below the tables; the answer of an oil without particles holds the first."""
+        from ...views.film_words import summary
+
+        return summary(self.result)[self.oil is None :]
 
 
-def _sheets(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -> list[Sheet]:
+def _data(found: _Found) -> dict[str, Any]:
+    oils = {"oil": found.oil, "oil_filtered": found.filtered}
+    out: dict[str, Any] = {name: each.to_dict() for name, each in oils.items() if each is not None}
+    if found.what_ifs:
+        out["what_ifs"] = [each.to_dict() for each in found.what_ifs]
+    return found.result.to_dict() | out
+
+
+def _sheets(found: _Found) -> list[Sheet]:
     from ...views import oil_words
-    from ...views.film_words import bodies, summary
-    from ...views.study_sheets import film_sheets
+    from ...views.film_words import bodies
+    from ...views.study_sheets import film_sheets, grid_of_words
 
-    answer = [] if oil is None else oil_words.answer(oil)
-    if oil is not None and filtered is not None:
-        answer = [oil_words.filter_answer(oil, filtered), *answer]
-    return film_sheets(result, [*answer, bodies(result), *summary(result)])
+    told: list[str | Grid] = [*found.answer()]
+    if found.oil is not None:
+        told.append(grid_of_words(*found.oil_table()))
+    rest = [*oil_words.uncertainty(found.what_ifs), bodies(found.result), *found.rest()]
+    return film_sheets(found.result, [*told, *rest])
 
 
-def _show(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -> None:
-    """The result for a reader: the answer, the point or the curve, then in words."""
-    from ...views.film_words import bodies, point, summary
+def _show(found: _Found) -> None:
+    """The result for a reader: the answer, what the oil does, the point or the curve, the rest."""
+    from ...views.film_words import bodies, point
+    from ...views.oil_words import uncertainty
 
-    console = terminal()
+    console, result = terminal(), found.result
     console.print(f"{result.title} (thirdbody {__version__})")
-    if oil is not None:
-        _show_oil(console, oil, filtered)
+    for sentence in found.answer():
+        console.print(sentence)
+    if found.oil is not None:
+        console.print(_oil_table(found))
+    for sentence in uncertainty(found.what_ifs):
+        console.print(sentence)
     _show_bearing(console, result)
     states, sigma = result.states, result.study.contact.roughness.sigma
     console.print(f"{bodies(result)}, sigma = {value_of(sigma, 'm')}")
@@ -134,30 +179,24 @@ def _show(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -
         console.print(_curve(result))
     if total > MOST_ROWS:
         console.print(f"{MOST_ROWS} of {total} speeds shown; --csv FILE writes all\n")
-    for sentence in summary(result):
+    for sentence in found.rest():
         console.print(sentence)
 
 
-def _show_oil(console: Any, oil: DirtyOil, filtered: DirtyOil | None) -> None:
-    """What the particles of the oil do, before and after a filter where there is one."""
+def _oil_table(found: _Found) -> Table:
+    """What the particles of the oil do."""
     from ...views import oil_words as words
 
-    if filtered is not None:
-        console.print(words.filter_answer(oil, filtered))
-    for sentence in words.answer(oil):
-        console.print(sentence)
-    if filtered is None:
+    heads, rows = found.oil_table()
+    if found.filtered is None:
         table = Table(
-            words.HEADS, right=True, words=words.HEADS[:1], drop=words.DROP, more=ALL,
-            legend=words.MEANS,
-        )  # fmt: skip
-        for row in words.rows(oil):
-            table.add_row(*row)
+            heads, right=True, words=heads[:1], drop=words.DROP, more=ALL, legend=words.MEANS
+        )
     else:
-        table = Table(("", "before", "after the filter"))
-        for row in words.filter_rows(oil, filtered):
-            table.add_row(*row)
-    console.print(table)
+        table = Table(heads)
+    for row in rows:
+        table.add_row(*row)
+    return table
 
 
 def _show_bearing(console: Any, result: FilmResult) -> None:

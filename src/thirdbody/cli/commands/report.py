@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -10,7 +9,8 @@ from typing import Annotated
 import typer
 
 from ..options import FilterText, Force, Settings, StudyFile, read_study
-from ..streams import warn_of, write_together
+from ..show import terminal
+from ..streams import tell_written, warn_of, write_together
 
 __all__ = ["command"]
 
@@ -64,5 +64,7 @@ def command(
         written[pdf_file] = pdf_of(page)
     warn_of(found.result.run_warnings)
     write_together({path: partial(Path.write_bytes, data=held) for path, held in written.items()})
-    for path in written:
-        print(f"written: {path}", file=sys.stderr)
+    console = terminal()
+    for sentence in found.lead:
+        console.print(sentence)
+    tell_written(*written)

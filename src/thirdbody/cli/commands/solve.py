@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
@@ -12,16 +11,9 @@ from typing import TYPE_CHECKING, Any
 from ...equilibrium.words import (
     MOST_MEET_NONE,
     RARE,
-    carried,
     critical_load,
     critical_name,
     happens,
-    is_rare,
-    load_of,
-    mode_among,
-    mode_of,
-    mode_path,
-    two_bodies,
     unsolved,
 )
 from ...quantities.progress import heartbeat
@@ -39,7 +31,7 @@ from ..options import (
     read_study,
 )
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import STDOUT, TableFiles, warn_of
+from ..streams import STDOUT, TableFiles, tell_written, warn_of
 
 if TYPE_CHECKING:
     from ...equilibrium.columns import PopulationShare
@@ -48,7 +40,7 @@ if TYPE_CHECKING:
     from ...views.columns import Shown
     from ...views.workbook import Sheet
 
-__all__ = ["command", "summary"]
+__all__ = ["command"]
 
 MEANS = {
     "F*": "load F/(A_n E_ss), no unit",
@@ -101,9 +93,8 @@ def command(options: Options) -> None:
         sheets=partial(_sheets, result),
         data=result.to_dict,
     )
-    for path in files.paths:
-        print(f"{len(result.states.status)} states written to {path}", file=sys.stderr)
-    if any(files):
+    tell_written(*files.paths)
+    if files.json == STDOUT:
         pass
     elif result.solved_states:
         _show(result)
@@ -116,20 +107,18 @@ def command(options: Options) -> None:
 def _sheets(result: StudyResult) -> list[Sheet]:
     from ...views.study_sheets import state_sheets
 
-    return state_sheets(result, [summary(result)])
+    return state_sheets(result)
 
 
 def _show(result: StudyResult) -> None:
-    """The result for a reader: states, populations, transitions, one sentence."""
+    """The result for a reader: the answer, the states, what moves it most, and the rest."""
     from ...views.columns import modes_of, state_columns
+    from ...views.state_words import answer, details, uncertainty
 
     console = terminal()
     states, contact = result.states, result.study.contact
     console.print(f"{result.title} (thirdbody {__version__})")
-    sigma = contact.roughness.sigma
-    console.print(f"E_ss = {value_of(contact.E_ss, 'Pa')}, sigma = {value_of(sigma, 'm')}")
-
-    for sentence in result.force_sentences:
+    for sentence in answer(result):
         console.print(sentence)
 
     columns: Columns = {
@@ -148,11 +137,14 @@ def _show(result: StudyResult) -> None:
         console.print(_output_table(states))
     if total > MOST_ROWS:
         console.print(f"{MOST_ROWS} of {total} states shown; --csv FILE writes all\n")
-    for sentence in unsolved(states.status):
+    for sentence in [*unsolved(states.status), *uncertainty(result)]:
         console.print(sentence)
     if not contact.two_body:
         console.print(_transition_table(result.transitions, contact.E_ss))
-    console.print(summary(result))
+    for sentence in details(result):
+        console.print(sentence)
+    sigma = contact.roughness.sigma
+    console.print(f"E_ss = {value_of(contact.E_ss, 'Pa')}, sigma = {value_of(sigma, 'm')}")
 
 
 def _cell(column: Shown, values: Any, i: int) -> str:
@@ -212,37 +204,3 @@ def _transition_table(critical: Transitions, E_ss: float) -> Any:
         loads = (critical_load(entry.value, entry.status, E) for E in (None, E_ss))
         table.add_row(f"{critical_name(name)}: {happens(name)}", *loads, entry.status)
     return table
-
-
-def summary(result: StudyResult) -> str:
-    """The result in plain words."""
-    states, three_body = result.states, not result.study.contact.two_body
-
-    def state(i: int) -> str:
-        gap = (
-            f"separation h = {value_of(states.h[i], 'm')} "
-            f"(d = {value_of(states.d[i], 'm')}, {number(states.d_star[i], 3)} sigma)"
-        )
-        if not states.A_t[i]:
-            return f"{mode_of(None)}; {gap}"
-        area = f"real contact area {percent(states.A_t[i])} of the nominal area"
-        if not three_body:
-            return f"{two_bodies()}; {gap}, {area}"
-        parts = {part.name: part.load_share[i] for part in states.populations}
-        share = carried(states.particle_load_share[i], parts)
-        mode = states.mode[i]
-        how = mode_among(mode, held := result.particles_in(i))
-        where = " of a wide surface" * is_rare(mode, held)
-        return f"{how}, and {share}{where}; {gap}, {area}"
-
-    def answer_at(i: int) -> str:
-        return f"At {load_of(states.pressure[i], states.F_star[i])} {state(i)}."
-
-    known = sorted(result.solved_states, key=lambda i: states.pressure[i])
-    first, last = known[0], known[-1]
-    whole = f" {told}" if (told := result.body_sentence()) else ""
-    if first == last:
-        return answer_at(first) + whole
-    if not three_body or whole:
-        return f"{answer_at(first)} {answer_at(last)}{whole}"
-    return f"{answer_at(first)} {answer_at(last)} {mode_path(states.mode[i] for i in known)}."

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue
 from ...quantities.plain_data import plain_data
@@ -14,6 +15,9 @@ from ...quantities.tables import Table
 from ..options import Force, JsonFile, ParquetFile, XlsxFile, argument, metres, not_a_folder, option
 from ..show import ALL, terminal
 from ..streams import STDOUT, TableFiles, tell_written, warn_of
+
+if TYPE_CHECKING:
+    from ...views.workbook import Sheet
 
 __all__ = ["command"]
 
@@ -73,13 +77,36 @@ def command(options: Options) -> None:
     )
     result = found.to_dict()
     warn_of(found.warnings)
-    files.write(plain_data(result["curve"]), result["units"], data=lambda: plain_data(result))
+    files.write(
+        plain_data(result["curve"]),
+        result["units"],
+        sheets=partial(_sheets, found, result),
+        data=lambda: plain_data(result),
+    )
     written = files.paths + (
         [] if options.out is None else _write_surface(options.out, found, result, options.force)
     )
     if options.json != STDOUT:
         _show_surface(found, result)
     tell_written(*written)
+
+
+def _sheets(found: Any, result: dict[str, Any]) -> list[Sheet]:
+    from ...views.question_sheets import question_sheets
+
+    sentence = _in_one_sentence(found, result["cutoff"]["used"])
+    read = [("what was read", "", line, "", "file", "") for line in _what_was_read(found, result)]
+    return question_sheets(
+        found.source,
+        [sentence],
+        None,
+        [],
+        states=(plain_data(result["curve"]), result["units"]),
+        meanings=MEANS,
+        inputs=read,
+        warnings=found.warnings,
+        citations=[],
+    )
 
 
 def _of_folder(folder: Path) -> list[Path]:
@@ -125,6 +152,8 @@ def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool
 def _show_surface(found: Any, result: dict[str, Any]) -> None:
     """What was read, the answer at the cut-off used, and its course with the cut-off."""
     console = terminal()
+    console.print(_in_one_sentence(found, result["cutoff"]["used"]))
+    console.print()
     for line in _what_was_read(found, result):
         console.print(line)
     console.print()
@@ -135,6 +164,21 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
         "mean square slopes "
         f"{number(result['anisotropy'])} : 1 along and across"
     )
+
+
+def _in_one_sentence(found: Any, cutoff: float) -> str:
+    """The roughness that a contact takes, and what it owes to the cut-off."""
+    curve, one = found.curve(), found.moments
+    at = "as sampled" if cutoff == 0 else f"at a cut-off of {value_of(cutoff, 'm')}"
+    change = curve.per_octave("R")
+    near = int(abs(curve["cutoff"] - cutoff).argmin())
+    told = (
+        f"RMS height sigma = {value_of(one.sigma, 'm')} and mean asperity radius R = "
+        f"{value_of(one.R, 'm')} {at}"
+    )
+    if change[near] != change[near]:
+        return f"{told}."
+    return f"{told}; twice the cut-off changes R by {signed(100 * change[near], 0, '%')}."
 
 
 def _what_was_read(found: Any, result: dict[str, Any]) -> list[str]:

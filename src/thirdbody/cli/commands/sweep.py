@@ -10,8 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue, NoEquilibrium
+from ...quantities.say import join_words, percent, value_of
 from ..interrupt import Interrupted
 from ..options import Force, ParquetFile, Settings, XlsxFile, argument, option, tell_notes
+from ..show import terminal
 from ..streams import TableFiles, tell_written, warn_of
 
 if TYPE_CHECKING:
@@ -188,13 +190,33 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
     return asked.sweep
 
 
+def _answer(data: xarray.Dataset) -> list[str]:
+    """Between what the columns lie over all states, the ones that most ask for."""
+    told = []
+    for name, words, say in (
+        ("particle_load_share", "particles carry {} of the load", percent),
+        ("A_t", "the real contact area is {} of the nominal one", percent),
+        ("h", "separation h is {}", lambda value: value_of(value, "m")),
+    ):
+        column = data.get(name, data.get(f"{name}_mean"))
+        if column is None:
+            continue
+        ends = [float(each) for each in (column.min(), column.max())]
+        if all(map(math.isfinite, ends)):
+            told.append(words.format(" to ".join(dict.fromkeys(map(say, ends)))))
+    over = "Over all states" if "h" in data else "On average over what is drawn"
+    return [f"{over}, {join_words(told)}."] if told else []
+
+
 def _tell(folder: Folder) -> None:
     """What a finished sweep warns of, and how many states it has."""
     summary = folder.finished
     assert summary is not None
-    with folder.open() as data:
-        warn_of(filter(None, data.attrs["warnings"].splitlines()))
     unsolved = f", {summary['unsolved']:,} without equilibrium" if summary["unsolved"] else ""
+    with folder.open() as data:
+        for sentence in _answer(data):
+            terminal().print(sentence)
+        warn_of(filter(None, data.attrs["warnings"].splitlines()))
     print(f"{summary['states']:,} states in {folder.data}{unsolved}", file=sys.stderr)
     if summary["unsolved"] == summary["states"]:
         raise NoEquilibrium("no state of the sweep has an equilibrium; check the unit of the load")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import MISSING, dataclass
 from pathlib import Path
 
@@ -10,6 +9,8 @@ from ...errors import InvalidValue
 from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
 from ..options import Force, Settings, StudyFile, metres, option, read_study
+from ..show import terminal
+from ..streams import tell_written
 
 __all__ = ["command"]
 
@@ -60,13 +61,13 @@ def command(options: Options) -> None:
     write, _ = FORMATS[name]
     write(made, options.out, **({} if options.units is None else {"units": options.units}))
     first, last = (value_of(float(made.p(end)), "Pa") for end in made.h[[0, -1]])
-    print(
-        f"written: {options.out} ({name}): {options.coordinate} from {value_of(made.h[0], 'm')} to "
-        f"{value_of(made.h[-1], 'm')}, p from {first} to {last}; relative errors at most "
-        f"{rounded_up(made.error.p)} of p, {rounded_up(made.error.A)} of A_t, "
-        f"{rounded_up(made.error.dp_dh)} of dp/d{options.coordinate}",
-        file=sys.stderr,
+    terminal().print(
+        f"From {options.coordinate} = {value_of(made.h[0], 'm')} to {value_of(made.h[-1], 'm')} "
+        f"the pressure goes from {first} to {last}, with relative errors of at most "
+        f"{rounded_up(made.error.p)} of p, {rounded_up(made.error.A)} of A_t and "
+        f"{rounded_up(made.error.dp_dh)} of dp/d{options.coordinate}: a table for {name}."
     )
+    tell_written(options.out)
 
 
 def _format(form: str | None, out: Path, units: str | None) -> tuple[str, list[str]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = [
+    "Debris",
     "Dent",
     "dent_diameter",
     "dent_of",
@@ -31,6 +32,9 @@ __all__ = [
     "sink",
     "sunk",
 ]
+
+Debris = Literal["by_hardness", "hard", "ductile", "brittle"]
+"""What particles do when pressed; by default what their hardness says."""
 
 
 # ------------------------------------------------------------------------------ one particle
@@ -118,7 +122,7 @@ def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
 
 @takes_units
 def fragments(x: ArrayLike, *, size: float) -> Array:
-    r"""Fragments of one size that a brittle particle of size x breaks into, its volume kept.
+    r"""Number of equal fragments of a brittle particle of size x, its volume kept.
 
     .. math:: N = \max\left[(x/x_f)^3,\,1\right]
 
@@ -176,7 +180,7 @@ def dents_after(rate: ArrayLike, *, overrollings: ArrayLike, area: ArrayLike) ->
 
 
 class Dent(NamedTuple):
-    """What particles leave in one surface: arrays (M, n), made by `dent_of`.
+    """Dents of particles in one surface: arrays (M, n), made by `dent_of`.
 
     Examples
     --------
@@ -200,9 +204,9 @@ class Dent(NamedTuple):
 
 @takes_units
 def sink(
-    particle: Material, *, hardness: float, debris: str = "by_hardness", computed: bool = False
+    particle: Material, *, hardness: float, debris: Debris = "by_hardness", computed: bool = False
 ) -> float:
-    """The part of its sink into a surface that stays a dent: what a particle does, decided here.
+    """Share of a particle's sink into a surface that stays as a dent.
 
     Where its law says how deep it sinks (``computed``), all of that does, at any hardness. Where
     none does, a particle harder than the surface sinks in whole; one that is not is flattened, and
@@ -230,7 +234,7 @@ def sink(
     >>> sink(tb.materials["SiO2"], hardness=steel.H), sink(steel, hardness=steel.H)
     (1.0, nan)
     """
-    need_one("debris", debris, "by_hardness", "hard", "ductile", "brittle")
+    need_one("debris", debris, *get_args(Debris))
     if debris == "hard" or (debris != "ductile" and (computed or particle.H > hardness)):
         return 1.0
     return math.nan
@@ -238,7 +242,7 @@ def sink(
 
 @takes_units
 def sunk(
-    spots: ParticleSpots, *, side: int, particle: Material, debris: str = "by_hardness"
+    spots: ParticleSpots, *, side: int, particle: Material, debris: Debris = "by_hardness"
 ) -> Array:
     """How deep particles sit in surface 1 (side 0) or 2 (side 1) under load (M, n) [m].
 
@@ -295,7 +299,7 @@ def dent_of(
     *,
     side: int,
     particle: Material,
-    debris: str = "by_hardness",
+    debris: Debris = "by_hardness",
     squashed: bool = False,
 ) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from scipy import special
@@ -36,9 +36,9 @@ if TYPE_CHECKING:
     Number = float | Array
 
 __all__ = [
-    "FLUXES",
-    "KINDS",
     "LORENZ",
+    "Flux",
+    "Kind",
     "absolute_slope",
     "body_conductance",
     "bridge",
@@ -57,9 +57,9 @@ __all__ = [
 LORENZ = (math.pi * 1.380649e-23 / 1.602176634e-19) ** 2 / 3
 """Lorenz number of a degenerate electron gas, L = π²k_B²/3e² = 2.4430e-8 [W Ω/K²]."""
 
-KINDS = ("mean", "max")
+Kind = Literal["mean", "max"]
 """Temperature averaged over the contact, or the largest in it."""
-FLUXES = ("uniform", "hertz")
+Flux = Literal["uniform", "hertz"]
 """Uniform, or q = (3/2) q̄ √(1−r²/a²), proportional to the pressure of Hertz."""
 
 _MOVING = {
@@ -109,14 +109,14 @@ def peclet(a: Number, *, v: float, D: float) -> Number:
     return v * a / (2 * D)
 
 
-def _need_source(kind: str, flux: str) -> None:
+def _need_source(kind: Kind, flux: Flux) -> None:
     """Refuse words for a source of heat that are not known."""
-    need_one("kind", kind, "mean", "max")
-    need_one("flux", flux, "uniform", "hertz")
+    need_one("kind", kind, *get_args(Kind))
+    need_one("flux", flux, *get_args(Flux))
 
 
 @takes_units
-def moving_rise(Pe: Number, *, kind: str = "mean", flux: str = "uniform") -> Number:
+def moving_rise(Pe: Number, *, kind: Kind = "mean", flux: Flux = "uniform") -> Number:
     r"""Steady rise under a circular source that moves, over q̄a/k [1], after Tian and Kennedy.
 
     .. math:: \theta = \frac{C}{\sqrt{\pi\,(c+\mathrm{Pe})}}
@@ -169,7 +169,7 @@ def moving_rise(Pe: Number, *, kind: str = "mean", flux: str = "uniform") -> Num
 
 @takes_units
 def body_conductance(
-    a: Number, *, k: float, D: float, v: float = 0.0, kind: str = "mean", flux: str = "uniform"
+    a: Number, *, k: float, D: float, v: float = 0.0, kind: Kind = "mean", flux: Flux = "uniform"
 ) -> Number:
     r"""Heat that a half-space takes from a contact per kelvin of its rise, G = πak/θ [W/K].
 
@@ -198,7 +198,7 @@ def body_conductance(
 
 
 @lru_cache
-def _pairs(flux: str, kind: str) -> tuple[Array, Array]:
+def _pairs(flux: Flux, kind: Kind) -> tuple[Array, Array]:
     """Distances R/a from source to target and their weights: rise = Σ w f(R)."""
     u, w_u = np.polynomial.legendre.leggauss(200)
     phi = (u + 1) ** 2 * math.pi / 8  # dense at short distances, where early heat is
@@ -222,7 +222,7 @@ def _pairs(flux: str, kind: str) -> tuple[Array, Array]:
 
 
 @lru_cache
-def _sudden_table(flux: str, kind: str) -> tuple[Array, Array]:
+def _sudden_table(flux: Flux, kind: Kind) -> tuple[Array, Array]:
     """ln Fo, and ln of the share of the steady rise."""
     R, w = _pairs(flux, kind)
     ln_Fo = np.linspace(math.log(1e-6), math.log(1e8), 2001)
@@ -231,7 +231,7 @@ def _sudden_table(flux: str, kind: str) -> tuple[Array, Array]:
 
 
 @takes_units
-def sudden_share(Fo: Number, *, kind: str = "mean", flux: str = "uniform") -> Number:
+def sudden_share(Fo: Number, *, kind: Kind = "mean", flux: Flux = "uniform") -> Number:
     r"""Part of the steady rise that a source at rest has reached after a time t [1].
 
     .. math:: \frac{\Delta T(t)}{\Delta T(\infty)} =
@@ -455,8 +455,12 @@ def spot_resistance(
     return holm + sharvin + film / (math.pi * b**2)
 
 
+Spreading = Literal["power", "series", "none"]
+"""Factor of a spot among others: a power, a series, or 1."""
+
+
 @takes_units
-def spreading(epsilon: Number, *, form: str = "power") -> Number:
+def spreading(epsilon: Number, *, form: Spreading = "power") -> Number:
     r"""Factor ψ on the resistance of a spot that its neighbours leave only a tube [1].
 
     .. math:: \psi = (1-\varepsilon)^{1.5} \quad\text{or}\quad
@@ -485,7 +489,7 @@ def spreading(epsilon: Number, *, form: str = "power") -> Number:
     >>> round(spreading(0.1), 4), round(spreading(0.1, form="series"), 4)
     (0.8538, 0.8594)
     """
-    need_one("form", form, "power", "series", "none")
+    need_one("form", form, *get_args(Spreading))
     if form == "none":
         return 1.0 + 0.0 * epsilon
     if form == "series":

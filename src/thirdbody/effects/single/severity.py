@@ -63,7 +63,7 @@ def severity(load: ArrayLike, *, x: ArrayLike, H_1: ArrayLike, H_2: ArrayLike) -
 
 @takes_units
 def threshold(H_s: ArrayLike, *, H_b: ArrayLike) -> Array:
-    r"""Severity S* above which particles groove, and below which they roll.
+    r"""Severity S* above which particles groove; below it they roll.
 
     .. math:: S^* = 0.0076\,(H_s/H_b)^{-0.49}
 

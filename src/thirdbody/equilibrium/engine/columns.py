@@ -417,7 +417,7 @@ class Numbers:
         if self.inside.shape[1] > 1 and not np.array_equal(inside, self.inside):
             raise NotCompiled("particles that break, of different Poisson ratios")
         self.inside = inside
-        kept = strength.kept
+        kept = strength.bearing_share
         _filled(
             rows,
             {

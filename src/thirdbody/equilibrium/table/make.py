@@ -164,7 +164,7 @@ def _mistakes(
 
 def _upper_end(bound: Interface, scan: LoadScan) -> float:
     """The largest d that carries `LEAST_LOAD`, or more where the load jumps over it."""
-    d, _, status = scan.met(np.array([LEAST_LOAD * bound.contact.E_ss]), "loading")
+    d, _, status = scan.solve_across_jumps(np.array([LEAST_LOAD * bound.contact.E_ss]), "loading")
     if np.isnan(d[0]):
         raise InvalidValue(f"no table: {status.words[0]}; give high [m]")
     return float(d[0])

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...contact.interface import interface
-from ...errors import InvalidValue
+from ...errors import Advice, InvalidValue
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import write_text
@@ -137,8 +137,11 @@ class ContactTable:
     def share(self, name: str, h: ArrayLike) -> Number:
         """A share [1] that was asked for in ``columns``; constant beyond the ends."""
         if name not in self._shares:
-            known = ", ".join(self._shares) or "none; give columns=... when the table is made"
-            raise InvalidValue(f"share {name!r} is not in this table; it has {known}")
+            known = ", ".join(self._shares) or "none; " + Advice(
+                "give columns=... when the table is made",
+                "this command makes tables without shares",
+            )
+            raise InvalidValue(f"share {name!r} is not in this table; it has " + known)
         c = self._shares[name]
         x = np.clip(np.asarray(h, dtype=float), self.h[0], self.h[-1])
         i = self._p.panel(x)
@@ -147,7 +150,7 @@ class ContactTable:
 
     # ------------------------------------------------------------------ what files say
     def about(self) -> list[str]:
-        """What every exported file says at its top, one sentence each."""
+        """Sentences at the top of every exported file."""
         from ...version import __version__
 
         e, name = self.error, self.coordinate
@@ -452,7 +455,7 @@ def _units(word: str) -> tuple[str, str, float, float]:
 
 
 def _flat(data: dict[str, Any], path: str = "") -> Iterator[tuple[str, str]]:
-    """Every input as ``surfaces.first.E`` and its value; the kind of a part is its own line."""
+    """Pairs of dotted name and value of every input; the kind of a part is a pair too."""
     for key, value in data.items():
         if isinstance(value, dict):
             yield f"{path}{key}", value["type"]
@@ -471,7 +474,7 @@ _LETTERS = str.maketrans(
 
 
 def _ascii(text: str) -> str:
-    """Text that any of the programs reads: ASCII, one line, nothing that ends a C comment."""
+    """Text for every program: ASCII, one line, nothing that ends a C comment."""
     plain = unicodedata.normalize("NFKD", text.translate(_LETTERS))
     plain = "".join(c for c in plain if not unicodedata.combining(c))
     plain = plain.encode("ascii", "replace").decode()

@@ -77,7 +77,7 @@ class JKR(AbstractAsperityLaw):
     scale: float | None = quantity("w/XH", "1", "adhesion over hardness", default=None, gt=0)
 
     def bound(self, *, R, E_star, H, nu: float | None = None) -> Self:
-        """With w/(XH) of the contact."""
+        """The law with w/(XH) of the contact."""
         X = self.yield_interference(R=R, E_star=E_star, H=H)
         return self.replace(scale=self.w / (X * H))
 
@@ -169,7 +169,7 @@ class DMT(GW):
     scale: float | None = quantity("2w/ω_1H", "1", "adhesion over hardness", default=None, gt=0)
 
     def bound(self, *, R, E_star, H, nu: float | None = None) -> Self:
-        """With 2w/(ω_1 H) of the contact."""
+        """The law with 2w/(ω_1 H) of the contact."""
         omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
         return self.replace(scale=2 * self.w / (omega_1 * H))
 

@@ -110,7 +110,7 @@ class Coated(AbstractAsperityLaw):
         return ElasticLayer(modulus_ratio=ratio, nu_1=self.nu_1, nu_2=self.nu_2, indenter=indenter)
 
     def bound(self, *, R, E_star, H, nu: float | None = None) -> Self:
-        """With E_1*t/(πRH) of the contact."""
+        """The law with E_1*t/(πRH) of the contact."""
         return self.replace(scale=self.E_1_star * self.t / (math.pi * R * H))
 
     def yield_interference(self, *, R, E_star, H):

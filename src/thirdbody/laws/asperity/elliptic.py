@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -66,7 +67,7 @@ class EllipticCEB(PeakPressureLaw):
     valid_range = "elliptic tips, ω ≪ R″"
 
     ratio: float = quantity("λ", "1", "ratio of the principal radii", default=1.0, ge=1)
-    area_rule: str = choice("area above yield", "volume", "doubling", default="volume")
+    area_rule: Literal["volume", "doubling"] = choice("area above yield", default="volume")
 
     @property
     def jumps(self) -> dict[float, Jump]:
@@ -147,7 +148,7 @@ class EllipticZMC(ZMC):
     valid_range = "elliptic tips, ω ≪ R″"
 
     ratio: float = quantity("λ", "1", "ratio of the principal radii", default=1.0, ge=1)
-    area_rule: str = choice("plastic area", "volume", "doubling", default="volume")
+    area_rule: Literal["volume", "doubling"] = choice("plastic area", default="volume")
 
     def yield_interference(self, *, R, E_star, H):
         """ω_1 where the mean Hertz pressure is kH [m]."""

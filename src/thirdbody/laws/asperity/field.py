@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from ...errors import Problem
+from ...errors import Advice, Problem
 from ...populations.heights import GaussianHeights
 from ..base import AbstractAsperityLaw, AbstractParticleLaw, Branch, Jump, SeatedLaw
 from ..field.own import OwnSpectrum, RollOff
@@ -147,7 +147,11 @@ class Field(AbstractAsperityLaw):
             Problem(
                 "asperity_law",
                 "field needs particles that rest on the rough surface: take "
-                f'Series(seat="rough") in the place of {law.name}'
+                + Advice(
+                    'Series(seat="rough") in the place of ',
+                    'particle_law.name = "series", seat = "rough", in the place of ',
+                )
+                + law.name
                 + (f' with seat = "{law.seat}"' if isinstance(law, SeatedLaw) else ""),
             )
             for law in particle_laws
@@ -157,7 +161,7 @@ class Field(AbstractAsperityLaw):
 
     # ------------------------------------------------------------ where one tip is asked for
     def yield_interference(self, *, R, E_star, H):
-        """That of `ZMC` [m]."""
+        """Interference of first yield of `ZMC` [m]."""
         return TIP.yield_interference(R=R, E_star=E_star, H=H)
 
     @property

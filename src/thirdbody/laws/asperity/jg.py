@@ -76,7 +76,7 @@ class JG(AbstractAsperityLaw):
     yield_strain: float | None = quantity("S_y/E*", "1", "yield strain", default=None, gt=0, le=30)
 
     def bound(self, *, R, E_star, H, nu: float | None = None) -> Self:
-        """With ν of the softer body, and S_y/E* from its hardness."""
+        """The law with ν of the softer body, and S_y/E* from its hardness."""
         return self.replace(
             nu=self.nu if self.nu is not None else nu,
             yield_strain=H / (self.hardness_ratio * E_star),

@@ -41,7 +41,7 @@ class PeakPressureLaw(AbstractAsperityLaw):
         return 0.454 + 0.41 * self.nu
 
     def bound(self, *, R, E_star, H, nu: float | None = None) -> Self:
-        """With the Poisson ratio of the softer body, unless one was given."""
+        """The law with the Poisson ratio of the softer body, unless one was given."""
         return self if self.nu is not None or nu is None else self.replace(nu=nu)
 
     def yield_interference(self, *, R, E_star, H):

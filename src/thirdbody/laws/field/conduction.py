@@ -44,7 +44,7 @@ FAR = 12.0
 
 
 def patch_stiffness(series: FilteredSeries, low: Array, tau: Array) -> Array:
-    """κ of the patches s > low (N,) under the filter τ (N,): (N,)."""
+    """Stiffness κ of the patches s > low (N,) under the filter τ (N,): (N,)."""
     x, weight = gauss_legendre(NODES)
     theta = 0.5 * math.pi * (1 + x)
     # cos(jθ)/sin(θ/2) ds = w cos(jθ) cos(θ/2) dθ

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from scipy.special import ndtr, ndtri
@@ -161,7 +161,7 @@ class OwnSpectrum(Value):
 
     @classmethod
     def of_both(cls, first: Topography, second: Topography) -> OwnSpectrum:
-        """The waves of two faces together, whose heights have nothing to do with each other."""
+        """Waves of two faces together, whose heights are independent."""
         faces = [
             (cls._gaussian(face), float(np.nanstd(np.array(face.filtered(None), dtype=float))))
             for face in (first, second)
@@ -217,7 +217,7 @@ class RollOff(Value):
     """
 
     hurst: float = quantity("H", "1", "Hurst exponent", default=HURST, gt=0, le=1)
-    corner: str = choice("corner of the spectrum", "smooth", "sharp", default="smooth")
+    corner: Literal["smooth", "sharp"] = choice("corner of the spectrum", default="smooth")
 
     def spectrum_of(self, alpha: float) -> Spectrum:
         """The spectrum in the units of the theory, ⟨q²⟩ = 2.
@@ -231,7 +231,7 @@ class RollOff(Value):
 
 
 def _ranked(z: Array, skewness: float, excess: float) -> tuple[Array, tuple[float, ...]]:
-    """The Gaussian field in the order of these heights, and G_n with which it gives them.
+    """Gaussian field that has the order of these heights, and the G_n that map it back to them.
 
     As many terms as leave z(t) rising wherever points lie.
     """

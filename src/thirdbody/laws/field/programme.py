@@ -157,7 +157,7 @@ class _Basis:
         return np.moveaxis(out, 0, -1)
 
     def state(self, h: Array, chi: Array, edges: Edges, kappa: float) -> _State:
-        """The best f between given edges, and what it lacks."""
+        """Best f between given edges, and its residual."""
         c, dc, k, dk = self.series(edges.tau)
         order, most, root2 = np.arange(1, len(self.heights) + 1), self.most, self.root2
         weights = self.heights * c[:, None] ** order  # ⟨z f⟩ = Σ G_n cⁿ a_n

@@ -26,7 +26,7 @@ def remainder_at(height, bearing):
 
 
 def area_factor(alpha):
-    """What ε adds to the real pressure, over what it adds to the load."""
+    """Ratio of what ε adds to the real pressure to what it adds to the load."""
     return 2.9 - 0.7 * np.log(alpha)
 
 

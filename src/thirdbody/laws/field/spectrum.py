@@ -115,7 +115,7 @@ class Spectrum:
 
     @cached_property
     def _weights(self) -> Array:
-        """Of `nodes`, less what a box does not have."""
+        """Weights of `nodes`, less those of waves that a box does not have."""
         r, weight = self.nodes
         return weight * (1 - WIGNER * r / self.box) if self.box else weight
 

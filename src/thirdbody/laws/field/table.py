@@ -91,7 +91,7 @@ def stored() -> dict[str, Array]:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FieldSurface:
-    """What a surface of one spectrum and hardness ratio does at every separation.
+    """Table of a surface of one spectrum and hardness ratio, at every separation.
 
     Lengths across the surface are over σ, along it over √(m0/m2); pressures over E*g, with the RMS
     gradient g.

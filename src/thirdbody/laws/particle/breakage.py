@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
 
+from ...errors import Note
 from ...quantities.say import span, value_of
 from .tension import Tension, tension
 
@@ -53,14 +54,14 @@ class Breakage:
     nu: float
 
     @classmethod
-    def of(cls, strength: WeibullStrength, material: Material, scale: float) -> Self:
-        """Of particles of a material, in units of ``scale`` [m]."""
+    def of_material(cls, strength: WeibullStrength, material: Material, scale: float) -> Self:
+        """Breakage of particles of a material, in units of ``scale`` [m]."""
         return cls(
             sigma=float(strength.of_size(scale)),
             m=strength.m,
             b=strength.b,
             x_c=strength.least(material) / scale,
-            kept=strength.kept,
+            kept=strength.bearing_share,
             ratio=strength.ratio,
             confinement=strength.confinement,
             nu=material.nu,
@@ -99,7 +100,7 @@ class Grains(Protocol):
 
     @property
     def material(self) -> Material:
-        """What they are made of."""
+        """Material of the particles."""
 
     @property
     def diameter(self) -> Distribution:
@@ -107,32 +108,35 @@ class Grains(Protocol):
 
 
 def about_strength(particles: Grains, surfaces: MaterialPair) -> list[str]:
-    """Where the strength of these particles leaves its range, one sentence each."""
+    """Notes on particles whose strength leaves its range, one sentence each."""
     strength, material = particles.strength, particles.material
     if strength is None:
         return []
-    out = []
+    out: list[str] = []
     name = getattr(particles, "name", "") or material.name or "the particles"
     if strength.x_c is None and material.K_c is None:
-        out.append(
+        what = (
             f"the strength of {name}: without x_c, and without K_c of the material, x_c is 0 and "
             "the smallest pieces break as the large ones do"
         )
+        out.append(Note(what, code=f"strength.smallest.{name}"))
     low, high = particles.diameter.support
     low = max(low, strength.least(material), 1e-3 * high)
     p, q = strength.tested
     if high >= low and (low < p or high > q):
         tested = value_of(p, "m", 3) if p == q else span(p, q, "m")
         factor = max((p / low) ** strength.b, (high / q) ** strength.b)
-        out.append(
+        what = (
             f"the strength of {name}: x from {span(low, high, 'm')} lies outside the sizes "
             f"of the strength data ({tested}): strengths are extrapolated by a factor "
             f"{factor:.2g}"
         )
+        out.append(Note(what, code=f"strength.sizes.{name}"))
     softer = material.H < max(surfaces.first.H, surfaces.second.H)
     if softer and material.K_c is not None:
-        out.append(
+        what = (
             f"{name}: the particle is softer than a surface: it is squashed there; strength is "
             "used all the same"
         )
+        out.append(Note(what, code=f"strength.soft.{name}"))
     return out

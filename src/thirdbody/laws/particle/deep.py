@@ -49,7 +49,7 @@ SOFTEST_KAPPA = 8.0
 
 
 class SqueezeCurve(NamedTuple):
-    """What one side of a particle does: Chebyshev series on the table's range of ln ε/(1 − ε)."""
+    """Response of one side of a particle: Chebyshev series on the table's range of ln ε/(1 − ε)."""
 
     log_load: Array
     """ln F/(πR²H), with the hardness H of the softer body [1]."""
@@ -198,7 +198,7 @@ def _at_frictions(friction: Array, values: Array) -> Array:
 
 @lru_cache(maxsize=512)
 def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
-    r"""What one side of a round particle does, between the computed runs.
+    r"""Response of one side of a round particle, interpolated between the computed runs.
 
     Load and area rise with the squeeze: the square roots of the slopes of their logarithms are
     interpolated, in ln ρ and in m by monotone cubics and in 1/κ in straight lines, so that no
@@ -226,7 +226,7 @@ def curve_rows(ratio: Array, friction: Array, kappa: Array) -> tuple[Array, Arra
 
 
 def _each_at(nodes: Sequence[float], values: Array, at: Array) -> Array:
-    """Monotone cubics through values (nodes, N, terms), each at its own place (N,): (N, terms)."""
+    """Values (N, terms) of monotone cubics through (nodes, N, terms), each at its place (N,)."""
     from scipy.interpolate import PchipInterpolator
 
     cubic, ends = PchipInterpolator(nodes, values, axis=0), np.asarray(nodes, dtype=float)
@@ -316,7 +316,7 @@ def _change(run: _Run, places: Array) -> Array:
 
 @dataclass(frozen=True)
 class DeepSqueeze:
-    """That a side of a round particle follows the computed table.
+    """Form of a round side of a particle that follows the computed table.
 
     Attributes
     ----------
@@ -495,8 +495,8 @@ class DeepSide(Side):
             span = math.log(TABLE_BEGINS / LAW_ENDS)
             u = np.log(np.maximum(eps[low], LAW_ENDS) / LAW_ENDS) / span
             w = u * u * (3 - 2 * u)
-            for values, name in ((load, "force"), (area, "area")):
-                first = thin * self.law.reduced(name, y[low])
+            force, dent = self.law.reduced("force", y[low]), self.law.reduced("area", y[low])
+            for values, first in ((load, thin * force), (area, thin * dent)):
                 table = values[low] / np.where(w > 0, first, 1.0)
                 values[low] = first * np.where(w > 0, table, 1.0) ** w
         over = eps > TABLE_ENDS

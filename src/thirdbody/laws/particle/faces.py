@@ -71,7 +71,7 @@ class FacedSide(Side):
         return np.where(y < self.joint, self.law.reduced("force", y), faces)
 
     def regime(self, delta: Array) -> Index:
-        """That of the joint until the contact ends."""
+        """Regime of the joint, until the contact ends."""
         y = delta / self.delta_1
         found = Side.regime(self, np.minimum(y, self.joint) * self.delta_1)
         return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), found)
@@ -79,12 +79,12 @@ class FacedSide(Side):
 
 @dataclass(frozen=True)
 class Faces:
-    """That a side of a particle is angular."""
+    """Form of an angular side of a particle."""
 
     shape: Angular
 
     def side(self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float) -> Side:
-        """The contact of this side; that of its tip where the faces lie beyond its end."""
+        """Contact of this side; that of its tip if the faces lie beyond the end of the contact."""
         if self.shape.faced:
             return FacedSide(law, E_star, H, nu, self.shape)
         return Side(law, E_star, H, nu, R, breadth=self.shape.breadth)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 from ...quantities.value import choice, quantity
 from ..base import AbstractParticleLaw
@@ -74,7 +74,7 @@ class Flakes(Series):
     valid_range = "a ≪ τ, D/2 ≪ R, A_t < 0.2; no bending or tilt"
     breakable = False
 
-    soft: str = choice("flakes softer than a surface", "sphere", default="sphere")
+    soft: Literal["sphere"] = choice("flakes softer than a surface", default="sphere")
     aspect: float = quantity("D/τ", "1", "diameter over thickness", default=1.0, ge=1)
 
     def of_shape(self, shape: Shape) -> Self:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from ...errors import InvalidValue, Problem
 from ...quantities.value import choice, quantity
-from ..base import AbstractParticleLaw, OneParticle
+from ..base import FLAKES, SERIES, AbstractParticleLaw, OneParticle
 
 if TYPE_CHECKING:
     from ...populations.materials import Material, MaterialPair
@@ -26,7 +26,7 @@ PRESETS: dict[str, dict[str, Any]] = {
 
 NO_ONE_PARTICLE = (
     "the particle law horng2022 knows loads and areas of all particles together, not how deep one "
-    "of them sits; outputs need particle.Series or particle.Flakes"
+    "of them sits; outputs need " + SERIES + " or " + FLAKES
 )
 
 
@@ -100,20 +100,22 @@ class Horng2022(AbstractParticleLaw):
     knows_each = False
 
     preset: str = choice("reading of the paper", *PRESETS, default="published")
-    weight: str = choice("weight of the particle integrals", "x2", "xa2", default="x2")
+    weight: Literal["x2", "xa2"] = choice("weight of the particle integrals", default="x2")
     plastic: bool = True
-    plastic_weight: str = choice("weight of the plastic integral", "x2", "xxd", default="x2")
-    h_e_rule: str = choice("meaning of h_e", "level", "approach", default="level")
+    plastic_weight: Literal["x2", "xxd"] = choice("weight of the plastic integral", default="x2")
+    h_e_rule: Literal["level", "approach"] = choice("meaning of h_e", default="level")
     h_e_sigma: float = quantity("h_e/σ", "1", "level of the highest asperities", default=0.0, ge=0)
     h_e_diameter: float = quantity("h_e/x_a", "1", "part of h_e over x_a", default=0.0, ge=0)
-    second_modulus: str = choice("modulus of the second contact", "ss", "sa", default="ss")
+    second_modulus: Literal["ss", "sa"] = choice("modulus of the second contact", default="ss")
     kappa_C: float = quantity("κ_C", "1", "modulus convention in C", default=1.0, gt=0)
     chi: float = quantity("χ", "1", "factor on the particle density", default=1.0, gt=0)
-    shadow: str = choice("lower limit of the area correction", "d", "xmin", "none", default="d")
-    hardness_rule: str = choice(
-        "how H_a enters", "surface", "softer", "replace2", "sum", default="surface"
+    shadow: Literal["d", "xmin", "none"] = choice("lower limit of the area correction", default="d")
+    hardness_rule: Literal["surface", "softer", "replace2", "sum"] = choice(
+        "how H_a enters", default="surface"
     )
-    particle_regime: str = choice("regime of particle area", "plastic", "split", default="plastic")
+    particle_regime: Literal["plastic", "split"] = choice(
+        "regime of particle area", default="plastic"
+    )
     datum: float = quantity("μ_0/σ", "1", "centre of asperity heights", default=1.0)
     normalise: bool = False
 

@@ -35,7 +35,7 @@ MOST_DOUBLED = 200
 
 
 class SideForm(Protocol):
-    """What a side of a particle is if not a sphere's; a frozen value, so that equal ones share."""
+    """Form of a side of a particle that is no sphere; frozen, so that equal ones share a table."""
 
     def side(
         self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float

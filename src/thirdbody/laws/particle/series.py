@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ...errors import Note, Problem
 from ...populations.shape import Angular
 from ...quantities.value import choice, quantity
 from ..asperity.hermite import Hermite
-from ..base import AbstractAsperityLaw, AbstractParticleLaw, OneParticle, SeatedLaw
+from ..base import HERMITE, AbstractAsperityLaw, AbstractParticleLaw, OneParticle, SeatedLaw
 from .deep import DeepSqueeze
 from .faces import FacedSide, Faces
 from .one_particle import SideForm, SqueezedParticle, contact_sides, squeezed_particle
@@ -22,12 +22,15 @@ if TYPE_CHECKING:
     from ...populations.roughness import Roughness
     from ...populations.shape import Shape
 
-__all__ = ["Series"]
+__all__ = ["Deep", "Series"]
+
+Deep = Literal["table", "off"]
+"""Particles beyond small indentations: by the computed table, or as at small ones."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class _OfTips(AbstractParticleLaw):
-    """Particles whose tips follow a law of one contact: its field stands before those of a seat."""
+    """Base of particles whose tips follow a law of one contact: its field precedes the seat's."""
 
     __slots__ = ()
     law: AbstractAsperityLaw
@@ -144,12 +147,14 @@ class Series(SeatedLaw, _OfTips):
     breakable = True
 
     law: AbstractAsperityLaw = field(default_factory=Hermite)
-    soft: str = choice("particles softer than a surface", "squashed", "sphere", default="squashed")
+    soft: Literal["squashed", "sphere"] = choice(
+        "particles softer than a surface", default="squashed"
+    )
     friction_factor: float = quantity(
         "m_f", "1", "shear factor on the faces of squashed particles", default=0.2, le=1
     )
-    onset: str = choice("how squashed particles set in", "hermite", "jg", default="hermite")
-    deep: str = choice("particles beyond small indentations", "table", "off", default="table")
+    onset: Literal["hermite", "jg"] = choice("how squashed particles set in", default="hermite")
+    deep: Deep = choice("particles beyond small indentations", default="table")
 
     @property
     def tip_radius(self) -> float:
@@ -165,14 +170,14 @@ class Series(SeatedLaw, _OfTips):
         out = []
         if not isinstance(self.law, AbstractAsperityLaw):
             out.append(
-                Problem("law", "must be a law of one contact, e.g. Hermite()", repr(self.law))
+                Problem("law", "must be a law of one contact, e.g. " + HERMITE, repr(self.law))
             )
         elif self.law.of_surface:
             out.append(
                 Problem(
                     "law",
                     "is a law of a whole surface; particles "
-                    "need a law of one contact, e.g. Hermite()",
+                    "need a law of one contact, e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
                 )
             )
@@ -181,7 +186,7 @@ class Series(SeatedLaw, _OfTips):
                 Problem(
                     "law",
                     "has a length of its own; particles of "
-                    "all sizes need a law that only knows indentation over radius, e.g. Hermite()",
+                    "all sizes need a law that only knows indentation over radius, e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
                 )
             )
@@ -203,7 +208,7 @@ class Series(SeatedLaw, _OfTips):
     def forms(
         self, surfaces: MaterialPair, particle: Material
     ) -> tuple[SideForm | None, SideForm | None]:
-        """What each side of the particle does that is no sphere's of constant hardness."""
+        """Forms of the sides of the particle that are no sphere of constant hardness."""
 
         def form(surface: Material) -> SideForm | None:
             if self.follows_table:

@@ -110,7 +110,7 @@ def confined(s: Array, nu: float) -> Array:
 
 @lru_cache(maxsize=32)
 def _bends(nu: float) -> tuple[float, ...]:
-    """Values of s at which G changes its formula: T_c = T_e, and where it becomes 0."""
+    """Values of s at which G changes its formula: T_c = T_e, and the zero of G."""
     from scipy.optimize import brentq
 
     s = np.linspace(1e-3, 1 - 1e-6, 1000)
@@ -126,14 +126,14 @@ def _bends(nu: float) -> tuple[float, ...]:
 
 
 class Held(NamedTuple):
-    """From one squeeze to another the tension stays below what it was."""
+    """Range of squeeze in which the tension stays below its maximum so far."""
 
     begin: float
     end: float
 
 
 class Tension:
-    r"""The largest tension that one particle has met, as a function of its squeeze ε.
+    r"""Largest tension that one particle has met, as a function of its squeeze ε.
 
     .. math:: \sigma_t = \frac{f}{x^2}\,\tfrac12[G(s_1)+G(s_2)], \qquad
               \hat\sigma(\varepsilon) = \max_{\varepsilon'\le\varepsilon}\sigma_t(\varepsilon')
@@ -156,7 +156,7 @@ class Tension:
         kinks |= {eps for held in self.held for eps in held if np.isfinite(eps)}
         end = self.held[-1].begin if self.held and np.isinf(self.held[-1].end) else np.inf
         self.kinks = np.array(sorted(eps for eps in kinks if eps <= end))
-        self.greatest = float(self.met(self.kinks[-1:] * (1 - BESIDE))[0])
+        self.greatest = float(self.greatest_so_far(self.kinks[-1:] * (1 - BESIDE))[0])
 
     def _sides(self, eps: Array) -> tuple[Array, Array]:
         areas = self.particle.at(eps).areas
@@ -228,7 +228,7 @@ class Tension:
             i = j
 
     # ------------------------------------------------------------------ running maximum
-    def met(self, eps: Array) -> Array:
+    def greatest_so_far(self, eps: Array) -> Array:
         """σ̂ at ε > 0 [Pa], from its definition."""
         eps = np.array(eps, dtype=float)
         for held in self.held:
@@ -241,7 +241,7 @@ class Tension:
         v = np.log(np.append(LOWEST, self.kinks[self.kinks > LOWEST]))
 
         def logarithm(x: Array) -> Array:
-            return np.log(self.met(np.exp(x)))[:, None]
+            return np.log(self.greatest_so_far(np.exp(x)))[:, None]
 
         return PiecewiseChebyshev(logarithm, v, tolerance=1e-13, max_depth=10)
 
@@ -279,5 +279,5 @@ def breaks(particle: OneParticle, material: Material, *, x: float, squeeze: floa
         strength = WeibullStrength.of(material)
     except InvalidValue:
         return False
-    met = tension(particle, material.nu, strength.confinement).met(np.array([squeeze]))
+    met = tension(particle, material.nu, strength.confinement).greatest_so_far(np.array([squeeze]))
     return bool(x > strength.least(material) and met[0] > strength.of_size(x))

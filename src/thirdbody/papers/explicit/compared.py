@@ -110,7 +110,7 @@ class Point:
 
     @property
     def apart_by_field(self) -> float:
-        """As `apart`, of the law of one field."""
+        """Difference as of `apart`, for the law of one field."""
         return self.field[0] / self.share[0] - 1 if self.share[0] > 0 else math.nan
 
     @property
@@ -132,7 +132,7 @@ class Point:
 
     @property
     def why(self) -> str:
-        """What the four ratios say of the difference, largest part first; "" without one.
+        """Sentence on the four ratios behind the difference, largest part first; "" without one.
 
         The shares' odds differ by the factors with which explicit asperities carry less than
         those of the model at one separation, and explicit particles less than their sum.

@@ -31,10 +31,10 @@ from .readings import RANGE, Curve, Curves
 
 # ------------------------------------------------------------------ real area
 def _distance_from_bare(c: Curve, bare: Curve, load: float) -> float | Measurement:
-    """How far the area is from that without particles, where it grows throughout."""
+    """Difference of the area to that without particles, where it grows throughout."""
     if np.any(np.diff(c.A_t[inside(c)]) <= 0):
         return Measurement.absent("the area does not grow throughout")
-    return abs(c.at(load, c.A_t) / bare.at(load, bare.A_t) - 1)
+    return abs(c.value_at(load, c.A_t) / bare.value_at(load, bare.A_t) - 1)
 
 
 add_measures(
@@ -69,13 +69,13 @@ add_measures(
     partial(material_measure, max),
     silica_over_steel_area=lambda silica, steel: np.max((silica.A_t / steel.A_t)[inside(silica)]),
     silica_minus_steel_asperity_share=lambda silica, steel, load: (
-        silica.at(load, silica.asperity_share) - steel.at(load, steel.asperity_share)
+        silica.value_at(load, silica.asperity_share) - steel.value_at(load, steel.asperity_share)
     ),
 )
 add_measures(
     partial(material_measure, ends),
     steel_area_surplus=lambda silica, steel, load: (
-        steel.at(load, steel.A_t) / silica.at(load, silica.A_t) - 1
+        steel.value_at(load, steel.A_t) / silica.value_at(load, silica.A_t) - 1
     ),
 )
 
@@ -91,13 +91,15 @@ def area_by_size(
 ) -> Measurement:
     pairs = product(materials, pairwise(x_a))
     every = [[curves(m, sigma, x) for x in pair] for m, pair in pairs]
-    return Measurement.of(max(_growth(large, small) for small, large in every))
+    return Measurement.from_values(max(_growth(large, small) for small, large in every))
 
 
 @measure
 def area_by_roughness(curves: Curves, material: str, sigma: list[float], x_a: float) -> Measurement:
     row = [curves(material, s, x_a) for s in sigma]
-    return Measurement.of(max(_growth(rougher, smoother) for smoother, rougher in pairwise(row)))
+    return Measurement.from_values(
+        max(_growth(rougher, smoother) for smoother, rougher in pairwise(row))
+    )
 
 
 @measure
@@ -105,7 +107,7 @@ def largest_area_ratio(
     curves: Curves, material: str, sigma: list[float], x_a: list[float]
 ) -> Measurement:
     rows = [[curves(material, s, x) for x in x_a] for s in sigma]
-    return Measurement.of(max(_growth(one, other) for one, other in rows))
+    return Measurement.from_values(max(_growth(one, other) for one, other in rows))
 
 
 def _areas(
@@ -113,7 +115,7 @@ def _areas(
 ) -> list[float]:
     """Areas at a load of every roughness and, one after the other, every size."""
     found = [curves(material, s, x) for s, x in product(sigma, x_a)]
-    return [curve.at(load, curve.A_t) for curve in found]
+    return [curve.value_at(load, curve.A_t) for curve in found]
 
 
 @measure
@@ -121,7 +123,7 @@ def area_between_roughnesses(
     curves: Curves, material: str, sigma: list[float], x_a: float, load: float
 ) -> Measurement:
     one, other = _areas(curves, material, sigma, [x_a], load)
-    return Measurement.of(one / other)
+    return Measurement.from_values(one / other)
 
 
 @measure
@@ -129,7 +131,7 @@ def area_between_sizes(
     curves: Curves, material: str, sigma: float, x_a: list[float], load: float
 ) -> Measurement:
     one, other = _areas(curves, material, [sigma], x_a, load)
-    return Measurement.of(one / other)
+    return Measurement.from_values(one / other)
 
 
 def _gaps(
@@ -147,7 +149,7 @@ def gap_ratio(
     smooth, rough = _gaps(curves, material, sigma, x_a, load)
     if rough <= 0:
         return Measurement.absent("on the rougher surface the large particles cost no area")
-    return Measurement.of(smooth / rough)
+    return Measurement.from_values(smooth / rough)
 
 
 @measure
@@ -184,7 +186,7 @@ def _onset(c: Curve) -> Measurement:
     if not len(touching):
         return Measurement.absent("the particles never touch")
     note = "already at the lowest load" if touching[0] == 0 else ""
-    return Measurement.of(c.F[touching[0]], note=note)
+    return Measurement.from_values(c.F[touching[0]], note=note)
 
 
 def _modes(c: Curve) -> Measurement:
@@ -195,7 +197,7 @@ def _modes(c: Curve) -> Measurement:
     s_s = second <= RANGE[1]
     missing = [name for name, met in (("p-s", p_s), ("hybrid", hybrid), ("s-s", s_s)) if not met]
     note = f"no {' and no '.join(missing)}" if missing else ""
-    return Measurement.of(p_s + hybrid + s_s, note=note)
+    return Measurement.from_values(p_s + hybrid + s_s, note=note)
 
 
 add_measures(
@@ -203,7 +205,7 @@ add_measures(
     smallest_asperity_share=lambda c: np.min(c.asperity_share[inside(c)]),
     largest_particle_share=lambda c: np.max(c.particle_share[inside(c)]),
     mean_particle_share=lambda c, loads: np.mean(c.particle_share[inside(c, loads)]),
-    particle_share_at=lambda c, at: tuple(c.at(load, c.particle_share) for load in at),
+    particle_share_at=lambda c, at: tuple(c.value_at(load, c.particle_share) for load in at),
     particle_share_step=_largest_step,
     particle_onset=_onset,
     mode_sequence=_modes,

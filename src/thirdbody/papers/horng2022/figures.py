@@ -241,7 +241,9 @@ def _separation(starred: bool, name: str, curves: Curves) -> Panel:
     lines = []
     for sigma in ROUGHNESSES:
         for material in BOTH:
-            states = [curves.at(SEPARATION_LOAD, material, sigma, x) for x in SEPARATION_SIZES]
+            states = [
+                curves.state_at(SEPARATION_LOAD, material, sigma, x) for x in SEPARATION_SIZES
+            ]
             y = np.array([s.d_star[0] if starred else 1e9 * s.d[0] for s in states])
             x = np.array(SEPARATION_SIZES, dtype=float)
             lines.append(Line(material, sigma, np.nan, x, (y,), by=sigma))

@@ -68,4 +68,4 @@ def all_of(
         held += good
         if not good:
             failed.append(f"{measure.replace('_', ' ')} = {extra.text}")
-    return Measurement.of(held, note=f"not: {', '.join(failed)}" if failed else "")
+    return Measurement.from_values(held, note=f"not: {', '.join(failed)}" if failed else "")

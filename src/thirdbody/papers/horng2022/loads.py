@@ -30,7 +30,7 @@ Load = Callable[[Curve], float]
 
 # ------------------------------------------------------------------ one contact
 def _measured_load(value: float, why: str) -> Measurement:
-    return Measurement.of(value) if math.isfinite(value) else Measurement.absent(why)
+    return Measurement.from_values(value) if math.isfinite(value) else Measurement.absent(why)
 
 
 def _first(c: Curve) -> Measurement:
@@ -43,14 +43,14 @@ def _peak(c: Curve) -> Measurement:
     peak = interior_peak_of(c, turns=True)
     if peak is None:
         return Measurement.absent(NO_PEAK)
-    return Measurement.of(peak[1], note=f"at F* = {peak[0]:.2e}")
+    return Measurement.from_values(peak[1], note=f"at F* = {peak[0]:.2e}")
 
 
 def _share_past_turning_point(c: Curve, factor: float) -> float | Measurement:
     load = turning_load(c)
     if math.isnan(load):
         return Measurement.absent(NO_PEAK)
-    return c.at(factor * load, c.load_share)
+    return c.value_at(factor * load, c.load_share)
 
 
 add_measures(
@@ -78,7 +78,7 @@ def turning_point_confined(
 
     wrong = [x for x in without if turns(x)] + [x for x in with_peak if not turns(x)]
     note = f"not so: {', '.join(f'{x:g} nm' for x in wrong)}" if wrong else ""
-    return Measurement.of(len(without) + len(with_peak) - len(wrong), note=note)
+    return Measurement.from_values(len(without) + len(with_peak) - len(wrong), note=note)
 
 
 # ------------------------------------------------------------------ orders
@@ -125,7 +125,7 @@ def _silica_over_steel(
     found = [[load(curves(m, *pair)) for m in (SILICA, STEEL)] for pair in pairs]
     if not all(math.isfinite(each) for pair in found for each in pair):
         return Measurement.absent(why)
-    return Measurement.of(*(silica / steel for silica, steel in found))
+    return Measurement.from_values(*(silica / steel for silica, steel in found))
 
 
 MEASURES |= {

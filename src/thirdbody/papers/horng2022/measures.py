@@ -144,7 +144,7 @@ def extreme(values: Sequence[float], largest: bool, what: str = "") -> Measureme
     value = max(values) if largest else min(values)
     if math.isinf(value):
         return Measurement((1e9,), "one of the loads lies beyond the range")
-    return Measurement.of(value)
+    return Measurement.from_values(value)
 
 
 # -------------------------------------------------------------------------- rows of measures
@@ -154,8 +154,8 @@ def ends(values: ArrayLike) -> tuple[float, float]:
 
 
 def _measurement(found: Any) -> Measurement:
-    """Numbers as a measurement; one that is known to be absent stays so."""
-    return found if isinstance(found, Measurement) else Measurement.of(*np.ravel(found))
+    """Measurement of these numbers; one that is known to be absent stays so."""
+    return found if isinstance(found, Measurement) else Measurement.from_values(*np.ravel(found))
 
 
 def add_measures(family: Callable[..., Measurement], **values: Value) -> None:

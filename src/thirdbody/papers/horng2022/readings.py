@@ -273,7 +273,7 @@ class Curve:
         """A_e,t*, A_ep,t* or A_p,t* for the regime "e", "ep" or "p"."""
         return getattr(self, f"A_{regime}") / self.A_t
 
-    def at(self, load: float, values: Array) -> float:
+    def value_at(self, load: float, values: Array) -> float:
         """One of the curve's columns at a load, between grid points linear in log F*."""
         return float(np.interp(np.log(load), np.log(self.F), values))
 
@@ -307,7 +307,7 @@ class Curves:
         """The curve without particles."""
         return self(STEEL, sigma, 0)
 
-    def at(self, load: float, material: str, sigma: float, x_a: float) -> Curve:
+    def state_at(self, load: float, material: str, sigma: float, x_a: float) -> Curve:
         """The single state under one load, kept."""
         key = (material if x_a else "", sigma, x_a, load)
         if key not in self._known:

@@ -31,10 +31,10 @@ def regime_share_step(curves: Curves, sigma: float, regime: str, extreme: str) -
     bare = curves.two_body(sigma)
     share = bare.share(regime)[inside(bare)]
     steps = share[1:] / share[:-1]
-    return Measurement.of(steps.max() if extreme == "largest" else steps.min())
+    return Measurement.from_values(steps.max() if extreme == "largest" else steps.min())
 
 
-add_measures(curve_measure, plastic_share_at=lambda c, load: c.at(load, c.share("p")))
+add_measures(curve_measure, plastic_share_at=lambda c, load: c.value_at(load, c.share("p")))
 add_measures(
     partial(extreme_over_materials, max),
     largest_elastic_share=lambda c, bare: np.max(c.share("e")[inside(c)]),
@@ -66,15 +66,15 @@ def regime_by_size_breach(
     for material, (small, large) in product(materials, pairwise(x_a)):
         one, two = curves(material, sigma, small), curves(material, sigma, large)
         for regime, sign in GAINED.items():
-            gained = two.at(load, two.share(regime)) - one.at(load, one.share(regime))
+            gained = two.value_at(load, two.share(regime)) - one.value_at(load, one.share(regime))
             breach.append(sign * gained)
-    return Measurement.of(max(breach))
+    return Measurement.from_values(max(breach))
 
 
 # ------------------------------------------------------------------ separation
 def _change(c: Curve, loads: list[float]) -> float:
     """Relative change of d* between two loads."""
-    before, after = (c.at(load, c.d_star) for load in loads)
+    before, after = (c.value_at(load, c.d_star) for load in loads)
     return after / before - 1
 
 
@@ -92,7 +92,7 @@ def _area_lost(c: Curve, growth: float) -> float | Measurement:
 
 add_measures(
     curve_measure,
-    separation_at=lambda c, load: c.at(load, c.d_star),
+    separation_at=lambda c, load: c.value_at(load, c.d_star),
     separation_change=_change,
     largest_separation_change=lambda c, loads: abs(_change(c, loads)),
     area_lost_for_separation=_area_lost,
@@ -104,7 +104,7 @@ add_measures(
 add_measures(
     partial(material_measure, min),
     separation_material_ratio=lambda silica, steel, load: (
-        silica.at(load, silica.d) / steel.at(load, steel.d)
+        silica.value_at(load, silica.d) / steel.value_at(load, steel.d)
     ),
 )
 add_measures(
@@ -118,12 +118,12 @@ def separation_steps(
     curves: Curves, material: str, sigma: list[float], x_a: list[float], load: float
 ) -> Measurement:
     rows = [[curves(material, s, x) for x in x_a] for s in sigma]
-    d = np.array([[curve.at(load, curve.d) for curve in row] for row in rows])
-    return Measurement.of(min(np.min(d[1:] / d[:-1]), np.min(d[:, 1:] / d[:, :-1])))
+    d = np.array([[curve.value_at(load, curve.d) for curve in row] for row in rows])
+    return Measurement.from_values(min(np.min(d[1:] / d[:-1]), np.min(d[:, 1:] / d[:, :-1])))
 
 
 @measure
 def separation_step(curves: Curves, sigma: float) -> Measurement:
     bare = curves.two_body(sigma)
     d = bare.d_star[inside(bare)]
-    return Measurement.of(np.max(d[1:] / d[:-1]))
+    return Measurement.from_values(np.max(d[1:] / d[:-1]))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 
 from .row import Band, row_of
 
@@ -14,12 +15,12 @@ DENSITIES = (0.0, 1e9, 1e10, 1e11)
 PRESSURES = (5e6, 100e6)
 SHEARED = (30e6, 100e6, 300e6)
 """Shear strength of asperities and of particles [Pa]."""
-OTHERS = (("off", "zmc"), ("table", "field"), ("off", "field"))
+OTHERS: tuple[tuple[Deep, str], ...] = (("off", "zmc"), ("table", "field"), ("off", "field"))
 """Laws beside those that are the default: of particles, and of asperities."""
 
 
 def friction(
-    density: float, sheared: float = 100e6, laws: tuple[str, str] = ("table", "zmc")
+    density: float, sheared: float = 100e6, laws: tuple[Deep, str] = ("table", "zmc")
 ) -> tuple[float, float]:
     """Coefficient of friction at both of ``PRESSURES`` with so many particles [1/m²].
 
@@ -56,13 +57,15 @@ def _change() -> Band:
         density: [heavy / light for light, heavy in (friction(density, tau) for tau in SHEARED)]
         for density in DENSITIES
     }
-    words = ", ".join(f"{density:g} per m²: {Band.of(one).text}" for density, one in ratios.items())
+    words = ", ".join(
+        f"{density:g} per m²: {Band.from_values(one).text}" for density, one in ratios.items()
+    )
     others = []
     for laws in OTHERS:
         found = [friction(density, tau, laws) for density in DENSITIES for tau in SHEARED]
-        one = Band.of([heavy / light for light, heavy in found])
+        one = Band.from_values([heavy / light for light, heavy in found])
         others.append(f'deep = "{laws[0]}" with {laws[1]}: {one.text}')
-    return Band.of(list(ratios.values()), "; ".join([words, *others]))
+    return Band.from_values(list(ratios.values()), "; ".join([words, *others]))
 
 
 ROW = row_of("alavi2025", {"falls": _change})

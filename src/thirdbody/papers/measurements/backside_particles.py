@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 from thirdbody.systems.plate_over_particle import PlateOverParticle
 
 from .row import Band, row_of
@@ -15,7 +16,7 @@ PARTICLES = ("SiO2", "Al2O3")
 
 
 def chuck(
-    thickness: float = 725e-6, pressure: float = 1e5, deep: str = "table"
+    thickness: float = 725e-6, pressure: float = 1e5, deep: Deep = "table"
 ) -> PlateOverParticle:
     """A silicon wafer of this thickness [m] under this pressure [Pa] on steel.
 
@@ -36,15 +37,17 @@ def chuck(
 
 
 def _width() -> Band:
-    return Band.of([2 * chuck(t, p).bump(100e-9).radius for t in THICKNESSES for p in PRESSURES])
+    return Band.from_values(
+        [2 * chuck(t, p).bump(100e-9).radius for t in THICKNESSES for p in PRESSURES]
+    )
 
 
 def _height() -> Band:
-    off = Band.of(_heights("off"))
-    return Band.of(_heights("table"), f'particles of 1 to 20 µm; deep = "off": {off.text}')
+    off = Band.from_values(_heights("off"))
+    return Band.from_values(_heights("table"), f'particles of 1 to 20 µm; deep = "off": {off.text}')
 
 
-def _heights(deep: str) -> list[float]:
+def _heights(deep: Deep) -> list[float]:
     return [
         chuck(t, p, deep).over(x, tb.materials[name]).height / x
         for t in THICKNESSES

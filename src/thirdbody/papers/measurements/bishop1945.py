@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 
 from .row import Band, row_of
 
@@ -22,7 +23,7 @@ FULL = 2.84
 
 
 @cache
-def pressure(depth: float, deep: str) -> tuple[float, ...]:
+def pressure(depth: float, deep: Deep) -> tuple[float, ...]:
     """Mean pressure over Y under a rigid sphere, over moduli and friction.
 
     Parameters
@@ -48,9 +49,9 @@ def pressure(depth: float, deep: str) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _rise(deep: str) -> Band:
+def _rise(deep: Deep) -> Band:
     pairs = zip(pressure(0.95, deep), pressure(0.4, deep), strict=True)
-    return Band.of([deeper / shallow for deeper, shallow in pairs])
+    return Band.from_values([deeper / shallow for deeper, shallow in pairs])
 
 
 def _band() -> Band:
@@ -59,8 +60,8 @@ def _band() -> Band:
 
 
 def _most() -> Band:
-    off = Band.of(pressure(0.95, "off"))
-    return Band.of(pressure(0.95, "table"), f'deep = "off": {off.text}')
+    off = Band.from_values(pressure(0.95, "off"))
+    return Band.from_values(pressure(0.95, "table"), f'deep = "off": {off.text}')
 
 
 ROW = row_of("bishop1945", {"rises": _band, "limit": _most})

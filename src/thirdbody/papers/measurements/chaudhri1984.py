@@ -73,9 +73,9 @@ def _over_materials(name: str, what: str) -> list[float]:
 
 def _band(what: str) -> Band:
     others = "; ".join(
-        f"{name}: {Band.of(_over_materials(name, what)).text}" for name in list(LAWS)[1:]
+        f"{name}: {Band.from_values(_over_materials(name, what)).text}" for name in list(LAWS)[1:]
     )
-    return Band.of(_over_materials("computed (default)", what), others)
+    return Band.from_values(_over_materials("computed (default)", what), others)
 
 
 def _panel() -> Panel:

@@ -12,7 +12,7 @@ RADII, CONDUCTIVITIES = (32e-9, 36e-9, 40e-9), (1.0, 1.05, 1.1)
 
 
 def _resistance() -> Band:
-    return Band.of(
+    return Band.from_values(
         [float(spot_resistance(r, rho_1=1 / k, rho_2=1 / k)) for r in RADII for k in CONDUCTIVITIES]
     )
 

@@ -56,7 +56,7 @@ def area(load: Array, breadth: float = BREADTH) -> Array:
     return np.asarray(tb.solve(contact, pressure=load * contact.E_ss).A_t)
 
 
-def _at(load: float) -> Band:
+def _band_at(load: float) -> Band:
     found = float(area(np.array([load]))[0]) / COMPUTED_AREA[load]
     other = float(persson_area(load, E_star=1.0, g=1.0)) / COMPUTED_AREA[load]
     return Band(found, found, found, f"Persson: {other:.2f}")
@@ -92,7 +92,7 @@ ROW = row_of(
             COMPUTED,
             "model over boundary elements",
             {"kind": "relative", "value": 1.0, "of": 0.2},
-            lambda load=load: _at(load),  # type: ignore[misc]
+            lambda load=load: _band_at(load),  # type: ignore[misc]
             remark="Within 20 %, chosen before",
         )
         for load, known in COMPUTED_AREA.items()

@@ -7,6 +7,7 @@ from functools import cache, partial
 import numpy as np
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 
 from .chaudhri1984 import HARD, PLATEN, STIFF
 from .row import Band, row_of
@@ -20,7 +21,7 @@ SQUASHED = (0.2, 0.3, 0.4)
 
 
 @cache
-def over_truncation(squash: float, deep: str) -> tuple[float, ...]:
+def over_truncation(squash: float, deep: Deep) -> tuple[float, ...]:
     """Contact area over that of the sphere cut off by the flat, over metals and friction.
 
     Parameters
@@ -49,8 +50,8 @@ def over_truncation(squash: float, deep: str) -> tuple[float, ...]:
 
 
 def _band(squash: float) -> Band:
-    off = Band.of(over_truncation(squash, "off"))
-    return Band.of(over_truncation(squash, "table"), f'deep = "off": {off.text}')
+    off = Band.from_values(over_truncation(squash, "off"))
+    return Band.from_values(over_truncation(squash, "table"), f'deep = "off": {off.text}')
 
 
 ROW = row_of("flattened_area", {f"area-{squash:g}": partial(_band, squash) for squash in SQUASHED})

@@ -38,8 +38,8 @@ def _over(what: str) -> Band:
             }[what].tolist()
         return found
 
-    other = Band.of(values(tb.asperity.JG(nu=0.3)))
-    return Band.of(values(default), f"Jackson–Green: {other.text}")
+    other = Band.from_values(values(tb.asperity.JG(nu=0.3)))
+    return Band.from_values(values(default), f"Jackson–Green: {other.text}")
 
 
 ROW = row_of(

@@ -33,5 +33,6 @@ def share(ratio: float) -> list[float]:
 
 
 ROW = row_of(
-    "kong2022", {"none": lambda: Band.of(share(20.0)), "rolls": lambda: Band.of(share(3.0))}
+    "kong2022",
+    {"none": lambda: Band.from_values(share(20.0)), "rolls": lambda: Band.from_values(share(3.0))},
 )

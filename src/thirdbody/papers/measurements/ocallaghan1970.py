@@ -30,4 +30,6 @@ def most(breadth: float) -> float:
     return float(LOADS[int(np.argmax(found))])
 
 
-ROW = row_of("ocallaghan1970", {"spots": lambda: Band.of([most(each) for each in BREADTHS])})
+ROW = row_of(
+    "ocallaghan1970", {"spots": lambda: Band.from_values([most(each) for each in BREADTHS])}
+)

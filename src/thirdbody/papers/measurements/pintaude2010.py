@@ -39,7 +39,7 @@ def embeds_from(squeeze: float, friction: float) -> float:
 
 def _band() -> Band:
     found = [embeds_from(squeeze, m) for squeeze in SQUEEZES for m in FRICTIONS]
-    return Band.of(found, 'deep = "off": 1')
+    return Band.from_values(found, 'deep = "off": 1')
 
 
 ROW = row_of("pintaude2010", {"ratio": _band})

@@ -42,7 +42,7 @@ class Band:
 
     Examples
     --------
-    >>> Band.of([0.9, 0.95, 1.0]).text
+    >>> Band.from_values([0.9, 0.95, 1.0]).text
     '0.95 (0.9 … 1)'
     """
 
@@ -52,7 +52,7 @@ class Band:
     note: str = ""
 
     @classmethod
-    def of(cls, values: object, note: str = "") -> Band:
+    def from_values(cls, values: object, note: str = "") -> Band:
         """From predictions over the corners of the inputs; the middle one is the number."""
         import numpy as np
 
@@ -68,7 +68,7 @@ class Band:
 
 @dataclass(frozen=True)
 class Input:
-    """One input of a prediction: what, its value or range with unit, and where that is from."""
+    """One input of a prediction: its meaning, value or range with unit, and source."""
 
     what: str
     value: str
@@ -86,7 +86,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Statement:
-    """What was measured, how well that is known, and what the model says of it.
+    """One measured statement, how well it is known, and the model's prediction.
 
     ``undecided`` is the reason why even a number within the limits would decide nothing.
     """
@@ -127,7 +127,7 @@ def statement(
 
 @dataclass(frozen=True)
 class Row:
-    """One measurement: what was done, what is known of it, and what the model says."""
+    """One measurement: what was done, how well it is known, and the model's predictions."""
 
     name: str
     title: str

@@ -39,4 +39,4 @@ def exponents() -> list[float]:
     return out
 
 
-ROW = row_of("thomas1972", {"exponent": lambda: Band.of(exponents())})
+ROW = row_of("thomas1972", {"exponent": lambda: Band.from_values(exponents())})

@@ -80,7 +80,7 @@ def _maximum() -> Band:
     found = [max(each["wear"]) / max(each["wear"][0], each["wear"][-1]) for each in _every()]
     place = [DENSITIES[int(np.argmax(each["wear"]))] for each in _every()]
     share = [each["share"][int(np.argmax(each["wear"]))] for each in _every()]
-    return Band.of(
+    return Band.from_values(
         found,
         f"at {min(place):.1e} to {max(place):.1e} particles per m², where particles carry "
         f"{min(share):.2f} to {max(share):.2f} of the load",
@@ -89,7 +89,7 @@ def _maximum() -> Band:
 
 def _rolling() -> Band:
     """Rolling share at the most particles, less that at the fewest."""
-    return Band.of([each["rolling"][-1] - each["rolling"][0] for each in _every()])
+    return Band.from_values([each["rolling"][-1] - each["rolling"][0] for each in _every()])
 
 
 def turning(pressure: float, coefficients: tuple[float, float, float]) -> tuple[float, float]:
@@ -127,8 +127,10 @@ def _line() -> Band:
         (one, share), (other, most) = (turning(pressure, given) for pressure in PRESSURES)
         ratios.append(PRESSURES[1] / other / (PRESSURES[0] / one))
         particles.append(ratios[-1] * most / share)
-    told = Band.of(particles).text
-    return Band.of(ratios, f"{told} of the load that is on particles; asperities carry the rest")
+    told = Band.from_values(particles).text
+    return Band.from_values(
+        ratios, f"{told} of the load that is on particles; asperities carry the rest"
+    )
 
 
 def _panel() -> Panel:

@@ -35,5 +35,6 @@ def rise(sigma: float, R: float, H: float) -> float:
 
 
 ROW = row_of(
-    "weber2018", {"rise": lambda: Band.of([rise(*face, H) for face in FACES for H in HARD])}
+    "weber2018",
+    {"rise": lambda: Band.from_values([rise(*face, H) for face in FACES for H in HARD])},
 )

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import thirdbody as tb
+from thirdbody.laws.particle.series import Deep
 from thirdbody.systems.contact_probability import ContactProbability
 
 from ..panels import Line, Panel
@@ -26,11 +27,11 @@ LOADS = np.geomspace(0.1, 8, 121)
 """Loads over that of a fully embedded particle."""
 LEVELS = (1e-6, 1e-5, 1e-4)
 """F*."""
-OTHERS = (("off", "zmc"), ("table", "field"))
+OTHERS: tuple[tuple[Deep, str], ...] = (("off", "zmc"), ("table", "field"))
 """Laws beside those that are the default: of particles, and of asperities."""
 
 
-def closing(number: float, spread: float = 1.0, deep: str = "table") -> ContactProbability:
+def closing(number: float, spread: float = 1.0, deep: Deep = "table") -> ContactProbability:
     """Dust of which so many particles are in the way on average.
 
     Parameters
@@ -66,7 +67,7 @@ def closing(number: float, spread: float = 1.0, deep: str = "table") -> ContactP
 
 
 @cache
-def _curve(number: float, spread: float, deep: str = "table") -> Array:
+def _curve(number: float, spread: float, deep: Deep = "table") -> Array:
     found = closing(number, spread, deep)
     out: Array = found.probability(LOADS * found.threshold)
     return out
@@ -74,14 +75,14 @@ def _curve(number: float, spread: float, deep: str = "table") -> Array:
 
 def _sharpest() -> Band:
     """Area W/H over πx²/4 where the probability changes most with ln W."""
-    off = Band.of(_sharpest_areas("off"))
-    return Band.of(
+    off = Band.from_values(_sharpest_areas("off"))
+    return Band.from_values(
         _sharpest_areas("table"),
         'N of 0.25 to 3, equal sizes to a geometric deviation of 1.2; deep = "off": ' + off.text,
     )
 
 
-def _sharpest_areas(deep: str) -> list[float]:
+def _sharpest_areas(deep: Deep) -> list[float]:
     found = []
     for spread in SPREADS:
         for number in NUMBERS:
@@ -93,7 +94,7 @@ def _sharpest_areas(deep: str) -> list[float]:
     return found
 
 
-def share(level: float, ratio: Array, laws: tuple[str, str] = ("table", "zmc")) -> Array:
+def share(level: float, ratio: Array, laws: tuple[Deep, str] = ("table", "zmc")) -> Array:
     """Share of the load on hard particles at F* = ``level`` over x/σ.
 
     ``laws``: ``deep`` of the particles, and the law of the asperities.
@@ -122,12 +123,13 @@ def share(level: float, ratio: Array, laws: tuple[str, str] = ("table", "zmc")) 
 def _roughness() -> Band:
     """σ/x at which the particles' share falls most with ln σ."""
     others = [
-        f'deep = "{laws[0]}" with {laws[1]}: {Band.of(_steepest(laws)).text}' for laws in OTHERS
+        f'deep = "{laws[0]}" with {laws[1]}: {Band.from_values(_steepest(laws)).text}'
+        for laws in OTHERS
     ]
-    return Band.of(_steepest(("table", "zmc")), "; ".join(["F* of 1e-6 to 1e-4", *others]))
+    return Band.from_values(_steepest(("table", "zmc")), "; ".join(["F* of 1e-6 to 1e-4", *others]))
 
 
-def _steepest(laws: tuple[str, str]) -> list[float]:
+def _steepest(laws: tuple[Deep, str]) -> list[float]:
     ratio = np.geomspace(0.3, 6.0, 61)
     found = []
     for level in LEVELS:
@@ -160,7 +162,9 @@ ROW = row_of(
     {
         "threshold": _sharpest,
         "roughness": _roughness,
-        "manner": lambda: Band.of([-np.log(closing(N).probability(0.0)) / N for N in NUMBERS]),
+        "manner": lambda: Band.from_values(
+            [-np.log(closing(N).probability(0.0)) / N for N in NUMBERS]
+        ),
     },
     panels=(_panel,),
 )

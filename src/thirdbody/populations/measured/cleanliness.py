@@ -20,7 +20,7 @@ import re
 import tomllib
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -66,10 +66,12 @@ DUSTS = ("A1", "A2", "A3", "A4", "A3-lot")
 CLASSES = ("00", "0", *(str(i) for i in range(1, 13)))
 """Classes of NAS 1638; SAE AS4059 has 000 besides."""
 
-LEVELS = ("low", "middle", "high")
+Level = Literal["low", "middle", "high"]
+LEVELS = get_args(Level)
 """Where in its range each number of an ISO 4406 code is taken."""
 
-LIMITS = ("coarse", "middle", "fine")
+Limit = Literal["coarse", "middle", "fine"]
+LIMITS = get_args(Limit)
 """Where between its printed limits a test dust is taken."""
 
 
@@ -213,7 +215,11 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
 
 @takes_units
 def suspension_of_iso4406(
-    code: str, *, level: str = "middle", smallest: float | None = None, largest: float | None = None
+    code: str,
+    *,
+    level: Level = "middle",
+    smallest: float | None = None,
+    largest: float | None = None,
 ) -> tuple[float, Distribution]:
     r"""Particles per volume n [1/m³] and their sizes, from an ISO 4406 code.
 
@@ -273,7 +279,7 @@ def suspension_of_iso4406(
     return sum(found.counts), found
 
 
-def _within(most: list[float], number: int, level: str) -> float:
+def _within(most: list[float], number: int, level: Level) -> float:
     """A count per volume inside the range of a code number."""
     high = most[number]
     low = most[number - 1] if number else 0.0
@@ -495,7 +501,9 @@ def dust_table(name: str) -> dict[str, Any]:
 
 
 @takes_units
-def dust_sizes(name: str, *, limit: str = "middle", smallest: float | None = None) -> Distribution:
+def dust_sizes(
+    name: str, *, limit: Limit = "middle", smallest: float | None = None
+) -> Distribution:
     r"""Sizes by number of an Arizona test dust, ISO 12103-1.
 
     The standard prints between which limits the volume below a size lies. Between two sizes the

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 from ...errors import InvalidValue, Problem
 from ...quantities.carried import takes_units
@@ -12,6 +12,9 @@ from ...quantities.units import not_among, say, to_si
 from ..distributions import Distribution
 
 __all__ = ["OIL_DENSITY", "Concentration", "concentration", "particles_in"]
+
+Amount = Literal["number", "mass", "volume", "mass per volume"]
+"""What a concentration counts."""
 
 OIL_DENSITY = 870.0
 """Density of a mineral lubricating oil [kg/m³], where none is given; they lie around 850 to 900."""
@@ -28,21 +31,23 @@ class Concentration(NamedTuple):
 
     amount: float
     """n [1/m³], w [1], φ [1] or c [kg/m³]."""
-    by: str
+    by: Amount
     """Which of them: "number", "mass", "volume" or "mass per volume"."""
 
 
-_KINDS = {
-    "mass": r"(?:wt|mass|m|w)[ .-]?%|%[ ]?(?:wt|w/w|by (?:mass|weight)|mass)",
-    "volume": r"(?:vol|v)[ .-]?%|%[ ]?(?:vol|v/v|by volume|volume)",
-    "mass ppm": r"ppm(?:[ ]?(?:wt|w|m|mass|by mass))?|mg/kg",
-    "volume ppm": r"ppm[ ]?(?:vol|v|by volume)|ppmv",
-}
+_PARTS: tuple[tuple[Amount, float, str], ...] = (
+    ("mass", 100, r"(?:wt|mass|m|w)[ .-]?%|%[ ]?(?:wt|w/w|by (?:mass|weight)|mass)"),
+    ("volume", 100, r"(?:vol|v)[ .-]?%|%[ ]?(?:vol|v/v|by volume|volume)"),
+    ("mass", 1e6, r"ppm(?:[ ]?(?:wt|w|m|mass|by mass))?|mg/kg"),
+    ("volume", 1e6, r"ppm[ ]?(?:vol|v|by volume)|ppmv"),
+)
+"""Parts of a whole: of what, how many make the whole, and how their unit is written."""
+_DENSITIES: tuple[tuple[Amount, str], ...] = (("number", "1/m^3"), ("mass per volume", "kg/m^3"))
 _SAID = '"0.1 wt%", "0.02 vol%", "50 ppm" (by mass), "10 mg/L" or "1e6 / mL"'
 
 
 @takes_units
-def concentration(value: float | str, by: str = "number") -> Concentration:
+def concentration(value: float | str, by: Amount = "number") -> Concentration:
     """A concentration as it is written: "0.1 wt%", "50 ppm", "1e6 / mL".
 
     Parameters
@@ -67,9 +72,8 @@ def concentration(value: float | str, by: str = "number") -> Concentration:
     >>> concentration("0.1 wt%"), concentration("5000 / mL")
     (Concentration(amount=0.001, by='mass'), Concentration(amount=5000000000.0, by='number'))
     """
-    kinds = ("number", "mass", "volume", "mass per volume")
-    if by not in kinds:
-        raise InvalidValue(not_among("by", by, kinds))
+    if by not in get_args(Amount):
+        raise InvalidValue(not_among("by", by, get_args(Amount)))
     if isinstance(value, str):
         amount, by = _read(value)
     else:
@@ -84,19 +88,18 @@ def concentration(value: float | str, by: str = "number") -> Concentration:
     return Concentration(amount, by)
 
 
-def _read(text: str) -> tuple[float, str]:
+def _read(text: str) -> tuple[float, Amount]:
     number = re.match(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*$", text)
     if not number or not number[2]:
         cause = "" if number is None else " has no unit:"
         raise InvalidValue(f"{say(text)}{cause} must be a concentration, {_SAID}")
     amount, unit = float(number[1]), number[2]
-    for kind, pattern in _KINDS.items():
+    for kind, whole, pattern in _PARTS:
         if re.fullmatch(pattern, unit, re.IGNORECASE):
-            name, _, ppm = kind.partition(" ")
-            return amount / (1e6 if ppm else 100), name
+            return amount / whole, kind
     if unit == "%":
         raise InvalidValue(f'{say(text)} is of mass or of volume? write "wt%" or "vol%"')
-    for kind, si in (("number", "1/m^3"), ("mass per volume", "kg/m^3")):
+    for kind, si in _DENSITIES:
         try:
             return to_si(text, si), kind
         except InvalidValue:

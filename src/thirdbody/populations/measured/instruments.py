@@ -81,7 +81,7 @@ def read(
 def _told_already(
     name: str, unit: str | None, scale: float | None, steps: tuple[float, ...] | None
 ) -> None:
-    """Refuse what is given beside what the source tells itself."""
+    """Refuse options that the file states itself."""
     if unit is not None and scale is not None:
         raise InvalidValue(f"{name} tells its unit, {unit}, itself; leave unit out")
     if unit is not None and steps is not None:
@@ -197,7 +197,7 @@ def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
 def _lacking(
     channel: Any, scale: float | None, steps: tuple[float, ...] | None, path: Path
 ) -> dict[str, object]:
-    """What has to be told to the reader because the file does not hold it."""
+    """Names of options that the file does not hold and the caller must give."""
     out: dict[str, object] = {}
     sizes, unit = channel.physical_sizes, channel.unit
     points = channel.nb_grid_pts

@@ -130,7 +130,7 @@ def _above(sizes: Distribution, smallest: float | None) -> float:
 def _reweight(
     sizes: Distribution, power: int, smallest: float | None, weighting: str
 ) -> Distribution:
-    """Sections of power laws, each with the number that its weight stands for."""
+    """Sections of power laws with numbers that follow from their weights."""
     lo, hi = sizes.support
     if isinstance(sizes, (LogNormal, Weibull)):
         hi = float(sizes.ppf(1 - _LEFT_OUT))

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 __all__ = ["Topography"]
 
 Method = Literal["differences", "spectrum"]
-METHODS = ("differences", "spectrum")
+METHODS = get_args(Method)
 
 LEAST_CUTOFF = 4
 """Points per cut-off below which a Gaussian filter has no meaning on the grid."""
@@ -488,7 +488,7 @@ class Topography:
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
-        """What a user of these numbers should know, one sentence each."""
+        """Notes for the user of these numbers, one sentence each."""
         out = list(self.notes)
         if unsure := [*self._bandwidth(), *self._few()]:
             out.append("; ".join(unsure))

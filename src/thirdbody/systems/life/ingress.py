@@ -69,7 +69,12 @@ class Ingress(Value):
 
     @classmethod
     def of_dust(
-        cls, grade: str, *, rate: float | str, material: Material, limit: str = "middle"
+        cls,
+        grade: str,
+        *,
+        rate: float | str,
+        material: Material,
+        limit: cleanliness.Limit = "middle",
     ) -> Self:
         """So much of a test dust per time.
 
@@ -139,7 +144,7 @@ class Ingress(Value):
         code: str,
         *,
         material: Material,
-        level: str = "middle",
+        level: cleanliness.Level = "middle",
         smallest: float | None = None,
         largest: float | None = None,
     ) -> Self:

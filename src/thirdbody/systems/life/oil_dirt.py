@@ -55,7 +55,7 @@ class OilDirt(Value):
         code: str,
         *,
         material: Material,
-        level: str = "middle",
+        level: cleanliness.Level = "middle",
         smallest: float | str | None = None,
         largest: float | str | None = None,
     ) -> Self:
@@ -84,7 +84,12 @@ class OilDirt(Value):
 
     @classmethod
     def of_dust(
-        cls, grade: str, *, material: Material, concentration: float | str, limit: str = "middle"
+        cls,
+        grade: str,
+        *,
+        material: Material,
+        concentration: float | str,
+        limit: cleanliness.Limit = "middle",
     ) -> Self:
         """A test dust in oil.
 

@@ -141,7 +141,8 @@ class ParticleCurve:
         return out
 
     def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
-        dents: Any = self.contact.outputs[-1]
+        dents = self.contact.outputs[-1]
+        assert isinstance(dents, Dents)
         with np.errstate(all="ignore"):
             return dents._dent_left(spots, side, self.contact).depth
 
@@ -259,7 +260,9 @@ class SurvivalCurve:
 
     def __init__(self, curve: ParticleCurve, strength: WeibullStrength, tops: Array):
         self.average, self.lowest = curve.average, curve.lowest
-        self.breakages = [Breakage.of(strength, curve.material, float(top)) for top in tops]
+        self.breakages = [
+            Breakage.of_material(strength, curve.material, float(top)) for top in tops
+        ]
         self.tension = self.breakages[0].tension(curve.one)
         low = self.average.sizes.support[0]
         kinks = [float(eps) for eps in self.tension.kinks]

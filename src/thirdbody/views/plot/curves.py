@@ -429,7 +429,7 @@ def _mark_load(ax: Axes, load: float, name: str, *, value: bool) -> None:
 
 
 def _mode_key(names: Sequence[str]) -> list[Patch]:
-    """What the colours of these bands mean."""
+    """Key of the colours of the bands of modes."""
     return [Patch(facecolor=MODE_COLOURS[name], edgecolor="0.3", label=name) for name in names]
 
 

@@ -130,7 +130,7 @@ def _draw(ax: Axes, panel: str, u: Any, columns: dict[str, Any], bands: list[Any
 
 
 def _name_regimes(ax: Axes, bands: list[Any]) -> None:
-    """The word of each regime above it; one without room goes to the end of the axis."""
+    """Write each regime above its band; a narrow one goes to the end of the axis."""
     width = np.log(bands[-1][1] / bands[0][0])
     for low, high, word in bands:
         place, side = np.sqrt(low * high), "center"

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
+from matplotlib.ticker import NullFormatter
 
 from ...equilibrium.solve import solve
 from ...equilibrium.words import MODES
@@ -117,6 +118,11 @@ def mode_map(
     _dress(ax, "ratio", "F_star", ylog=True)
     ax.grid(visible=False)
     ax.set_xlabel(r"Particle size over roughness $x_a/\sigma$ [1]")
+    # of less than two decades every tick would have a power of ten, one over the other
+    if sizes[-1] < 100 * sizes[0]:
+        marks = [float(f"{digit}e{power}") for power in range(-3, 4) for digit in (1, 2, 5)]
+        ax.set_xticks(marks, [f"{mark:g}" for mark in marks])
+        ax.xaxis.set_minor_formatter(NullFormatter())
     ax.set_xlim(sizes[0], sizes[-1])
     ax.set_ylim(loads[0], loads[-1])
     return ax

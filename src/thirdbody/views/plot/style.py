@@ -95,7 +95,7 @@ NO_PARTICLES = ("particles.diameter.mean", "particles.areal_density")
 
 
 class Curve(NamedTuple):
-    """One load curve: its legend, its columns by name, and whether it is two-body."""
+    """One load curve: legend, columns by name, and whether it is two-body."""
 
     label: str
     columns: dict[str, NDArray[Any]]

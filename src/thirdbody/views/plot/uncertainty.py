@@ -113,7 +113,7 @@ def tornado(
     at: int = 0,
     values: Mapping[str, tuple[float, float]] | None = None,
 ) -> Axes:
-    """What each input does alone to one result, from its 5th to its 95th percentile.
+    """Effect of each input alone on one result, from its 5th to its 95th percentile.
 
     Parameters
     ----------
@@ -195,13 +195,13 @@ def _ends() -> tuple[tuple[str, Any, str], ...]:
 def _ends_of_input(data: Propagation, label: str) -> list[str]:
     """The 5th and the 95th percentile of an input in words."""
     unit = _unit_of(data, label)
-    return [value_of(data.inputs[label].at(p), unit) for p in (0.05, 0.95)]
+    return [value_of(data.inputs[label].quantile(p), unit) for p in (0.05, 0.95)]
 
 
 def _bar(
     ax: Axes, row: int, ends: tuple[float, float], middle: float, words: Sequence[str]
 ) -> None:
-    """One input: from the middle to the result at each of its ends, which stand beside."""
+    """Bar of one input: from the middle to the result at each end, labelled with the end."""
     low, high = ends
     # where both ends lie on one side, the first stands left and the second right all the same
     sides = [-1, 1] if low < high or low == high else [1, -1]
@@ -256,7 +256,7 @@ def _output_label(of: str) -> str:
 
 
 def _input_label(label: str) -> str:
-    """What an input is called beside its bar; of several that move together, of all."""
+    """Label of an input beside its bar; of joined inputs, all names."""
     names = [name.strip() for name in label.split("+")]
     sides = {name.rpartition(".")[0]: name.rpartition(".")[2] for name in names}
     if set(sides) <= set(BODIES):

@@ -53,7 +53,7 @@ def figures_of(report: Found) -> list[str]:
 
 
 def first_figure(report: Found) -> tuple[Axes, str]:
-    """The figure that tells most, and what it shows: modes, of two bodies the area."""
+    """The most telling figure and its caption: modes, or the area of two bodies."""
     from .. import plot
 
     if report.contact.two_body:
@@ -137,7 +137,7 @@ def _each_population(report: Found, ax: Axes) -> None:
 
 
 def _place(*, left: float, above: float = 0.52) -> Axes:
-    """Axes with so much room [in] for what stands beside them, found without drawing twice."""
+    """Axes with this much room [in] for labels, found without drawing twice."""
     from matplotlib.figure import Figure
 
     width, height = DRAWING

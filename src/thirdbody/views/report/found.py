@@ -19,7 +19,7 @@ from ...study.one_surface import OneSurface
 
 @dataclass(frozen=True, kw_only=True)
 class Found:
-    """What a study found; every attribute as `Report` lists it."""
+    """Results of a study; every attribute as `Report` lists it."""
 
     study: Study
     result: StudyResult = field(repr=False)

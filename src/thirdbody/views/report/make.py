@@ -176,7 +176,7 @@ def _assess(
 def _slopes(
     contact: Contact, given: ForceLoad[float], progress: Callable[[str], None]
 ) -> Sensitivity | None:
-    """Of the load share, the area and the separation, to every input."""
+    """Elasticities of load share, area and separation to every input."""
     names = ["A_t", "h"]
     if not contact.two_body:
         names.insert(0, "particle_load_share")

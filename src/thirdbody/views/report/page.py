@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cached_property
 from html import escape
 
 from ...analysis.assessment import WORDS as ASSESSMENT_WORDS
@@ -15,10 +16,11 @@ from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
 from ...quantities.say import join_words, signed, value_of
+from ...study.oil_what_ifs import what_ifs_of_oil
 from ...version import __version__
+from .. import oil_words, state_words
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
-from ..oil_words import answer, filter_answer
 from .figures import figures_of
 from .found import Found
 from .sentences import answer_sentences, ranked_inputs, strongest_inputs
@@ -37,7 +39,7 @@ MOST_SAMPLES = 256
 
 
 def most_samples(contact: Contact, vary: Iterable[str]) -> int:
-    """Samples that a report takes at most: few where each takes tables of its own."""
+    """Largest number of samples of a report; small where each sample needs tables."""
     return LEAST if costly(contact, vary) else MOST_SAMPLES
 
 
@@ -90,17 +92,23 @@ class Report(Found):
         """The answer; where the study has a film, first what it says with the oil."""
         return answer_sentences(self)
 
+    @cached_property
+    def lead(self) -> list[str]:
+        """What the study asks, in a few sentences, and what moves it most."""
+        return _lead(self)
+
     def html(self) -> str:
         """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
         title = self.study.title or "Contact of rough surfaces"
         parts = [
             f"<header><h1>{escape(title)}</h1>",
             f"<p class=soft>Report of thirdbody {escape(__version__)}.</p></header>",
-            section("The answer", _answer(self), name="answer").replace(
-                "<section", "<section class=lead", 1
-            ),
-            *_warnings(self),
+            section(
+                "The answer", [f"<p>{words(each)}</p>" for each in self.lead], name="answer"
+            ).replace("<section", "<section class=lead", 1),
             *oil_section(self),
+            section("In full", _in_full(self), name="in-full"),
+            *_warnings(self),
             *film_section(self),
             section("Figures", figures_of(self), name="figures"),
             section("States", states_table(self), name="states"),
@@ -120,13 +128,19 @@ class Report(Found):
         return document(title, parts, style=STYLE + running(title))
 
 
-def _answer(report: Found) -> list[str]:
-    first: list[str] = []
-    if report.oil is not None:
-        if report.oil_filtered is not None:
-            first.append(filter_answer(report.oil, report.oil_filtered))
-        first += answer(report.oil)
-    told = (*first, *report.result.force_sentences, *answer_sentences(report))
+def _lead(report: Found) -> list[str]:
+    """What the study asks, in a few sentences, and what moves it most."""
+    if report.oil is None:
+        return [*state_words.answer(report.result), *state_words.uncertainty(report.result)]
+    before_after = []
+    if report.oil_filtered is not None:
+        before_after = [oil_words.filter_answer(report.oil, report.oil_filtered)]
+    last = oil_words.uncertainty(what_ifs_of_oil(report.study, report.oil))
+    return [*before_after, *oil_words.answer(report.oil), *last]
+
+
+def _in_full(report: Found) -> list[str]:
+    told = (*report.result.force_sentences, *answer_sentences(report))
     return [f"<p>{words(sentence)}</p>" for sentence in told]
 
 

@@ -56,7 +56,7 @@ def _without_oil(report: Found) -> tuple[str, str, str]:
 
 
 def _with_oil(report: Found) -> list[str]:
-    """Which film, what carries at its ends, and where its regime changes."""
+    """Sentences on the film, on what carries at its ends, and on its regimes."""
     if report.film is None:
         return []
     from ..film_words import bodies, point, summary
@@ -90,7 +90,7 @@ def _carries(report: Found, i: int) -> str:
 
 
 def _gap(report: Found, i: int) -> str:
-    """How far the mean planes are from each other."""
+    """Sentence on the distance of the mean planes."""
     h = report.result.states.h[i]
     if h < 0:
         return f"the mean planes of the surfaces overlap by {value_of(-h, 'm')}"
@@ -177,7 +177,7 @@ def _first_input(report: Found) -> str:
 
 
 def _when(report: Found) -> str:
-    """Of the inputs, and at which of several loads."""
+    """Clause on the inputs, and on which of several loads they matter."""
     at = f", at {report.load(report.at)}" if len(report.result.solved_states) > 1 else ""
     return f"Of the inputs{at}, "
 

@@ -135,7 +135,7 @@ def source_of(body: Material) -> tuple[str, str]:
 
 
 def sources_of(body: Material) -> tuple[list[str], str]:
-    """Where the numbers of a body come from, a text each, and how well that is known."""
+    """Sources of the numbers of a body, a text each, and how well they are known."""
     entry = materials.entries().get(body.name, {})
     own = {key: getattr(body, key) for key in NUMBERS if getattr(body, key) is not None}
     if not entry or any(value != entry.get(key) for key, value in own.items()):
@@ -151,7 +151,7 @@ def sources_of(body: Material) -> tuple[list[str], str]:
 
 
 def alike(bodies: dict[str, Material]) -> list[tuple[str, Material]]:
-    """Bodies by what they are called; two surfaces of one material are one row."""
+    """Bodies by label; two surfaces of one material share a row."""
     out = dict(bodies)
     first, second = (out[f"surface {i}"] for i in (1, 2))
     if dataclasses.asdict(first) == dataclasses.asdict(second):
@@ -184,7 +184,7 @@ def rows_of(contact: Contact) -> list[Row]:
 
 
 def value_rows(value: Value, path: str) -> Iterator[Row]:
-    """Every input that a value holds; ``path`` is what its names begin with."""
+    """Rows of every input of a value; names begin with ``path``."""
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
         part, name = getattr(value, item.name), f"{path}{item.name}"
         default = _is_default(item, part)
@@ -224,7 +224,7 @@ def _is_default(item: dataclasses.Field[Any], value: Any) -> bool:
 
 
 def laws_of(contact: Contact) -> list[tuple[str, Law, bool]]:
-    """What each law is for, the law, and whether the study chose it."""
+    """Role of each law, the law, and whether the study chose it."""
     fields = {item.name: item for item in dataclasses.fields(contact)}
 
     def is_chosen(name: str) -> bool:

@@ -34,7 +34,7 @@ SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
 def _with_legend(
     heads: Sequence[str], rows: list[list[str]], means: Mapping[str, str]
 ) -> list[str]:
-    """A table, and what its heads mean below it (HTML)."""
+    """A table with the meaning of its heads below (HTML)."""
     told = "; ".join(f"{head}: {means[head]}" for head in heads if head in means)
     return [text_table(heads, rows), f"<p class=soft>{words(told)}.</p>"]
 
@@ -118,7 +118,7 @@ def outputs_section(report: Found) -> list[str]:
 
 
 def oil_section(report: Found) -> list[str]:
-    """What each population does in the oil, before and after a filter, and who shares."""
+    """Section on the populations of the oil, before and after a filter."""
     from .. import bearing_words, oil_words
 
     out = []

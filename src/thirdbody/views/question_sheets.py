@@ -1,0 +1,88 @@
+"""The four sheets of a workbook that answers one question: answer, states, inputs, notes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..errors import ranked
+from ..populations.materials import NUMBERS
+from ..quantities.say import unit_of
+from ..version import __version__
+from .report.sources import Row, alike, value_rows
+from .study_sheets import amount_cells, grid_of_words, note_line
+from .workbook import Grid, Sheet, sheet_of_table
+
+if TYPE_CHECKING:
+    from ..populations.materials import Material
+    from ..quantities.value import Value
+
+__all__ = ["inputs_of", "question_sheets"]
+
+
+def question_sheets(
+    title: str,
+    answer: Sequence[str],
+    table: tuple[Sequence[str], Sequence[Sequence[str]]] | None,
+    last: Sequence[str],
+    *,
+    states: tuple[Mapping[str, Sequence[Any]], Mapping[str, str]],
+    meanings: Mapping[str, str],
+    inputs: Sequence[tuple[Any, ...]],
+    warnings: Iterable[str],
+    citations: Iterable[str],
+) -> list[Sheet]:
+    """Sheets of an answer, as the command prints it, and of everything behind it.
+
+    Parameters
+    ----------
+    title : str
+    answer, last : sequence of str
+        Sentences above and below the table.
+    table : (heads, rows), optional
+        As it is printed.
+    states : (columns, units)
+        Every number, as in the CSV file.
+    meanings : mapping
+        Of the columns.
+    inputs : sequence of tuple
+        Rows of the sheet Inputs, as `inputs_of` makes them.
+    warnings, citations : iterable of str
+    """
+    columns, units = states
+    found: list[str | Grid] = [*answer]
+    if table is not None:
+        found.append(grid_of_words(*table))
+    told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
+    notes = [note_line(each) for each in ranked(warnings)] or [("none", None, "")]
+    cited = [(line, None, "") for line in (*citations, f"thirdbody {__version__}")]
+    return [
+        Sheet("Answer", (*found, *last), title=f"{title} (thirdbody {__version__})"),
+        sheet_of_table("States", columns, units),
+        Sheet("Inputs", (Grid(("input", "symbol", "value", "unit", "from", "name"), inputs),)),
+        Sheet(
+            "Notes",
+            (
+                Grid(("note", "effect on the answer", "what to do"), notes),
+                Grid(("column of States", "unit", "meaning"), told),
+                Grid(("to be cited", "", ""), cited),
+            ),
+        ),
+    ]
+
+
+def inputs_of(values: Mapping[str, Value], bodies: Mapping[str, Material]) -> list[tuple[Any, ...]]:
+    """A row an input: of values by what their names begin with, "plate.", then of materials."""
+    rows = [row for name, value in values.items() for row in value_rows(value, name)]
+    out: list[tuple[Any, ...]] = [
+        (row.meaning, row.symbol, *amount_cells(row), "default" if row.default else "study",
+         row.name)
+        for row in rows
+    ]  # fmt: skip
+    for label, body in alike(dict(bodies)):
+        for key, about in NUMBERS.items():
+            if (value := getattr(body, key)) is not None:
+                row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])
+                said = (f"{label}: {row.meaning}", row.symbol, *amount_cells(row))
+                out.append((*said, body.name, key))
+    return out
