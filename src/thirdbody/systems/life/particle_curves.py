@@ -142,7 +142,6 @@ class ParticleCurve:
 
     def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
         dents = self.contact.outputs[-1]
-        assert isinstance(dents, Dents)
         with np.errstate(all="ignore"):
             return dents._dent_left(spots, side, self.contact).depth
 
@@ -292,7 +291,7 @@ class SurvivalCurve:
         eps = np.maximum(delta, 0.0) / x
         stress = np.zeros_like(eps)
         pressed = eps > 0
-        stress[pressed] = self.tension.met(eps[pressed])
+        stress[pressed] = self.tension.greatest_so_far(eps[pressed])
         broken = [np.sum(number * (1 - b.survival(x, stress)), axis=1) for b in self.breakages]
         return np.stack(broken, axis=1)
 
