@@ -52,6 +52,8 @@ COLUMNS: dict[str, Column] = {
 """What a contact adds to a history, over time."""
 NODES = 60
 """Of the scan for steady states."""
+BALANCED = 1e-6
+"""Relative imbalance of loads below which a change of sign is a state."""
 
 
 class SteadyContact(NamedTuple):
@@ -125,7 +127,8 @@ def steady_states(loop: Loop, y: Array) -> tuple[SteadyContact, ...]:
             place = brentq(
                 lambda u: _imbalance(loop, y, u), places[i], places[i + 1], xtol=1e-16, rtol=1e-12
             )
-            out.append(_steady_at(loop, y, float(place)))
+            if abs(_imbalance(loop, y, float(place))) < BALANCED:  # else it jumps there
+                out.append(_steady_at(loop, y, float(place)))
     return tuple(out)
 
 
