@@ -201,8 +201,8 @@ class SplineLoads:
             self.known &= (number == 1) | ((number == 0) & (np.min(np.abs(miss), axis=1) > doubt))
             self.known &= self.error[what] < WILD
             load, word = np.full(self.count, np.nan), np.full(self.count, FOUND, dtype="<U12")
-            for rows, status, value in _without(name, above[:, 0], above[:, -1]):
-                load[rows], word[rows] = value, status
+            for without, status, value in _without(name, above[:, 0], above[:, -1]):
+                load[without], word[without] = value, status
             self.loads[name] = load, word
             rows = np.flatnonzero(self.known & (word == FOUND))
             cell = np.argmax(changes[rows], axis=1)

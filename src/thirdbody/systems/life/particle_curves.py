@@ -108,11 +108,7 @@ class ParticleCurve:
         self.one = law.one(surfaces=contact.surfaces, particle=material)
         self.average = size_average(self.one, sizes)
         self.splits = sorted(
-            {
-                eps
-                for output in outputs
-                for eps in _splits(output, law, contact.surfaces, material)
-            }
+            {eps for output in outputs for eps in _splits(output, law, contact.surfaces, material)}
         )
         self.lowest = min(lowest, self.average.bottom, 0.0)
         self.splits += changes(self._probe, self._dent_kinds)
@@ -136,7 +132,7 @@ class ParticleCurve:
         return replace(found, material=self.material, population=self.population)
 
     def _dent_kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """Number that codes which surfaces keep a dent, whether it has a shaft, and its end."""
+        """Where dents that stay set in, get a shaft, and end, as a number."""
         out = np.zeros(spots.x.shape, np.intp)
         for side, ends in zip((0, 1), self._deepest, strict=True):
             depth = self._depth_left(spots, side)
@@ -307,9 +303,7 @@ class SurvivalCurve:
         return out
 
 
-def local_gaps(
-    mean_gap: Array, *, widths: Array, kinks: Array, top: float
-) -> tuple[Array, Array]:
+def local_gaps(mean_gap: Array, *, widths: Array, kinks: Array, top: float) -> tuple[Array, Array]:
     """Gauss nodes in the local gap for seats of some widths about mean gaps, and their weights.
 
     Panels end at the kinks and are at most 1.5 of the smallest width; all lengths in one unit.
