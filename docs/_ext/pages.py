@@ -79,7 +79,7 @@ MEANING = {
     "nas1638": "cleanliness class of an oil after NAS 1638",
     "law.law": "law of the contact on each side of a particle",
     "particle_law.law": "law of the contact on each side of a particle",
-    "line": "the line of the circuit in which the filter lies",
+    "line": "filters of one line stand one behind the other, others side by side",
     "level": "which end of the range of each code number",
     "limit": "which limit of the range that the standard allows for the dust",
     "max_iterations": "iterations after which a state counts as not converged",
