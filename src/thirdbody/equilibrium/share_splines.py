@@ -33,6 +33,8 @@ LEAST_PEAK = 1e-6
 """Smallest share of the area that counts as a peak."""
 PROBES = 128
 """Contacts whose separations at the ends of the window say what those of the others are like."""
+ALIKE = 1e-6
+"""What of an input is left, over itself, without those before, where it is one of them."""
 BEYOND, LEAST_BEYOND = 1.5, 0.01
 """How far nodes go beyond the ends that are expected: worst misses of the probes, and part of the
 range of separations."""
@@ -41,7 +43,7 @@ FINE = 97
 CLEAR, WILD = 0.05, 1.0
 """ln of a share that no spline errs by where it may err by nothing else, and error with which a
 spline tells nothing."""
-MISS, NEAR, SECANT = 2e-6, 5e-3, 1e-9
+MISS, NEAR, SECANT = 5e-7, 5e-3, 1e-9
 """Error of ln F* at a critical load; the longest last step to it over the range of separations, and
 the shortest that tells a slope."""
 SLOPE_OF_ERROR = 4.0
@@ -67,23 +69,37 @@ class Likeness:
     """
 
     def __init__(self, vary: Mapping[str, Array], count: int, probes: Rows):
+        self.probes, self.basis = probes, [np.full(count, 1 / math.sqrt(len(probes)))]
         columns = [np.log(v) if np.all(v > 0) else v for v in vary.values()]
-        moving: list[Array] = []
-        for each in ((v - v.mean()) / v.std() for v in columns if np.ptp(v) > 0):
-            if not any(np.allclose(each, other, atol=1e-9) for other in moving):
-                moving.append(each)
+        moving = [each for v in columns if np.ptp(v) > 0 and self._add(each := v - v.mean())]
         squares = [v * v for v in moving]
         products = [v * w for i, v in enumerate(moving) for w in moving[:i]]
         if 2 * (1 + len(moving) + len(squares) + len(products)) > len(probes):
             products = []
-        self.terms = np.stack([np.ones(count), *moving, *squares, *products], axis=1)
-        self.probes, self.enough = probes, 2 * self.terms.shape[1] <= len(probes)
+        for each in (*squares, *products):
+            self._add(each)
+        self.enough = 2 * len(self.basis) <= len(probes)
+
+    def _add(self, column: Array) -> bool:
+        """Whether a column (N,) is none of the others together; what is left then joins them.
+
+        All are orthogonal over the probes. Sums by NumPy itself, as linear algebra may share its
+        own among threads.
+        """
+        size = math.sqrt(np.sum(column[self.probes] ** 2))
+        for _ in range(2):  # once more for what rounding leaves
+            for other in self.basis:
+                column = column - other * np.sum(other[self.probes] * column[self.probes])
+        left = math.sqrt(np.sum(column[self.probes] ** 2))
+        if left > ALIKE * size:
+            self.basis.append(column / left)
+        return left > ALIKE * size
 
     def extend_to_all(self, values: Array) -> Array:
         """Values (N, ...) of all contacts from those of the probes (M, ...)."""
-        flat = values.reshape(len(values), -1)
-        powers = np.linalg.lstsq(self.terms[self.probes], flat, rcond=None)[0]
-        return np.asarray((self.terms @ powers).reshape(-1, *values.shape[1:]))
+        basis = np.stack(self.basis)
+        powers = np.einsum("km,m...->k...", basis[:, self.probes], values)
+        return np.asarray(np.einsum("kn,k...->n...", basis, powers))
 
 
 def expected_ends(like: Likeness, ends: Array) -> Array:
@@ -185,8 +201,8 @@ class SplineLoads:
             self.known &= (number == 1) | ((number == 0) & (np.min(np.abs(miss), axis=1) > doubt))
             self.known &= self.error[what] < WILD
             load, word = np.full(self.count, np.nan), np.full(self.count, FOUND, dtype="<U12")
-            for rows, status, value in _without(name, above[:, 0], above[:, -1]):
-                load[rows], word[rows] = value, status
+            for without, status, value in _without(name, above[:, 0], above[:, -1]):
+                load[without], word[without] = value, status
             self.loads[name] = load, word
             rows = np.flatnonzero(self.known & (word == FOUND))
             cell = np.argmax(changes[rows], axis=1)
