@@ -1,7 +1,7 @@
 """Time a history with a contact: 1000 h, 24 classes of three kinds, a roughness that moves.
 
-``python benchmarks/life.py`` prints the seconds of the first history, with its tables, and of a second
-one with the same contact and another ingress.
+``python benchmarks/life.py`` prints the seconds of the first history, with its tables, and of a
+second one with the same contact and another ingress.
 """
 
 import time

@@ -198,11 +198,11 @@ def test_debris_as_soft_as_the_surfaces_breeds_less():
 def test_a_history_waits_for_wear_and_roughness():
     law = RunningIn(sigma_end=60e-9, length=1e-7)
     found = run(contact(), oil=oil(), duration=7.2e6, debris=DEBRIS, running_in=law, **FILM,
-                until=[roughness_below(95e-9, stops=False), wear_depth(2e-8)])  # fmt: skip
+                until=[roughness_below(95e-9, stops=False), wear_depth(9e-9)])  # fmt: skip
     names = [event.name for event in found.events if event.name != "filter full"]
     assert names == ["roughness", "wear depth"]
     deepest = max(found.more["wear_1"][1][-1], found.more["wear_2"][1][-1])
-    assert deepest == pytest.approx(2e-8, rel=1e-6)
+    assert deepest == pytest.approx(9e-9, rel=1e-6)
     assert found.times[-1] == found.events[-1].time
 
 

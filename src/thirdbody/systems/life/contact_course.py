@@ -149,7 +149,7 @@ class ContactCourse:
         return far
 
     def _short_of(self, each: ContactUntil) -> Callable[[float, Array], float]:
-        return lambda time, y: each.excess(self.loop, y)
+        return lambda time, y: each.excess(self.loop, state=y)
 
     def _filling(self, name: str, limit: float) -> Callable[[float, Array], float]:
         return lambda time, y: self._caught(y, name) - limit

@@ -241,7 +241,7 @@ class Loop(ABC):
         return out
 
     def pieces(self, d: float, sigma: float) -> Array:
-        """Numbers of pieces for one of each number once all that breaks at d is broken: (J, J)."""
+        """What one of each number is once all that breaks at d is broken: (J, J)."""
         out = np.eye(len(self.volumes))
         if not self.breaks:
             return out

@@ -142,6 +142,7 @@ class ParticleCurve:
 
     def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
         dents = self.contact.outputs[-1]
+        assert isinstance(dents, Dents)
         with np.errstate(all="ignore"):
             return dents._dent_left(spots, side, self.contact).depth
 
