@@ -13,6 +13,7 @@ import numpy as np
 from ...populations.measured.cleanliness import counted_sizes, iso4406_of_counts
 from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
+from ...quantities.say import value_of
 from .circuit import OilCircuit, OilTerms
 from .ledger import Ledger
 from .linear_flow import dirt_gain, generations, reproduction
@@ -174,7 +175,7 @@ class LifeHistory(Record):
         for size, part in zip(counted_sizes(), terms.classes.above(counted_sizes()), strict=True):
             held = np.flatnonzero(part > 0)
             loss = float(terms.loss[held[0]].max()) if len(held) else 0.0
-            name = f"removal of particles of {size * 1e6:.0f} µm"
+            name = f"removal of particles of {value_of(float(size), 'm')}"
             out[name] = volume / loss if loss > 0 else math.nan
         return out
 

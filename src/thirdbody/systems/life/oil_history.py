@@ -20,7 +20,7 @@ from scipy.optimize import brentq
 
 from ...errors import InvalidValue, Problem
 from ...quantities.arguments import need_positive
-from ...quantities.say import value_of
+from ...quantities.say import percent, value_of
 from .circuit import OilCircuit, OilTerms
 from .history import LifeEvent, LifeHistory
 from .ledger import Ledger
@@ -208,7 +208,7 @@ class _Course:
             self.full.add(name)
             self.now.terms = self.circuit.terms(full=self.full, classes=self.first.classes)
             part = each.still_filtered
-            past = "all of the oil" if part == 0 else f"{1 - part:.0%} of the oil"
+            past = "all of the oil" if part == 0 else f"{percent(1 - part)} of the oil"
             self._tell("filter full", f"{said}, and {past} goes past it")
         else:
             self._tell("filter full", f"{said}, and is changed")
