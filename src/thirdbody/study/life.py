@@ -369,7 +369,7 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys, build)
 
 
-def _kept(reader: Reader, path: str, value: Any) -> Any:
+def _read_ranges(reader: Reader, path: str, value: Any) -> Any:
     """A table of which the circuit says what its keys mean."""
     if not isinstance(value, dict) or not value:
         raise wrong(path, 'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }', value)
@@ -418,7 +418,7 @@ def _keys() -> dict[str, Key]:
         "filters": FILTERS,
         **CONTACT_KEYS,
         "uncertainty": Key(
-            _kept,
+            _read_ranges,
             about='what is known of its numbers, e.g. "ingress" = { median = 1, gsd = 2 } (a '
             'factor), "filters.0.service" = { low = 0.5, high = 1 }',
             schema={"type": "object"},
@@ -498,7 +498,7 @@ def _with_reports(
     times, reports, sizes = entry["reports"]
     material = entry.get("material", own)
     try:
-        found = oil_reports(times, reports, sizes=sizes, circuit=circuit, material=material)
+        found = oil_reports(times, reports=reports, sizes=sizes, circuit=circuit, material=material)
     except InvalidValue as error:
         raise error.under(path) from None
     low, high = (3.6e9 * each for each in (found.mass_low, found.mass_high))
