@@ -173,8 +173,8 @@ def life(
         raise InvalidValue(Problem("oil", "or contact must be given, or both"))
     if oil is not None and not isinstance(oil, OilCircuit):
         raise InvalidValue(Problem("oil", "must be an OilCircuit", repr(oil)))
-    shared = {"duration": duration, "until": waits, "times": times}
-    of_contact = {
+    shared: dict[str, Any] = {"duration": duration, "until": waits, "times": times}
+    of_contact: dict[str, Any] = {
         "debris": debris, "running_in": running_in, "stays": stays, "worn_area": worn_area
     }  # fmt: skip
     found: LifeHistory | DryHistory
