@@ -369,7 +369,7 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys, build)
 
 
-def _read_ranges(reader: Reader, path: str, value: Any) -> Any:
+def _read_entries(reader: Reader, path: str, value: Any) -> Any:
     """A table of which the circuit says what its keys mean."""
     if not isinstance(value, dict) or not value:
         raise wrong(path, 'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }', value)
@@ -418,7 +418,7 @@ def _keys() -> dict[str, Key]:
         "filters": FILTERS,
         **CONTACT_KEYS,
         "uncertainty": Key(
-            _read_ranges,
+            _read_entries,
             about='what is known of its numbers, e.g. "ingress" = { median = 1, gsd = 2 } (a '
             'factor), "filters.0.service" = { low = 0.5, high = 1 }',
             schema={"type": "object"},

@@ -30,7 +30,7 @@ def oil(**changes):
         ingress=tb.Ingress.from_counts(
             sizes=[4e-6, 6e-6, 14e-6], counts=[1e6, 3e5, 1e4], material=QUARTZ, largest=16e-6
         ),
-        filters=Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3, capacity=2e-3),
+        filters=Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3, capacity=0.15),
         viscosity=0.03,
         density=870.0,
         settling_area=0.5,
@@ -56,7 +56,11 @@ DRY = dict(
     area=1e-4,
     loss=0.3,
     moving=1,
-    arrivals=tb.Ingress(material=QUARTZ, diameter=tb.LogNormal(median=2e-6, gsd=1.3), rate=1e4),
+    arrivals=tb.Ingress(
+        material=QUARTZ,
+        diameter=tb.PowerLaw(edges=(1e-6, 4e-6), counts=(1,), slopes=(3,)),
+        rate=1e4,
+    ),
     worn_area=(1e-3, 1e-4),
     classes=CLASSES,
 )

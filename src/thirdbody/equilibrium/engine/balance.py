@@ -11,34 +11,22 @@ from ..compiled.cached import Cached
 from ..compiled.machine import apart
 from .breakage import lay_tension, lay_whole
 from .curves import (
-    AREA_1,
-    AREA_2,
-    AT,
-    EDGE,
     MOST_PANELS,
     PANEL,
     ROOM,
     SETTLED,
     SHARE,
-    TO,
-    fill_particles,
-    particle_at,
 )  # fmt: skip
-from .curves import LOAD as CARRIED
 from .fields import (
     A_E,
     A_SA,
     BEYOND,
-    BREADTH,
     BREAKS,
     CODE,
-    COVERAGE,
     DMT,
     F_SA,
     F_SS,
-    FOOTPRINT,
     HIGH,
-    JG,
     JKR,
     LEAST,
     NODES,
@@ -49,29 +37,25 @@ from .fields import (
     PLANE,
     POLYNOMIAL,
     PRINTED,
-    PROJECTED,
     ROUGH,
     RULE,
     SEAT,
     SHADE,
-    SHADOW,
     SIDE,
     SIGMA,
     SIGMA_S,
-    SIZE_2,
-    SOFTEST,
-    STIFFEST,
     TOO_LONG,
     TOO_MUCH,
     UNSOLVED,
     WIDTH,
 )  # fmt: skip
-from .printed import add_printed, only_falls, printed_bound
+from .monotone import only_falls_above
+from .printed import add_printed, printed_bound
 from .seats import GRID_ROWS, MOST_NODES, add_part, gather_gaps, lay_broken, lay_pieces
 from .sides import scalar
+from .skins import MOST_HEIGHTS, add_skin, lay_skin
 from .squeeze import lay_panels
-from .sums import MOST_HEIGHTS, MOST_SIZES, add_skin, lay_skin, shade
-from .vectors import VECTOR
+from .sums import MOST_SIZES
 
 __all__ = ["LEVELS", "solve_own"]
 
@@ -92,15 +76,14 @@ SAFE = 10.0
 MOST_WHOLE = 1_500_000
 SEARCHED, POLISHED = 80, 14
 """Densities of what is whole that there is room for; evaluations at most, by few nodes and all."""
-BALANCED, ULPS = 9e-13, 4e-16
-"""ln of load over target of a solved state, unless so much of the separation explains it."""
+BALANCED, CLOSE_BY, ULPS = 9e-13, 4e-13, 4e-16
+"""ln of load over target of a solved state, and where no better one is sought; unless so much of
+the separation explains it."""
 STEPS, RESOLVED = 2000, 1e-3
 """Coming down to a load, and the step [σ_s] from which on it need not be proven."""
 BETWEEN, FALLEN = 0.4, 0.03
 """Steps over seats [widths] at which loads of particles that break are looked at, and how far they
 must have fallen."""
-RISE = 1e-6
-"""Rise of the load with the separation that does not count."""
 
 
 @scalar
@@ -217,14 +200,14 @@ def search(given, skin, work, laid, rules, target, out):
     high, low = top_of(given, skin), LOWEST
     f_high, f_low = -800.0, math.inf
     h, f, slope, n = 2.0, 0.0, 0.0, 0
-    old_h, old_f = math.nan, math.nan
-    ends = False  # whether the formulas do, at ``low``
+    old_h, old_f, old_slope, bent = math.nan, math.nan, math.nan, 0.0
+    older_h, ends = math.nan, False  # whether the formulas do, at ``low``
     while n < SEARCHED:
         load = total(given, skin, work, laid, rules, few, h, out)
         n += 1
         if load != load:
             low, ends = h, True
-            old_h, h = math.nan, 0.5 * (low + high)
+            old_h, old_slope, h = math.nan, math.nan, 0.5 * (low + high)
             if high - low < 1e-13:
                 break
             continue
@@ -235,12 +218,22 @@ def search(given, skin, work, laid, rules, target, out):
             if h == LOWEST:
                 return -math.inf, 0.0, n
             high, f_high = h, f
+        bent = 0.0
         if old_h == old_h and h != old_h:
-            slope = (f - old_f) / (h - old_h)
+            chord = (f - old_f) / (h - old_h)
+            if old_slope == old_slope:  # what the last three loads say of the slope here
+                bent = (chord - old_slope) / (h - older_h) * (h - old_h)
+                if not abs(bent) < 0.3 * abs(chord):
+                    bent = 0.0
+            slope, old_slope, older_h = chord + bent, chord, old_h
+        if bent != 0:
+            bent /= h - old_h
         old_h, old_f = h, f
         step = -f / slope if slope < -1e-3 else (f / 3 if abs(f) < 9 else math.copysign(3.0, f))
+        if abs(bent * step) < 0.3 * abs(slope):
+            step -= bent * step * step / slope
         if abs(step) < 1e-4 and slope < -1e-3:
-            return h + step, slope, n
+            return h + step, slope + 2 * bent * step, n
         x = h + step
         if f_low < math.inf and f_high > -800.0 and n % 3 == 0:
             x = low + (high - low) * f_low / (f_low - f_high)
@@ -268,7 +261,7 @@ def polish(given, skin, work, laid, rules, target, h, slope, out):
         n += 1
         if abs(f) < abs(best_f):
             best, best_f = h, f
-        if abs(f) < 2e-13 or (n > 4 and abs(best_f) < BALANCED):
+        if abs(f) < CLOSE_BY or (n > 4 and abs(best_f) < BALANCED):
             break
         if old_h == old_h and abs(h - old_h) > 1e-10:
             slope = (f - old_f) / (h - old_h)
@@ -284,85 +277,6 @@ def polish(given, skin, work, laid, rules, target, h, slope, out):
     if best != h:
         total(given, skin, work, laid, rules, few + 1, best, out)
     return best, slope, n
-
-
-@scalar
-def _pays(given, work, laid, p, bound):
-    """Whether the load of each particle of part p grows at least as fast as what it shades.
-
-    The asperities carry ``bound`` [Pa] where nothing is shaded.
-    """
-    apart()
-    panels, coverage = work[2], given[p, COVERAGE]
-    if bound > 0.2 * given[p, SOFTEST]:
-        return False
-    if coverage * (0.5 * math.pi * bound / given[p, STIFFEST]) ** 2 > RISE:
-        return False
-    most, worst, room = 0.0, 0.0, panels[p, len(panels[p]) - ROOM :]
-    for n in range(laid[p, COARSE, COUNT]):
-        a, b = panels[p, n, EDGE], panels[p, n, TO]
-        for j in range(VECTOR):
-            room[AT, j] = a + (b - a) * (j + 1) / VECTOR
-        fill_particles(given, work[1], panels, p, n, VECTOR)
-        for j in range(VECTOR):
-            left = room[CARRIED, j] - bound * shade(given, p, room[AREA_1, j], room[AREA_2, j])
-            most = max(most, left)
-            worst = max(worst, most - left)
-    return worst * coverage <= RISE * bound
-
-
-@scalar
-def _widest(given, work, laid, p):
-    """Share of the area that part p would shade with every particle squeezed as far as it goes."""
-    apart()
-    n = laid[p, COARSE, COUNT] - 1
-    _, one, two = particle_at(given, work[1], work[2], p, n, work[2][p, n, TO])
-    return given[p, COVERAGE] * shade(given, p, one, two) / (0.25 * math.pi * given[p, BREADTH])
-
-
-@scalar
-def _falls(given, skin, work, laid, bound, h):
-    """Whether no separation above d can carry the load, of which asperities take ``bound`` [Pa].
-
-    Either a particle gains by each squeeze what it takes from the asperities, the bound times its
-    shadow, or the shadow of all grows more slowly with the approach than the asperities' load:
-    that of a Gaussian seat of a width s, up to c in all, by c/(s √(2π)) at most, and their load by
-    0.3/σ_s of itself at least: by one over the mean excess of the heights or more, which falls
-    with the separation for all heights that the kernel knows, and is 3 σ_s at its lowest; a fifth
-    as much by the law of Jackson and Green, whose load may grow like the sixth root of ω only.
-
-    The load of asperities that attract changes its sign once with the separation, as that of one
-    does with its interference, for heights whose density is log-concave (Karlin 1968, Total
-    Positivity, ch. 5): where it is positive it falls, and as fast as without attraction at least.
-    """
-    apart()
-    sigma_s, least = skin[0, SIGMA_S], 0.05 if skin[0, CODE] == JG else 0.3
-    d = h * sigma_s
-    if bound < 0:
-        return False
-    steepest = covered = 0.0
-    for p in range(len(given)):
-        if given[p, SEAT] == PRINTED:
-            if not only_falls(given, p, d, bound):
-                return False
-            continue
-        shadow = given[p, SHADOW]
-        if shadow != FOOTPRINT and shadow != PROJECTED:
-            continue
-        covered += given[p, COVERAGE]
-        rough = given[p, SEAT] == ROUGH
-        if shadow == PROJECTED:
-            width = given[p, WIDTH] if rough else given[p, SIZE_2]
-            if not width > 0:
-                return False
-            steepest += given[p, COVERAGE] / (2.5 * width)
-        if not _pays(given, work, laid, p, bound):
-            if not rough or not given[p, WIDTH] > 0:
-                return False
-            widest = _widest(given, work, laid, p)
-            steepest += widest / (2.5 * given[p, WIDTH])
-            covered += widest
-    return steepest * sigma_s <= least * (1 - covered)
 
 
 @scalar
@@ -477,7 +391,7 @@ def _root(given, skin, work, laid, rules, target, row, out):
     h, slope, count = search(given, skin, work, laid, rules, target, out)
     if h == -math.inf:
         total(given, skin, work, laid, rules, every, LOWEST, row)
-        if not _breaks_up(given) and _falls(given, skin, work, laid, row[F_SS], LOWEST):
+        if not _breaks_up(given) and only_falls_above(given, skin, work, laid, row[F_SS], LOWEST):
             return h, slope, count, TOO_MUCH
     else:
         h, slope, n = polish(given, skin, work, laid, rules, target, h, slope, row)
@@ -485,7 +399,7 @@ def _root(given, skin, work, laid, rules, target, row, out):
         if math.isfinite(h) and _breaks_up(given):
             good = _stays_below(given, skin, work, laid, rules, target, h, out)
             return h, slope, count, OK if good else NOT_MONOTONE
-        if math.isfinite(h) and _falls(given, skin, work, laid, row[F_SS], h):
+        if math.isfinite(h) and only_falls_above(given, skin, work, laid, row[F_SS], h):
             return h, slope, count, OK
     first, slope = _come_down(given, skin, work, laid, rules, target, out)
     if not math.isfinite(first):

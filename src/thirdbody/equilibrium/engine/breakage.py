@@ -27,9 +27,7 @@ from .curves import (
     TENSION,
     TERMS,
     TO,
-    fill_particles,
     fill_places,
-    particle_at,
     transform,
 )
 from .densities import density
@@ -46,6 +44,7 @@ from .fields import (
     SIZE_1,
     UNBROKEN,
 )
+from .shares import fill_particles, particle_at
 from .sides import chord, exact, narrowed, scalar
 
 __all__ = ["is_held", "lay_tension", "lay_whole", "mark_sizes"]

@@ -46,11 +46,12 @@ SHADOWS = {
 TERMS, DEEPEST = 24, 5.0
 """Of the series of a panel; lowest separation [σ_s] that may be given, down."""
 NODES = (
-    ((6, 3.0, 10, 6.5, 16, 3.6), (12, 3.0, 16, 6.5, 32, 3.6)),
-    ((12, 2.0, 16, 4.0, 16, 2.4), (24, 2.0, 24, 4.0, 32, 2.4)),
+    ((6, 3.0, 10, 6.5, 16, 3.6, 8, 3.0, 4.0), (12, 3.0, 16, 6.5, 32, 3.6, 16, 3.0, 4.0)),
+    ((12, 2.0, 16, 4.0, 16, 2.4, 16, 2.0, 2.0), (24, 2.0, 24, 4.0, 32, 2.4, 32, 2.0, 2.0)),
 )
-"""Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
-the same of sizes on a rough seat, and of the seat over the squeeze."""
+"""Of each level, few and all: nodes of a panel over heights and how many widths of a density it
+covers, then the same of sizes on a rough seat, and of polynomials over a seat; nodes of a panel of
+a squeeze, and widths of a rough seat and of the sizes on a plane that it covers."""
 MOST_SECTIONS = 40
 """Classes of size of a population: each costs as much as a population of its own."""
 WIDEST = math.log(2.5)
@@ -78,10 +79,10 @@ def rules(breaks: bool = False) -> Array:
     for i, asked in enumerate(itertools.chain(*NODES)):
         if breaks and i < len(BREAKING):
             asked = (BREAKING[i], *asked[1:])
-        out[i, 0, :6] = asked
-        narrow = out[i, 0, f.NARROW_NODES] = asked[0] // 2
-        each = (f.RULE, asked[0]), (f.SIZE_RULE, asked[2]), (f.NARROW_RULE, int(narrow))
-        for row, count in each:
+        narrow, half = asked[0] // 2, asked[6] // 2
+        out[i, 0, : f.HALF_NODES + 1] = *asked, narrow, half
+        each = (f.RULE, asked[0]), (f.SIZE_RULE, asked[2]), (f.NARROW_RULE, narrow)
+        for row, count in (*each, (f.PANEL_RULE, asked[6]), (f.HALF_RULE, half)):
             out[i, row, :count], out[i, row + 1, :count] = gauss_legendre(count)
         _add_series(out[i], asked[4])
     return out
@@ -390,17 +391,20 @@ class Numbers:
                 **{f.DENSITY: changed.areal_density * share, f.BREADTH: breadth},
             },
         )
-        second = self._add_sizes(rows, *section)
+        squared = self._add_sizes(rows, *section)
         if one.strength is not None:
             self._add_strength(rows, one.strength, changed, section[0], law.seat)
-        rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * second
+        rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * squared
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
-        sides = [
-            self._side(self.bodies[:, 2 * p + i], surface, changed.material, law, varied, grit)
-            for i, surface in enumerate((self.varied.surfaces.first, self.varied.surfaces.second))
-        ]
-        (E, H), (E_2, H_2) = sides
+        first, second = self.varied.surfaces.first, self.varied.surfaces.second
+        E, H = self._side(self.bodies[:, 2 * p], first, changed.material, law, varied, grit)
+        E_2, H_2 = E, H
+        if all(np.array_equal(getattr(first, x), getattr(second, x)) for x in ("H", "E", "nu")):
+            self.bodies[:, 2 * p + 1] = self.bodies[:, 2 * p]
+        else:
+            rows_2 = self.bodies[:, 2 * p + 1]
+            E_2, H_2 = self._side(rows_2, second, changed.material, law, varied, grit)
         rows[:, f.STIFFEST], rows[:, f.SOFTEST] = np.minimum(E, E_2), np.minimum(H, H_2)
         rows[:, f.EQUAL] = np.all(self.bodies[:, 2 * p] == self.bodies[:, 2 * p + 1], axis=1)
 
@@ -506,13 +510,12 @@ class Numbers:
     ) -> tuple[Any, Any]:
         """Fill in the rows of a side by the table of deep squeezes; its E* and H."""
         ratio, R = body / surface, 0.5
-        given = np.broadcast_arrays(ratio, varied.friction_factor, E / H, np.empty(self.count))
-        cases, which = np.unique(np.stack(given[:3]), axis=1, return_inverse=True)
+        given = (ratio, varied.friction_factor, E / H)
+        # one case, where none of them varies
+        cases = np.broadcast_arrays(*(np.atleast_1d(each) for each in given))
         load, area = curve_rows(*cases)
-        taken = squashed_part(sink_rows(*cases[:2]))
         terms = f.TABLE_LOAD + f.TABLE_TERMS
-        rows[:, f.TABLE_LOAD : terms] = load[which]
-        rows[:, f.TABLE_AREA : f.OF_SIDE] = area[which]
+        rows[:, f.TABLE_LOAD : terms], rows[:, f.TABLE_AREA : f.OF_SIDE] = load, area
         _filled(
             rows,
             {
@@ -520,7 +523,7 @@ class Numbers:
                 f.UNIT: R * math.pi * delta_1 * H,
                 f.HILL: varied.friction_factor / (3 * math.sqrt(3)),
                 f.HARDER: np.maximum(1 / ratio, 1.0),
-                f.TAKEN: taken[which],
+                f.TAKEN: squashed_part(sink_rows(*cases[:2])),
             },
         )
         return E, H

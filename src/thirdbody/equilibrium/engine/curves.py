@@ -9,9 +9,8 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart
-from .fields import EQUAL
-from .sides import exact, scalar, side_at, summed
-from .vectors import exp, fill_side, ln, padded
+from .sides import exact, scalar, summed
+from .vectors import exp, fill_side, ln
 
 MOST_PANELS, TERMS = 160, 24
 EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
@@ -63,31 +62,6 @@ def share_at(panels, p, n, eps):
     return panels[p, n, SHARE] + x * b - c
 
 
-@scalar
-def first_at(panels, p, n, eps):
-    """Indentation over x of side 1 at a squeeze ε on panel n."""
-    held = panels[p, n, HELD]
-    if held != 0:
-        return held if held > 0 else eps + held
-    return eps * share_at(panels, p, n, eps)
-
-
-@scalar
-def particle_at(given, sides, panels, p, n, eps):
-    """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
-    apart()
-    if panels[p, n, SURE] == 1:
-        return _read_particle(panels[p, n], eps)
-    if given[p, EQUAL] == 1:
-        load, area = side_at(sides, 2 * p, 0.5 * eps)
-        return load, area, area
-    held = panels[p, n, HELD]
-    one = held if held > 0 else eps + held
-    load, first = side_at(sides, 2 * p, one)
-    other, second = side_at(sides, 2 * p + 1, eps - one)
-    return other if held > 0 else load, first, second
-
-
 @exact
 def read_shares(panel, eps, first):
     """Indentation over x of side 1 at squeezes of a panel with a series, into ``first``."""
@@ -106,7 +80,7 @@ def read_shares(panel, eps, first):
 
 
 @exact
-def _read_particles(panel, eps, load, one, two):
+def read_particles(panel, eps, load, one, two):
     """Load and areas at squeezes of a panel, by their series."""
     begin, end = panel[FROM], panel[UNTIL]
     rooted = begin == 0
@@ -128,8 +102,8 @@ def _read_particles(panel, eps, load, one, two):
 
 
 @scalar
-def _read_particle(panel, eps):
-    """As `_read_particles`, at one squeeze."""
+def read_particle(panel, eps):
+    """As `read_particles`, at one squeeze."""
     apart()
     begin, end = panel[FROM], panel[UNTIL]
     if begin == 0:
@@ -173,18 +147,6 @@ def settle_rows(panel, room, rule):
     tail = _settle_one(rule, load, panel[OF_LOAD:OF_AREA_1])
     tail = max(tail, _settle_one(rule, one, panel[OF_AREA_1:OF_AREA_2]))
     return max(tail, _settle_one(rule, two, panel[OF_AREA_2:PANEL]))
-
-
-@scalar
-def settle(given, sides, panels, p, n, rule):
-    """Series of load and areas on panel n between equal sides, where they are smooth enough."""
-    apart()
-    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
-    panel[SURE] = 0.0
-    panel[FROM], panel[UNTIL] = panel[EDGE], panel[TO]
-    fill_places(rule[0, :TERMS], panel[EDGE], panel[TO], room[AT, :TERMS])
-    fill_particles(given, sides, panels, p, n, TERMS)
-    panel[SURE] = 1.0 if settle_rows(panel, room, rule) <= SETTLED else 0.0
 
 
 @scalar
@@ -240,37 +202,6 @@ def mix(part, near, value):
 def take_weaker(first, second, other, load):
     for j in range(len(load)):
         load[j] = load[j] if first[j] > second[j] else other[j]
-
-
-@scalar
-def fill_particles(given, sides, panels, p, n, count):
-    """As `particle_at`, at so many ε in the row `AT` of the room behind the panels of part p.
-
-    Into the rows `LOAD`, `AREA_1` and `AREA_2` there.
-    """
-    apart()
-    wide, panel, room = padded(count), panels[p, n], panels[p, len(panels[p]) - ROOM :]
-    eps, first = room[AT, :wide], room[FIRST, :wide]
-    for j in range(count, wide):
-        eps[j] = eps[count - 1]
-    if panel[SURE] == 1:
-        _read_particles(
-            panel, eps, room[LOAD, :wide], room[AREA_1, :wide], room[AREA_2, :wide]
-        )  # fmt: skip
-    elif given[p, EQUAL] == 1:
-        for j in range(wide):
-            first[j] = 0.5 * eps[j]
-        fill_side(
-            sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide],
-            room[PASSING, :wide], room[PASSING_2, :wide],
-        )  # fmt: skip
-        for j in range(wide):
-            room[AREA_2, j] = room[AREA_1, j]
-    else:
-        for j in range(count):
-            room[LOAD, j], room[AREA_1, j], room[AREA_2, j] = particle_at(
-                given, sides, panels, p, n, eps[j]
-            )
 
 
 @exact

@@ -101,6 +101,7 @@ NOT_MONOTONE, NOT_RESOLVED, TOO_LONG = 10, 11, 12
 """For another engine: the load may rise, the error is not small enough, too many nodes."""
 
 # ------------------------------------------------------------------ the rules of a level
-NODES, SPAN, SIZE_NODES, SIZE_SPAN, SEAT_NODES, SEAT_SPAN, NARROW_NODES = range(7)
-RULE, SIZE_RULE, NARROW_RULE, POLYNOMIAL = 1, 3, 5, 7
+NODES, SPAN, SIZE_NODES, SIZE_SPAN, SEAT_NODES, SEAT_SPAN = range(6)
+PANEL_NODES, PANEL_SPAN, PLANE_SPAN, NARROW_NODES, HALF_NODES = range(6, 11)
+RULE, SIZE_RULE, NARROW_RULE, PANEL_RULE, HALF_RULE, POLYNOMIAL = 1, 3, 5, 7, 9, 11
 """Rows of Gauss nodes, each before one of weights, and of Chebyshev nodes before their series."""

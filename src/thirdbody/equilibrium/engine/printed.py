@@ -34,7 +34,8 @@ from .fields import (
     WINDOW,
 )  # fmt: skip
 from .sides import scalar
-from .sums import ROOT_2PI, above
+from .skins import ROOT_2PI
+from .sums import above
 
 __all__ = ["add_printed", "only_falls", "printed_bound"]
 

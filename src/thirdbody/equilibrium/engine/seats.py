@@ -13,7 +13,7 @@ import math
 
 from ..compiled.machine import apart, exp
 from .breakage import is_held
-from .curves import AREA_1, AREA_2, AT, EDGE, REGIME, ROOM, TO, fill_particles
+from .curves import AREA_1, AREA_2, AT, EDGE, MASS, REGIME, ROOM, TO
 from .curves import LOAD as CARRIED
 from .densities import scale_of
 from .fields import (
@@ -25,7 +25,10 @@ from .fields import (
     COVERED,
     DENSITY,
     F_SA,
+    FOOTPRINT,
     GAUSSIAN,
+    HALF_NODES,
+    HALF_RULE,
     HIGH,
     KIND,
     LOGNORMAL,
@@ -34,6 +37,9 @@ from .fields import (
     NARROW_RULE,
     NODES,
     OFFSET,
+    PANEL_NODES,
+    PANEL_RULE,
+    PANEL_SPAN,
     PLANE,
     POLYNOMIAL,
     PROJECTED,
@@ -46,10 +52,14 @@ from .fields import (
     SIZE_1,
     SIZE_2,
     SPAN,
+    TAKEN,
     WIDTH,
 )
+from .nodes import LINEAR, ROOTED, is_plain, place_nodes, variable_of
+from .shares import fill_particles
 from .sides import exact, scalar, summed
-from .sums import ROOT_2PI, above, add_last, add_plane, lay_sizes, shade
+from .skins import ROOT_2PI
+from .sums import above, add_last, add_plane, lay_sizes, parts_of_sizes
 
 __all__ = [
     "GRID_ROWS",
@@ -58,6 +68,7 @@ __all__ = [
     "gather_gaps",
     "lay_broken",
     "lay_pieces",
+    "pays",
 ]
 
 MOST_NODES = 16_384
@@ -65,6 +76,8 @@ EPS, LOAD, SECOND, LARGER, FIRST = range(5)
 """Rows of the nodes over ε: ε, weighted load, areas on the second surface and the larger one, on
 the first surface by regime, and the sum over sizes."""
 SUM = FIRST + 3
+BY_ITSELF = SUM + 1
+"""The weight of a node."""
 FROM, UNTIL, NODE, NODE_END, SIZE, SIZE_END, GRID_ROWS = range(SUM + 2, SUM + 9)
 """Of pieces of the squeeze, in more rows: its ends, and where its nodes and its sizes begin and
 end."""
@@ -76,41 +89,55 @@ SMOOTH_END = 7.5
 """Standard deviations from the mean at which a normal density ends without a jump."""
 VECTOR = 8
 """Numbers that a processor takes at once: loops over the rest are slow."""
-ONSET, REST, ALIKE = 0.4, 0.2, 0.5
-"""Width of the first piece over that of the others; part of one below which the piece before goes
-on; 1 − ε from which on sizes may lie as close as before."""
+ONSET, ALIKE = 0.4, 0.5
+"""Part of the width of a panel that one from the onset may have; 1 − ε from which on sizes may lie
+as close as before."""
+NARROW_SEAT, NEAR_END, BARE = 0.6, 8.0, 1e300
+"""Widths of the seat, and ratio of its ends, up to which half the nodes of a panel do; a shadow
+that nothing casts."""
 
 
 # ------------------------------------------------------------------------------ once a state
 @scalar
-def _lay_between(given, sides, panels, p, n, a, b, grid, place, gauss, weights, nodes):
+def _lay_between(given, sides, panels, p, n, variable, a, b, grid, place, gauss, weights):
     """Gauss nodes between two ends on panel n, of what a particle carries; where they end."""
     apart()
     seen = 0.0
     if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
         seen = 0.25 * math.pi * given[p, BREADTH]
-    regime = FIRST + int(panels[p, n, REGIME])
+    nodes, regime = len(gauss), FIRST + int(panels[p, n, REGIME])
     room = panels[p, len(panels[p]) - ROOM :]
-    eps = room[AT]
-    for j in range(nodes):
-        eps[j] = a + 0.5 * (b - a) * (1 + gauss[j])
-        if a == 0:
-            eps[j] = 0.25 * b * (1 + gauss[j]) ** 2
+    place_nodes(variable, sides[2 * p, TAKEN], a, b, gauss, weights, room[AT], room[MASS])
     fill_particles(given, sides, panels, p, n, nodes)
-    for j in range(nodes):
-        weight = 0.5 * (b - a) * weights[j]
-        if a == 0:
-            weight *= 1 + gauss[j]
-        one, two = room[AREA_1, j], room[AREA_2, j]
-        grid[EPS, place] = eps[j]
-        grid[LOAD, place] = weight * room[CARRIED, j]
-        grid[SECOND, place] = weight * two
-        grid[LARGER, place] = weight * (shade(given, p, one, two) + seen)
-        for k in range(FIRST, SUM):
-            grid[k, place] = 0.0
-        grid[regime, place] = weight * one
-        place += 1
-    return place
+    floor = BARE  # of what counts as a shadow
+    if given[p, SHADOW] == FOOTPRINT:
+        floor = 0.0
+    elif given[p, SHADOW] == PROJECTED:
+        floor = 0.25 * math.pi * given[p, BREADTH]
+    _take_nodes(room, floor, seen, grid, regime, place, place + nodes)
+    return place + nodes
+
+
+@exact
+def _take_nodes(room, floor, seen, grid, regime, begin, end):
+    """Nodes from the rows of the room, weighted, into those over ε."""
+    eps, mass, load = room[AT], room[MASS], room[CARRIED]
+    one, two = room[AREA_1], room[AREA_2]
+    to_eps, to_mass, to_load = (
+        grid[EPS, begin:end],
+        grid[BY_ITSELF, begin:end],
+        grid[LOAD, begin:end],
+    )
+    second, larger = grid[SECOND, begin:end], grid[LARGER, begin:end]
+    for j in range(len(to_eps)):
+        to_eps[j], to_mass[j] = eps[j], mass[j]
+        to_load[j], second[j] = mass[j] * load[j], mass[j] * two[j]
+        larger[j] = mass[j] * (max(max(one[j], two[j]) - floor, 0.0) + seen)
+    for k in range(FIRST, SUM):
+        area = grid[k, begin:end]
+        own = 1.0 if k == regime else 0.0
+        for j in range(len(area)):
+            area[j] = own * mass[j] * one[j]
 
 
 @summed
@@ -177,8 +204,9 @@ def _lay_piece(given, sides, panels, p, count, panel, a, b, grid, place, rule):
     for n in range(panel, panel + parts):
         low, high = max(a, panels[p, n, EDGE]), min(b, panels[p, n, TO])
         end = _lay_between(
-            given, sides, panels, p, n, low, high, grid, end, rule[RULE], rule[RULE + 1], nodes
-        )
+            given, sides, panels, p, n, LINEAR if low > 0 else ROOTED, low, high, grid, end,
+            rule[RULE, :nodes], rule[RULE + 1, :nodes],
+        )  # fmt: skip
     if begin > place:
         _gather(grid, place, begin, end, a, b, rule)
         end = place + most
@@ -210,8 +238,9 @@ def lay_broken(given, sides, panels, p, count, grid, place, sizes, size, rule):
             b = first + (last - first) * (m + 1) / parts
             if held == n:
                 place = _lay_between(
-                    given, sides, panels, p, n, a, b, grid, place, rule[row], rule[row + 1], nodes
-                )
+                    given, sides, panels, p, n, LINEAR if a > 0 else ROOTED, a, b, grid, place,
+                    rule[row, :nodes], rule[row + 1, :nodes],
+                )  # fmt: skip
                 continue
             while n < held - 1 and panels[p, n, TO] <= a:
                 n += 1
@@ -223,73 +252,82 @@ def lay_broken(given, sides, panels, p, count, grid, place, sizes, size, rule):
 
 
 @scalar
-def _ends_smoothly(given, p):
-    """Whether the density of the sizes has no jump at its ends, which K would show."""
+def _own_width(given, p, span):
+    """Width of K from the sizes over 1 − ε, where their density has no jump at its ends."""
+    middle, reach = given[p, SIZE_1], SMOOTH_END * given[p, SIZE_2]
+    smooth = given[p, KIND] == LOGNORMAL
     if given[p, KIND] == GAUSSIAN:
-        middle, reach = given[p, SIZE_1], SMOOTH_END * given[p, SIZE_2]
-        return given[p, LOW] <= middle - reach and middle + reach <= given[p, HIGH]
-    return given[p, KIND] == LOGNORMAL
+        smooth = given[p, LOW] <= middle - reach and middle + reach <= given[p, HIGH]
+    if not smooth or span < WIDE_SPAN:
+        return 0.0
+    size = 0.5 * (given[p, LOW] + given[p, HIGH])
+    return scale_of(given, p, size) / size
 
 
 @scalar
-def _cut_squeeze(given, panels, p, count, grid, piece, rule):
-    """Lay the ends of pieces of the squeeze in which K changes little; where they end, or −1."""
-    apart()
-    span, last = rule[0, SEAT_SPAN], panels[p, count - 1, TO]
-    seat, own = given[p, WIDTH] / given[p, HIGH], 0.0
-    if span >= WIDE_SPAN and _ends_smoothly(given, p):
-        size = 0.5 * (given[p, LOW] + given[p, HIGH])
-        own = scale_of(given, p, size) / size
-    a = 0.0
-    while a < last:
-        thin = own * abs(1 - a) / (1 + 0.5 * span * own)  # half a piece further
-        step = span * math.sqrt(seat * seat + thin * thin)
-        b = a + (ONSET * step if a == 0 else step)
-        if b + REST * step > last:
-            b = last
-        if piece == MOST_NODES:
-            return -1
-        grid[FROM, piece], grid[UNTIL, piece] = a, b
-        piece += 1
-        a = b
-    return piece
+def _end_piece(grid, piece, place, size):
+    """Fill up a piece with nodes that carry nothing; where they end."""
+    while place % VECTOR != 0:
+        for row in range(LOAD, BY_ITSELF + 1):
+            grid[row, place] = 0.0
+        grid[EPS, place] = grid[EPS, place - 1]
+        place += 1
+    grid[NODE_END, piece], grid[SIZE_END, piece] = place, size
+    return place
 
 
 @scalar
 def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, piece, rule):
-    """Lay pieces of the squeeze with their nodes and sizes; where pieces, nodes and sizes end.
+    """Lay nodes over the squeeze in pieces with their sizes; where pieces, nodes and sizes end.
 
     −1 for pieces where there is no room.
     """
     apart()
-    until = _cut_squeeze(given, panels, p, count, grid, piece, rule)
-    panel, closest = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
-    for s in range(piece, until):
-        a, b = grid[FROM, s], grid[UNTIL, s]
-        while panel < count - 1 and panels[p, panel, TO] <= a:
-            panel += 1
-        end = _lay_piece(given, sides, panels, p, count, panel, a, b, grid, place, rule)
-        if end < 0:
+    span, seat = rule[0, PANEL_SPAN], given[p, WIDTH] / given[p, HIGH]
+    nodes, half = int(rule[0, PANEL_NODES]), int(rule[0, HALF_NODES])
+    closest, before, own = 0.0, 0, _own_width(given, p, span)
+    n = int(panels[p, 0, EDGE])  # 0, and no constant
+    while n < count:
+        begin, end, variable = (
+            panels[p, n, EDGE],
+            panels[p, n, TO],
+            variable_of(given, panels, p, n),
+        )
+        thin = own * abs(1 - 0.5 * (begin + end))
+        width = math.sqrt(seat * seat + thin * thin)
+        wide = (end - begin) / (width if begin > 0 else ONSET * width)
+        parts = max(1, math.ceil(wide / span - 1e-9))
+        few = wide <= NARROW_SEAT * parts and end <= NEAR_END * (end if begin == 0 else begin)
+        few &= is_plain(given, panels, p, n)
+        if place + (parts + 1) * nodes > MOST_NODES:
             return -1, place, size
-        while (end - place) % VECTOR != 0:  # nodes that carry nothing
-            for row in range(LOAD, SUM):
-                grid[row, end] = 0.0
-            grid[EPS, end] = grid[EPS, end - 1]
-            end += 1
-        grid[NODE, s], grid[NODE_END, s] = place, end
-        place = end
-        # sizes as close as a gap shows them at the least squeeze of the piece
-        widest = max(abs(1 - a), abs(1 - b))
-        if ALIKE * closest <= widest <= closest:
-            grid[SIZE, s], grid[SIZE_END, s] = grid[SIZE, s - 1], grid[SIZE_END, s - 1]
-            continue
-        closest = widest
-        grid[SIZE, s] = size
-        size = lay_sizes(given, p, sizes, size, rule, widest)
-        if size < 0:
-            return -1, place, size
-        grid[SIZE_END, s] = size
-    return until, place, size
+        for m in range(parts):
+            a, b = begin + (end - begin) * m / parts, begin + (end - begin) * (m + 1) / parts
+            # sizes as close as a gap shows them at the least squeeze of the piece
+            widest = max(abs(1 - a), abs(1 - b))
+            parted = parts_of_sizes(given, p, rule, widest)
+            if closest == 0 or (
+                (parted == 0 or parted != before) and not ALIKE * closest <= widest <= closest
+            ):
+                before = parted
+                if closest > 0:
+                    place = _end_piece(grid, piece, place, size)
+                    piece += 1
+                if piece == MOST_NODES:
+                    return -1, place, size
+                closest, grid[NODE, piece], grid[SIZE, piece] = widest, place, size
+                grid[FROM, piece] = a
+                size = lay_sizes(given, p, sizes, size, rule, widest)
+                if size < 0:
+                    return -1, place, size
+            row, number = (HALF_RULE, half) if few else (PANEL_RULE, nodes)
+            place = _lay_between(
+                given, sides, panels, p, n, variable, a, b, grid, place, rule[row, :number],
+                rule[row + 1, :number],
+            )  # fmt: skip
+            grid[UNTIL, piece] = b
+        n += 1
+    return piece + 1, _end_piece(grid, piece, place, size), size
 
 
 # ------------------------------------------------------------------------------ at a separation
@@ -444,6 +482,22 @@ def _add_nodes(given, p, grid, begin, end, out):
 
 
 @scalar
+def pays(grid, begin, end, bound, most_loss):
+    """Whether loads at nodes over ε grow at least as fast as the bound times what they shade.
+
+    But for a loss per coverage.
+    """
+    apart()
+    most = worst = 0.0
+    for i in range(begin, end):
+        if grid[BY_ITSELF, i] > 0:
+            left = (grid[LOAD, i] - bound * grid[LARGER, i]) / grid[BY_ITSELF, i]
+            most = max(most, left)
+            worst = max(worst, most - left)
+    return worst <= most_loss
+
+
+@scalar
 def _squared(given, p, grid, sizes, s, thick, gap):
     """Sum of the squares of sizes of a piece whose part of this thickness reaches the gap."""
     apart()
@@ -501,8 +555,7 @@ def add_part(given, sides, panels, p, own, grid, sizes, shares, d, rule, out):
         out[SHADE] += given[p, COVERAGE]
     if given[p, SEAT] == PLANE:
         return add_plane(
-            given, sides, panels, p, count, gap, rule[RULE], rule[RULE + 1], int(rule[0, NODES]),
-            rule[0, SPAN], out,
+            given, sides, panels, p, count, gap, rule, out
         )  # fmt: skip
     if given[p, BREAKS] == 1:
         _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, out)

@@ -34,6 +34,8 @@ from .curves import (
     OLD_OFF,
     ONE,
     OTHER,
+    PASSING,
+    PASSING_2,
     ROOM,
     SECOND,
     SETTLED,
@@ -50,14 +52,28 @@ from .curves import (
     find_rest,
     follow,
     mix,
+    read_particle,
+    read_particles,
     read_shares,
     settle_rows,
+    share_at,
     take_weaker,
     transform,
 )
-from .fields import CEB, CODE, COUNT, JG, JUMPS, KINKS, LIMIT, LOADS, MOST_JUMPS
+from .fields import (
+    CEB,
+    CODE,
+    COUNT,
+    EQUAL,
+    JG,
+    JUMPS,
+    KINKS,
+    LIMIT,
+    LOADS,
+    MOST_JUMPS,
+)
 from .sides import exact, scalar, side_at
-from .vectors import exp, formula_of, ln, padded
+from .vectors import exp, fill_side, formula_of, ln, padded
 
 
 @scalar
@@ -420,3 +436,71 @@ def share_out(sides, panels, p, count, rule, spread):
         left += tail * part
         n += 1
     return count, left
+
+
+@scalar
+def first_at(panels, p, n, eps):
+    """Indentation over x of side 1 at a squeeze ε on panel n."""
+    held = panels[p, n, HELD]
+    if held != 0:
+        return held if held > 0 else eps + held
+    return eps * share_at(panels, p, n, eps)
+
+
+@scalar
+def particle_at(given, sides, panels, p, n, eps):
+    """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
+    apart()
+    if panels[p, n, SURE] == 1:
+        return read_particle(panels[p, n], eps)
+    if given[p, EQUAL] == 1:
+        load, area = side_at(sides, 2 * p, 0.5 * eps)
+        return load, area, area
+    held = panels[p, n, HELD]
+    one = held if held > 0 else eps + held
+    load, first = side_at(sides, 2 * p, one)
+    other, second = side_at(sides, 2 * p + 1, eps - one)
+    return other if held > 0 else load, first, second
+
+
+@scalar
+def fill_particles(given, sides, panels, p, n, count):
+    """As `particle_at`, at so many ε in the row `AT` of the room behind the panels of part p.
+
+    Into the rows `LOAD`, `AREA_1` and `AREA_2` there.
+    """
+    apart()
+    wide, panel, room = padded(count), panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    eps, first = room[AT, :wide], room[FIRST, :wide]
+    for j in range(count, wide):
+        eps[j] = eps[count - 1]
+    if panel[SURE] == 1:
+        read_particles(
+            panel, eps, room[LOAD, :wide], room[AREA_1, :wide], room[AREA_2, :wide]
+        )  # fmt: skip
+    elif given[p, EQUAL] == 1:
+        for j in range(wide):
+            first[j] = 0.5 * eps[j]
+        fill_side(
+            sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide],
+            room[PASSING, :wide], room[PASSING_2, :wide],
+        )  # fmt: skip
+        for j in range(wide):
+            room[AREA_2, j] = room[AREA_1, j]
+    else:
+        for j in range(count):
+            room[LOAD, j], room[AREA_1, j], room[AREA_2, j] = particle_at(
+                given, sides, panels, p, n, eps[j]
+            )
+
+
+@scalar
+def settle(given, sides, panels, p, n, rule):
+    """Series of load and areas on panel n between equal sides, where they are smooth enough."""
+    apart()
+    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    panel[SURE] = 0.0
+    panel[FROM], panel[UNTIL] = panel[EDGE], panel[TO]
+    fill_places(rule[0, :TERMS], panel[EDGE], panel[TO], room[AT, :TERMS])
+    fill_particles(given, sides, panels, p, n, TERMS)
+    panel[SURE] = 1.0 if settle_rows(panel, room, rule) <= SETTLED else 0.0

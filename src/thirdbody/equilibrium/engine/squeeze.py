@@ -20,15 +20,13 @@ from .curves import (
     REGIME,
     ROOM,
     SHARE,
+    SURE,
     TO,
     UNTIL,
-    fill_particles,
-    first_at,
-    particle_at,
-    settle,
 )
 from .densities import scale_of
 from .fields import (
+    BREAKS,
     COUNT,
     EQUAL,
     FOOTPRINT,
@@ -42,16 +40,28 @@ from .fields import (
     PROJECTED,
     SEAT,
     SHADOW,
+    TIP,
     WIDTH,
 )
-from .shares import around, inverse, note_jumps, note_loads, share_out
-from .sides import chord, is_split, narrowed, prepare, regime_of, scalar, side_at
-from .vectors import VECTOR, formula_of
+from .shares import (
+    around,
+    fill_particles,
+    first_at,
+    inverse,
+    note_jumps,
+    note_loads,
+    particle_at,
+    settle,
+    share_out,
+)
+from .sides import EARLIEST, chord, is_split, narrowed, prepare, regime_of, scalar, side_at
+from .vectors import ANY, VECTOR, formula_of
 
 __all__ = ["lay_panels"]
 
-RATIO = 4.0
-"""Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
+RATIO, FARTHEST = 4.0, 128.0
+"""Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far; of
+one of the law alone, whose cube root is the variable there."""
 DEEPEST, SAME_AREA = 1e3, 1e-5
 PART = 0.2
 """Of the width of the sizes or the seat over which most of a load is carried, at least."""
@@ -79,13 +89,19 @@ def _kinks(given, sides, panels, p):
     panels[p, 0, EDGE] = panels[p, 0, ONE] = 0.0
     count = 1 + int(panels[p, 0, EDGE])  # no constant, for which numba would compile twice
     equal = given[p, EQUAL] == 1
+    all_splits = given[p, BREAKS] == 1 or not equal
     for i in range(1 if equal else 2):
         own, other = 2 * p + i, 2 * p + 1 - i
         stronger = sides[own, LIMIT] - sides[other, LIMIT] > (2 * i - 1) * CLOSE * sides[own, LIMIT]
         for k in range(int(sides[own, COUNT])):
             delta = sides[own, KINKS + k]
-            if stronger and is_split(sides, own, delta) and not equal:
-                continue  # the weaker side has its own, where it is squeezed as far
+            # two panels whose variable is that of the table do with few nodes
+            one = abs(delta - EARLIEST * sides[own, TIP]) < 1e-13
+            # the weaker side has its own, where it is squeezed as far
+            if is_split(sides, own, delta) and (
+                (stronger and not equal) or not (one or all_splits)
+            ):
+                continue
             if equal:
                 count = _lay(panels, p, count, 2 * delta, delta)
                 continue
@@ -195,6 +211,33 @@ def _note_last(given, sides, panels, p, count):
 
 
 @scalar
+def _farthest(given, sides, p, a):
+    """Ratio of the ends of a panel that begins at a, at most."""
+    apart()
+    if given[p, EQUAL] != 1 or given[p, BREAKS] == 1:
+        return RATIO
+    formula = formula_of(sides, 2 * p, 0.5 * a * (1 + 1e-6))
+    return RATIO if formula == ANY else FARTHEST
+
+
+@scalar
+def _cut_far(given, sides, panels, p, count):
+    """Ends of panels with more between those that lie far apart; how many, or −1."""
+    apart()
+    known = count
+    for k in range(1, known - 1):  # cut those whose ends lie far apart
+        a, b = panels[p, known - 1 - k, EDGE], panels[p, known - k, EDGE]
+        parts = math.ceil(math.log(b / a) / math.log(_farthest(given, sides, p, a)) - 1e-9)
+        if count + parts >= MOST_PANELS - 2:
+            return -1
+        step = (b / a) ** (1.0 / parts) if parts > 1 else 1.0
+        for _ in range(parts - 1):
+            a *= step
+            count = _lay(panels, p, count, a, -1.0)
+    return count
+
+
+@scalar
 def lay_panels(given, sides, panels, p, rule):
     """Lay the panels of part p; how many, or −1 where the formulas do not cover it."""
     apart()
@@ -211,16 +254,9 @@ def lay_panels(given, sides, panels, p, rule):
     count = _kinks(given, sides, panels, p)
     if count < 2 or panels[p, count - 1, EDGE] > DEEPEST:
         return -1
-    known = count
-    for k in range(1, known - 1):  # cut those whose ends lie far apart
-        a, b = panels[p, known - 1 - k, EDGE], panels[p, known - k, EDGE]
-        parts = math.ceil(math.log(b / a) / math.log(RATIO) - 1e-9)
-        if count + parts >= MOST_PANELS - 2:
-            return -1
-        step = (b / a) ** (1.0 / parts) if parts > 1 else 1.0
-        for _ in range(parts - 1):
-            a *= step
-            count = _lay(panels, p, count, a, -1.0)
+    count = _cut_far(given, sides, panels, p, count)
+    if count < 0:
+        return -1
     for n in range(count - 1):
         panels[p, n, TO], panels[p, n, UNTIL] = panels[p, n + 1, EDGE], 0.0
     count -= 1
@@ -236,7 +272,9 @@ def lay_panels(given, sides, panels, p, rule):
         panels[p, n, REGIME] = regime_of(sides, 2 * p, one)
         if equal:
             panels[p, n, FORM_1] = formula_of(sides, 2 * p, one)
-            settle(given, sides, panels, p, n, rule)
+            panels[p, n, SURE] = 0.0
+            if panels[p, n, FORM_1] == ANY and given[p, SEAT] == PLANE:
+                settle(given, sides, panels, p, n, rule)
     _note_last(given, sides, panels, p, count)
     panels[p, count, SHARE] = 0.0 if equal else worst
     return count

@@ -1,10 +1,9 @@
-"""Sums over asperities, sizes and seats of one state, at one separation."""
+"""Sums over sizes and seats of one state, at one separation."""
 
 from __future__ import annotations
 
 import math
 
-from ...laws.asperity import formulas
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
 from .curves import (
@@ -18,282 +17,67 @@ from .curves import (
     REGIME,
     ROOM,
     TO,
-    fill_particles,
-    particle_at,
 )
 from .curves import LOAD as CARRIED
 from .densities import density, scale_of
-from .field import add_field, lay_field
 from .fields import (
-    A_E,
     A_SA,
     A_SA2,
-    AREA,
-    BENDS,
     BREADTH,
     BREAKS,
-    COATED,
-    COATING_TERMS,
-    CODE,
     DENSITY,
     EQUAL,
     EXPONENT,
-    EXPONENTIAL,
     F_SA,
-    F_SS,
-    FIELD,
-    FINEST,
     FOOTPRINT,
-    FORCE,
-    GAUSSIAN_HEIGHTS,
-    HEIGHTS,
+    GAUSSIAN,
+    HALF_NODES,
+    HALF_RULE,
     HIGH,
-    JKR,
     KEPT,
     KIND,
-    LAID_FROM,
-    LAST,
-    LAW_1,
     LIMIT,
     LOGNORMAL,
     LOW,
-    LOWEST_HEIGHT,
-    MIDDLE,
     MODULUS,
     NARROW_NODES,
     NARROW_RULE,
+    NORM,
     ONE_SIZE,
+    PANEL_NODES,
+    PANEL_RULE,
+    PLANE_SPAN,
     POWER,
     PROJECTED,
     RATIO,
-    REST,
     SHADE,
     SHADOW,
-    SHAPE,
     SIZE_1,
+    SIZE_2,
     SIZE_NODES,
     SIZE_RULE,
     SIZE_SPAN,
-    SPREAD,
-    START,
-    STEP,
-    STEPS,
-    THIN,
-    TOP,
     WIDTH,
-    W,
 )  # fmt: skip
-from .sides import branch_of, break_at, breaks, exact, law_at, regime_of_branch, scalar
+from .nodes import FLATTENED, LINEAR, ROOTED, is_plain, place_lengths, variable_of
+from .shares import fill_particles, particle_at
+from .sides import exact, scalar, summed
 
 __all__ = [
-    "MOST_HEIGHTS",
     "MOST_SIZES",
-    "ROOT_2PI",
     "above",
     "add_last",
     "add_plane",
-    "add_skin",
     "lay_sizes",
-    "lay_skin",
+    "parts_of_sizes",
     "shade",
 ]
 
-MOST_SIZES, MOST_HEIGHTS = 16_384, 1536
-T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
-"""Rows of the nodes over heights: t = ω/σ_s, weighted load and area, regime."""
-ROOT_2PI = math.sqrt(2 * math.pi)
+MOST_SIZES = 16_384
 NARROW = 0.15
 """Width of a panel over sizes of pieces, in usual ones, up to which few nodes do."""
-NEAREST, CLOSEST = 0.3, 1e-5
-"""First panel over heights [σ_s], and over the distance to the lower end of the heights."""
-
-
-adhesive, stretched = scalar(formulas.adhesive), scalar(formulas.stretched)
-stretched_from, coated_beyond = scalar(formulas.stretched_from), scalar(formulas.coated_beyond)
-
-
-# ------------------------------------------------------------------------------ asperities
-@scalar
-def _coated(coating, y, unit):
-    """Load and area of a coated asperity."""
-    apart()
-    root = math.sqrt(y)
-    if root > coating[0, TOP]:
-        load, area = coated_beyond(
-            coating[0, TOP] / root, coating[0, THIN], coating[0, REST], coating[0, REST + 1],
-            coating[0, REST + 2], coating[0, REST + 3],
-        )  # fmt: skip
-        return unit * load * root * y, area * y
-    place = math.log(1 + coating[0, BENDS] * root) * coating[0, STEPS]
-    n = min(int(place), len(coating) - 2)
-    x, load, area = 2 * (place - n) - 1, 0.0, 0.0
-    for k in range(COATING_TERMS - 1, -1, -1):
-        load = load * x + coating[n + 1, k]
-        area = area * x + coating[n + 1, COATING_TERMS + k]
-    return unit * load * root * y, area * y
-
-
-@scalar
-def _fill_panel(skin, row, coating, heights, count, gauss, weights, nodes, start, a, b):
-    """Nodes of a panel of y: y, its weight, load and area; by the root of y − a where it begins."""
-    apart()
-    code, rooted = skin[row, CODE], a == start
-    low, half = (0.0, 0.5 * math.sqrt(b - a)) if rooted else (a, 0.5 * (b - a))
-    for j in range(nodes):
-        y, weight = low + half * (1 + gauss[j]), half * weights[j]
-        if rooted:
-            y, weight = start + y * y, 2 * y * weight
-        load, area = (
-            _coated(coating, y, skin[row, LAW_1]) if code == COATED else law_at(skin, row, y)
-        )
-        heights[T, count], heights[4, count] = y, weight
-        heights[OF_LOAD, count], heights[OF_AREA, count] = load, area
-        count += 1
-
-
-@scalar
-def _fill_stretched(skin, row, heights, count, gauss, weights, nodes, a, b):
-    """As `_fill_panel`, of `JKR`, with its e as the variable: there is no root to find."""
-    apart()
-    low = stretched_from(a)
-    half = 0.5 * (stretched_from(b) - low)
-    for j in range(nodes):
-        e = low + half * (1 + gauss[j])
-        load, area = adhesive(e, skin[row, LAW_1])
-        heights[T, count] = stretched(e)
-        heights[4, count] = half * weights[j] * e * (3 + e * (3 + e))
-        heights[OF_LOAD, count], heights[OF_AREA, count] = load, area
-        count += 1
-
-
-@scalar
-def _lay_shape(skin, row, coating, heights, count, until, gauss, weights, nodes, off):
-    """As `lay_skin`, of the asperities of one shape."""
-    apart()
-    w, start = skin[row, W], skin[row, START]
-    first, number = NEAREST / w, breaks(skin, row)
-    if off > -math.inf:
-        first *= min(max(w * start - off, CLOSEST), 1.0)
-        start = max(start, off / w)
-    first = min(first, skin[row, FINEST])
-    step, end = skin[row, STEP] / w, start + skin[row, LAST] / w
-    load_unit, area_unit = skin[row, FORCE] / skin[0, FORCE], skin[row, AREA] / skin[0, AREA]
-    a = start
-    while a < end:
-        b = a + first if a == start else min(start + (a - start) * 4.0, a + step)
-        if a > 0:
-            b = min(b, 4.0 * a)
-        for n in range(number):
-            y = break_at(skin, row, n)
-            if a < y * (1 - 1e-12) and y < b:
-                b = y
-        if b - start > 0.9 * (end - start):
-            b = end
-        if count + nodes > until:
-            return -1
-        regime = 0
-        if number > 0:
-            regime = regime_of_branch(skin, row, branch_of(skin, row, 0.5 * (a + b)))
-        if skin[row, CODE] == JKR:
-            _fill_stretched(skin, row, heights, count, gauss, weights, nodes, a, b)
-        else:
-            _fill_panel(
-                skin, row, coating, heights, count, gauss, weights, nodes, start, a, b
-            )  # fmt: skip
-        for j in range(count, count + nodes):
-            weight = heights[4, j] * w / ROOT_2PI
-            heights[T, j] *= w
-            heights[OF_LOAD, j] *= weight * load_unit
-            heights[OF_AREA, j] *= weight * area_unit
-            heights[ITS_REGIME, j] = regime
-        count += nodes
-        a = b
-    return count
-
-
-@scalar
-def lay_skin(skin, coating, heights, count, until, gauss, weights, nodes, off):
-    """Nodes over the interference of asperities: t, weighted load and area; where they end.
-
-    To the end of the heights; from their lower end on, which lies ``off`` above the separation
-    [σ_s], −∞ where that does not show. −1 if they would take more than ``until`` nodes. Loads and
-    areas of every shape are in units of the first.
-    """
-    apart()
-    if skin[0, CODE] == FIELD:
-        lay_field(heights)
-        return count
-    for row in range(len(skin)):
-        if count >= 0:
-            count = _lay_shape(
-                skin, row, coating, heights, count, until, gauss, weights, nodes, off
-            )
-    return count
-
-
-@exact
-def _weigh(heights, begin, end, h):
-    """Densities of Gaussian heights at the nodes, without exp(−h²/2)."""
-    apart()
-    # rows of their own, from zero: only then do loops over them become vectors
-    t, found = heights[T, begin:end], heights[4, begin:end]
-    for j in range(len(t)):
-        found[j] = exp(max(-t[j] * (h + 0.5 * t[j]), -700.0))
-
-
-@exact
-def _weigh_other(skin, heights, begin, end, h):
-    """Densities of other heights at the nodes without a factor, and that factor times √(2π)."""
-    apart()
-    if skin[0, HEIGHTS] == EXPONENTIAL:
-        for j in range(begin, end):
-            heights[4, j] = exp(max(-heights[T, j], -700.0))
-        return ROOT_2PI * math.exp(-(h + 1))
-    shape, middle, spread = skin[0, SHAPE], skin[0, MIDDLE], skin[0, SPREAD]
-    here = max(middle + spread * h, 0.0) ** shape
-    for j in range(begin, end):
-        x = max(middle + spread * (h + heights[T, j]), 1e-300)
-        power = math.exp(shape * math.log(x))
-        heights[4, j] = power / x * math.exp(max(here - power, -700.0))
-    return ROOT_2PI * spread * shape * math.exp(-here)
-
-
-@scalar
-def add_skin(skin, coating, heights, begin, end, gauss, weights, nodes, h, out):
-    """Load and areas of the asperities at h [σ_s], into the first four columns.
-
-    Where the lower end of the heights lies among the nodes, or close to them, they are laid anew.
-    """
-    apart()
-    if skin[0, CODE] == FIELD:
-        return add_field(skin, heights, h, out)
-    if h < skin[0, LAID_FROM]:
-        begin = heights.shape[1] // 2
-        off, until = skin[0, LOWEST_HEIGHT] - h, heights.shape[1]
-        end = lay_skin(skin, coating, heights, begin, until, gauss, weights, nodes, off)
-        if end < 0:
-            return False
-    if skin[0, HEIGHTS] == GAUSSIAN_HEIGHTS:
-        _weigh(heights, begin, end, h)
-        factor = math.exp(-0.5 * h * h)
-    else:
-        factor = _weigh_other(skin, heights, begin, end, h)
-    load, elastic, middle, plastic = 0.0, 0.0, 0.0, 0.0
-    for j in range(begin, end):
-        share = heights[4, j]
-        load += heights[OF_LOAD, j] * share
-        area = heights[OF_AREA, j] * share
-        regime = heights[ITS_REGIME, j]
-        if regime == 0:
-            elastic += area
-        elif regime == 1:
-            middle += area
-        else:
-            plastic += area
-    out[F_SS] = skin[0, FORCE] * factor * load
-    factor *= skin[0, AREA]
-    out[A_E], out[A_E + 1], out[A_E + 2] = factor * elastic, factor * middle, factor * plastic
-    return True
+NARROW_SIZES, NEAR_END = 0.8, 8.0
+"""Widths of sizes on a plane, and ratio of the ends of a panel, up to which half the nodes do."""
 
 
 # ------------------------------------------------------------------------------ sizes
@@ -352,23 +136,58 @@ def lay_sizes(given, p, sizes, begin, rule, thick):
             if count < 0:
                 return -1
         return count
-    a, count = low, begin
+    even, a, count = parts_of_sizes(given, p, rule, thick), low, begin
     while a < high:
         own = scale_of(given, p, a)
-        step = span / math.sqrt(1 / (own * own) + 1 / (width * width))
-        parts = math.ceil((high - a) / step - 1e-9)
-        b = high if parts <= 1 else a + (high - a) / parts
-        if (given[p, KIND] == LOGNORMAL or given[p, KIND] == POWER) and parts > 1:
-            b = min(high, a + step)
+        b = high
+        if even > 0:
+            b = low + (high - low) * ((count - begin) // nodes + 1) / even
+        else:
+            step = span / math.sqrt(1 / (own * own) + 1 / (width * width))
+            parts = math.ceil((high - a) / step - 1e-9)
+            b = high if parts <= 1 else min(high, a + step)
         if count + nodes > MOST_SIZES:
             return -1
-        for j in range(nodes):
-            x = a + 0.5 * (b - a) * (1 + gauss[j])
-            sizes[0, count] = x
-            sizes[1, count] = 0.5 * (b - a) * weights[j] * density(given, p, x)
-            count += 1
-        a = b
+        _place_sizes(
+            given, p, a, 0.5 * (b - a), gauss[:nodes], weights[:nodes],
+            sizes[0, count : count + nodes], sizes[1, count : count + nodes],
+        )  # fmt: skip
+        count += nodes
+        a = b if count - begin != even * nodes else high
     return count
+
+
+@scalar
+def parts_of_sizes(given, p, rule, thick):
+    """In how many parts of one length sizes are laid, or 0 where they are not alike."""
+    if given[p, KIND] == ONE_SIZE:
+        return 1
+    if given[p, BREAKS] == 1 or (given[p, KIND] == LOGNORMAL or given[p, KIND] == POWER):
+        return 0
+    low, high, width = given[p, LOW], given[p, HIGH], given[p, WIDTH] / max(thick, 1e-3)
+    own = scale_of(given, p, low)
+    step = rule[0, SIZE_SPAN] / math.sqrt(1 / (own * own) + 1 / (width * width))
+    return max(1, math.ceil((high - low) / step - 1e-9))
+
+
+@exact
+def _weigh_normal(middle, width, norm, x, mass):
+    for j in range(len(x)):
+        u = (x[j] - middle) / width
+        mass[j] *= norm * exp(max(-0.5 * u * u, -700.0))
+
+
+@scalar
+def _place_sizes(given, p, a, half, gauss, weights, x, mass):
+    """Nodes over sizes from a on, and their numbers."""
+    apart()
+    for j in range(len(x)):
+        x[j], mass[j] = a + half * (1 + gauss[j]), half * weights[j]
+    if given[p, KIND] == GAUSSIAN:
+        _weigh_normal(given[p, SIZE_1], given[p, SIZE_2], given[p, NORM], x, mass)
+        return
+    for j in range(len(x)):
+        mass[j] *= density(given, p, x[j])
 
 
 @scalar
@@ -418,22 +237,62 @@ def _add_size(given, sides, panels, p, n, x, eps, weight, out):
         out[SHADE] += squared * 0.25 * math.pi * given[p, BREADTH]
 
 
+@summed
+def _sums_of(mass, load, one, two, floor):
+    """What weighed particles carry: load, areas, and the larger area above what is bare."""
+    carried = area = second = shaded = 0.0
+    for j in range(len(mass)):
+        carried += mass[j] * load[j]
+        area += mass[j] * one[j]
+        second += mass[j] * two[j]
+        shaded += mass[j] * max(max(one[j], two[j]), floor)
+    return carried, area, second, shaded
+
+
 @scalar
 def _add_sizes(given, p, regime, room, nodes, out):
     """What particles carry that are weighed at nodes of a panel."""
-    load = area = second = shaded = 0.0
-    for j in range(nodes):
-        squared, one, two = room[MASS, j], room[AREA_1, j], room[AREA_2, j]
-        load += squared * room[CARRIED, j]
-        area += squared * one
-        second += squared * two
-        shaded += squared * shade(given, p, one, two)
-        if given[p, SHADOW] == PROJECTED:
-            shaded += squared * 0.25 * math.pi * given[p, BREADTH]
+    apart()
+    floor = 0.25 * math.pi * given[p, BREADTH] if given[p, SHADOW] == PROJECTED else 0.0
+    load, area, second, shaded = _sums_of(
+        room[MASS, :nodes], room[CARRIED, :nodes], room[AREA_1, :nodes], room[AREA_2, :nodes], floor
+    )
     out[F_SA] += load
     out[A_SA + regime] += area
     out[A_SA2] += second
-    out[SHADE] += shaded
+    if given[p, SHADOW] == FOOTPRINT or given[p, SHADOW] == PROJECTED:
+        out[SHADE] += shaded
+
+
+@exact
+def _weigh_gaussian(middle, width, norm, gap, at, mass):
+    """Squeezes of Gaussian sizes, and their number times x² into their weights."""
+    total = 0.0
+    for j in range(len(at)):
+        x = gap + at[j]
+        u = (x - middle) / width
+        mass[j] *= norm * x * x * exp(max(-0.5 * u * u, -700.0))
+        at[j] /= x
+        total += mass[j]
+    return total
+
+
+@scalar
+def _weigh_sizes(given, p, gap, at, mass):
+    """Squeezes of sizes from their indentations, their number times x² into their weights, and
+    the sum of these."""
+    apart()
+    factor, total = given[p, DENSITY], 0.0
+    if given[p, KIND] == GAUSSIAN:
+        return _weigh_gaussian(
+            given[p, SIZE_1], given[p, SIZE_2], factor * given[p, NORM], gap, at, mass
+        )
+    for j in range(len(at)):
+        x = gap + at[j]
+        mass[j] *= factor * density(given, p, x) * x * x
+        at[j] /= x
+        total += mass[j]
+    return total
 
 
 @scalar
@@ -457,11 +316,10 @@ def _add_one_size(given, sides, panels, p, count, gap, out):
 
 
 @scalar
-def add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, out):
-    """What a part carries on a plane, by panels in the size x; False below its range."""
+def add_plane(given, sides, panels, p, count, gap, rule, out):
+    """What a part carries on a plane, by panels in the indentation; False below its range."""
     apart()
     low, high = given[p, LOW], given[p, HIGH]
-    factor = given[p, DENSITY]
     if gap >= high:
         return True
     edge = panels[p, count - 1, TO]
@@ -470,40 +328,45 @@ def add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, 
     if given[p, KIND] == ONE_SIZE:
         _add_one_size(given, sides, panels, p, count, gap, out)
         return True
-    squared, room = 0.0, panels[p, len(panels[p]) - ROOM :]
-    for n in range(count + 1):
+    squared, b = 0.0, max(low, gap)
+    n = count if gap <= 0 else count - count  # no constant, for which numba would compile twice
+    while n <= count and b < high:
         # sizes squeezed by the ε of panel n, and last those squeezed beyond
-        a, b = max(low, gap), high
-        if gap <= 0 and n < count:
-            continue
-        if gap > 0 and n > 0:
-            eps = panels[p, n - 1, TO]
-            a = max(a, gap / (1 - eps) if eps < 1 else high)
-        if n < count:
-            eps = panels[p, n, TO]
-            b = min(b, gap / (1 - eps) if eps < 1 else high)
-        while a < b:
-            step = span * scale_of(given, p, a)
-            parts = math.ceil((b - a) / step - 1e-9)
-            c = b if parts <= 1 else a + (b - a) / parts
-            rooted = n == 0
-            start = math.sqrt(max(a - gap, 0.0)) if rooted else a
-            half = 0.5 * ((math.sqrt(c - gap) if rooted else c) - start)
-            for j in range(nodes):
-                x, weight = start + half * (1 + gauss[j]), half * weights[j]
-                delta = x - gap
-                if rooted:
-                    delta, weight = x * x, 2 * x * weight
-                    x = gap + delta
-                weight *= factor * density(given, p, x) * x * x
-                room[AT, j], room[MASS, j] = delta / x, weight
-                if n == count:
-                    squared += weight
-            if n < count:
-                fill_particles(given, sides, panels, p, n, nodes)
-                _add_sizes(given, p, int(panels[p, n, REGIME]), room, nodes, out)
-            a = c
+        a, b = b, high
+        if n < count and panels[p, n, TO] < 1:
+            b = min(high, gap / (1 - panels[p, n, TO]))
+        if a < b:
+            squared += _add_panel(given, sides, panels, p, count, n, gap, a, b, rule, out)
+        else:
+            b = a
+        n += 1
     add_last(given, sides, panels, p, count, squared, out)
     if given[p, SHADOW] == PROJECTED:
         out[SHADE] += squared * 0.25 * math.pi * given[p, BREADTH]
     return True
+
+
+@scalar
+def _add_panel(given, sides, panels, p, count, n, gap, low, high, rule, out):
+    """What sizes between two carry that are on panel n, or the squares of those beyond all."""
+    apart()
+    room, own, squared = panels[p, len(panels[p]) - ROOM :], scale_of(given, p, low), 0.0
+    parts = math.ceil((high - low) / (rule[0, PLANE_SPAN] * own) - 1e-9)
+    # the logarithm of what a squeeze leaves of one is that of the indentation over the gap
+    variable = LINEAR if n == count else variable_of(given, panels, p, n)
+    variable = LINEAR if variable == FLATTENED else variable
+    for m in range(parts):
+        a, b = low + (high - low) * m / parts - gap, low + (high - low) * (m + 1) / parts - gap
+        near = b <= NEAR_END * a or variable in (ROOTED, LINEAR)
+        few = near and b - a <= NARROW_SIZES * own and (n == count or is_plain(given, panels, p, n))
+        row, nodes = (HALF_RULE, HALF_NODES) if few else (PANEL_RULE, PANEL_NODES)
+        nodes = int(rule[0, nodes])
+        at, mass = room[AT, :nodes], room[MASS, :nodes]
+        place_lengths(variable, a, b, gap, rule[row, :nodes], rule[row + 1, :nodes], at, mass)
+        total = _weigh_sizes(given, p, gap, at, mass)
+        if n < count:
+            fill_particles(given, sides, panels, p, n, nodes)
+            _add_sizes(given, p, int(panels[p, n, REGIME]), room, nodes, out)
+        else:
+            squared += total
+    return squared

@@ -50,7 +50,7 @@ from .sides import (
     zmc_by,
 )
 
-__all__ = ["VECTOR", "exp", "fill_side", "formula_of", "ln", "padded"]
+__all__ = ["VECTOR", "exp", "fill_law", "fill_side", "formula_of", "formula_of_law", "ln", "padded"]
 
 VECTOR = 8
 """Numbers that a processor takes at once."""
@@ -98,7 +98,7 @@ def padded(count):
 
 # ------------------------------------------------------------------------------ which formula
 @scalar
-def _formula_of_law(rows, i, y):
+def formula_of_law(rows, i, y):
     """Formula of the law of a row at y."""
     code, branch = rows[i, CODE], branch_of(rows, i, y)
     found = ANY
@@ -123,16 +123,16 @@ def formula_of(rows, i, delta):
     apart()
     form, y = rows[i, FORM], delta / rows[i, DELTA_1]
     if form == SPHERE and y < rows[i, CAP]:
-        return _formula_of_law(rows, i, y)
+        return formula_of_law(rows, i, y)
     if form == FACED and y < rows[i, JOINT]:
-        return _formula_of_law(rows, i, y)
+        return formula_of_law(rows, i, y)
     if form == DEEP and y < rows[i, END]:
         eps = delta / rows[i, TIP]
         if eps > TABLE_ENDS:
             return DISC
         if eps >= TABLE_BEGINS:
             return TABLE
-        found = _formula_of_law(rows, i, y)
+        found = formula_of_law(rows, i, y)
         if eps > LAW_ENDS and found != ANY:
             found += BLEND
         return found
@@ -193,11 +193,9 @@ def _fill_powers(rate, unit, breadth, f, m, a, n, delta, load, area):
 
 
 @scalar
-def _fill_law(rows, i, formula, delta, load, area):
-    """As `fill_side`, by a formula of the law."""
+def fill_law(rows, i, formula, rate, unit, breadth, delta, load, area):
+    """Load and area of the law of a row by a formula, in these units, y being rate times δ."""
     apart()
-    rate, unit = 1 / rows[i, DELTA_1], rows[i, UNIT]
-    breadth = math.pi * rows[i, TIP] * rows[i, DELTA_1]
     code, first, rho = rows[i, CODE], rows[i, LAW_1], rows[i, LAW_2]
     r, full = rows[i, LAW_3], rows[i, LAW_4]
     if formula == ELASTIC:
@@ -276,8 +274,9 @@ def fill_side(rows, i, formula, delta, load, area, passing, passing_2):
         for j in range(len(delta)):
             load[j], area[j] = side_at(rows, i, delta[j])
         return
+    once, own = 1 / rows[i, DELTA_1], math.pi * rows[i, TIP] * rows[i, DELTA_1]
     if formula < BLEND:
-        _fill_law(rows, i, formula, delta, load, area)
+        fill_law(rows, i, formula, once, rows[i, UNIT], own, delta, load, area)
         return
     rate, thin = 1 / rows[i, TIP], rows[i, DELTA_1] / rows[i, TIP]
     unit, breadth = rows[i, UNIT] / thin, math.pi * rows[i, TIP] * rows[i, TIP]
@@ -295,6 +294,6 @@ def fill_side(rows, i, formula, delta, load, area, passing, passing_2):
             rows[i, HILL], rate, unit, breadth, delta, load, area,
         )  # fmt: skip
     else:
-        _fill_law(rows, i, formula - BLEND, delta, load, area)
+        fill_law(rows, i, formula - BLEND, once, rows[i, UNIT], own, delta, load, area)
         _fill_table(series, rate, unit, breadth, delta, passing, passing_2)
         _join(rate, delta, load, area, passing, passing_2)

@@ -77,8 +77,6 @@ class Gap(NamedTuple):
 
     d: float
     """Separation [m]."""
-    slopes: Array
-    """∂d/∂y of every unknown: (n,)."""
     film_share: float
     """Part of the load that the oil carries [1]; 0 of a dry contact."""
 
@@ -163,8 +161,16 @@ class Loop(ABC):
         """The separation in a state."""
 
     @abstractmethod
+    def gap_slopes(self, y: Array, gap: Gap) -> Array:
+        """∂d/∂y of every unknown: (n,)."""
+
+    @abstractmethod
     def standing(self, y: Array, d: float) -> Array:
-        """Particles per area of contact for one of each number in the pool [1/m²]: (J, J)."""
+        """Particles per area of contact for one of each in the pool [1/m²]: (J, J)."""
+
+    def in_contact(self, y: Array, d: float) -> Array:
+        """Particles of the pool per area of contact [1/m²]: (J,)."""
+        return self.standing(y, d) @ y[self.layout[self.pool]]
 
     @abstractmethod
     def add_exchange(self, out: Rates, y: Array, state: Pressed) -> None:
@@ -172,7 +178,7 @@ class Loop(ABC):
 
     @abstractmethod
     def passes(self, side: int) -> float:
-        """Times per second that each place of a surface meets the particles [1/s]; 0 of a dry one."""
+        """Times per second that a place of a surface meets the particles [1/s]; 0 if dry."""
 
     @property
     def breaks(self) -> bool:
@@ -192,7 +198,7 @@ class Loop(ABC):
 
     def present(self, y: Array, d: float) -> Array:
         """Particles per area of contact η [1/m²], embedded ones with them: (J,)."""
-        eta = self.standing(y, d) @ y[self.layout[self.pool]]
+        eta = self.in_contact(y, d)
         for side in SURFACES:
             if f"bound_{side}" in self.layout:
                 eta = eta + y[self.layout[f"bound_{side}"]] / self.setting.worn_area[side - 1]
@@ -235,7 +241,7 @@ class Loop(ABC):
         return out
 
     def pieces(self, d: float, sigma: float) -> Array:
-        """Numbers of which one of each number is made once all that breaks at d is broken: (J, J)."""
+        """What one of each number is once all that breaks at d is broken: (J, J)."""
         out = np.eye(len(self.volumes))
         if not self.breaks:
             return out
@@ -269,6 +275,11 @@ class Loop(ABC):
             row[layout[f"bound_{other}"]] = v * area * held / self.setting.worn_area[other - 1]
         constant = v * area * worn * (state.bare > 0)
         return row, constant, v * area * worn * state.bare
+
+    def wear_rate(self, y: Array, state: Pressed, side: int) -> float:
+        """Wear depth of a surface per time [m/s]."""
+        row, constant, _ = self._wear_row(state, self.standing(y, state.d), side)
+        return (float(row @ y) + constant) / self.setting.worn_area[side - 1]
 
     def _add_wear(self, out: Rates, side: int, row: Array, constant: float) -> None:
         layout, kind = self.layout, self.setting.debris[side - 1]
@@ -343,14 +354,14 @@ class Loop(ABC):
             out.matrix[place.start + kind, at] += numbers[mine] * self.volumes[mine]
 
     def add_passage(self, out: Rates, numbers: Array, *, pieces: Array) -> None:
-        """Particles of the pool pass a gap and come out as pieces, numbers per one and time: (J,)."""
+        """Let numbers per one and time (J,) pass a gap and come out as pieces."""
         pool = self.layout[self.pool]
         change = (pieces - np.eye(len(numbers))) * numbers
         out.matrix[pool, pool] += change
         self.add_flow(out, FINER, pool, -(self.volumes @ change) / self.volumes)
 
     def add_retention(self, out: Rates, numbers: Array, state: Pressed) -> Array:
-        """Embed a part of what passes, numbers per one and time (J,); returns that part [1]: (J,)."""
+        """Embed a part of what passes, numbers per one and time (J,); returns it [1]."""
         if self.setting.stays == 0:
             return np.zeros_like(numbers)
         pool = self.layout[self.pool]
@@ -399,7 +410,7 @@ class Loop(ABC):
         step = STEP * self.sigma_of(y)
         there = self.rates(y, gap.d + step)
         slope = (there.matrix @ y + there.constant - value) / step
-        out = here.matrix + here.release + np.multiply.outer(slope, gap.slopes)
+        out = here.matrix + here.release + np.multiply.outer(slope, self.gap_slopes(y, gap))
         law, place = self.setting.running_in, self.layout["sigma"].start
         if law is not None:
             moved = y.copy()

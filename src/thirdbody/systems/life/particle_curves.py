@@ -108,11 +108,7 @@ class ParticleCurve:
         self.one = law.one(surfaces=contact.surfaces, particle=material)
         self.average = size_average(self.one, sizes)
         self.splits = sorted(
-            {
-                eps
-                for output in outputs
-                for eps in _splits(output, law, contact.surfaces, material)
-            }
+            {eps for output in outputs for eps in _splits(output, law, contact.surfaces, material)}
         )
         self.lowest = min(lowest, self.average.bottom, 0.0)
         self.splits += changes(self._probe, self._dent_kinds)
@@ -136,7 +132,7 @@ class ParticleCurve:
         return replace(found, material=self.material, population=self.population)
 
     def _dent_kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """Which surfaces have a dent that stays, whether it has a shaft, and its end, as a number."""
+        """Where dents that stay set in, get a shaft, and end, as a number."""
         out = np.zeros(spots.x.shape, np.intp)
         for side, ends in zip((0, 1), self._deepest, strict=True):
             depth = self._depth_left(spots, side)
@@ -146,6 +142,7 @@ class ParticleCurve:
 
     def _depth_left(self, spots: ParticleSpots, side: int) -> Array:
         dents = self.contact.outputs[-1]
+        assert isinstance(dents, Dents)
         with np.errstate(all="ignore"):
             return dents._dent_left(spots, side, self.contact).depth
 
@@ -263,7 +260,9 @@ class SurvivalCurve:
 
     def __init__(self, curve: ParticleCurve, strength: WeibullStrength, tops: Array):
         self.average, self.lowest = curve.average, curve.lowest
-        self.breakages = [Breakage.of_material(strength, curve.material, float(top)) for top in tops]
+        self.breakages = [
+            Breakage.of_material(strength, curve.material, float(top)) for top in tops
+        ]
         self.tension = self.breakages[0].tension(curve.one)
         low = self.average.sizes.support[0]
         kinks = [float(eps) for eps in self.tension.kinks]
@@ -305,9 +304,7 @@ class SurvivalCurve:
         return out
 
 
-def local_gaps(
-    mean_gap: Array, *, widths: Array, kinks: Array, top: float
-) -> tuple[Array, Array]:
+def local_gaps(mean_gap: Array, *, widths: Array, kinks: Array, top: float) -> tuple[Array, Array]:
     """Gauss nodes in the local gap for seats of some widths about mean gaps, and their weights.
 
     Panels end at the kinks and are at most 1.5 of the smallest width; all lengths in one unit.
