@@ -25,17 +25,17 @@ def test_R0_is_what_generations_add_up_to():
         daughters = G @ np.linalg.solve(L, parents)
         growth = daughters.sum() / parents.sum()
         parents = daughters / daughters.sum()
-    assert reproduction(L, G) == pytest.approx(growth, rel=1e-10)
+    assert reproduction(L, births=G) == pytest.approx(growth, rel=1e-10)
     done = solve_ivp(lambda t, n: r + (G - L) @ n, (0, 2e5), np.zeros(5), method="BDF", rtol=1e-9)
-    assert steady_numbers(L, G, r) == pytest.approx(done.y[:, -1], rel=1e-6)
+    assert steady_numbers(L, births=G, source=r) == pytest.approx(done.y[:, -1], rel=1e-6)
 
 
 @pytest.mark.parametrize("factor", [0.98, 1.02])
 def test_R0_of_one_is_the_edge_of_growth(factor):
     G, L = np.array([[1e-4, 3e-4], [2e-4, 1e-5]]), np.diag([4e-4, 2e-4])
-    G = G * factor / reproduction(L, G)
+    G = G * factor / reproduction(L, births=G)
     growth = np.max(np.linalg.eigvals(G - L).real)
-    assert (growth > 0) == (reproduction(L, G) > 1) == (factor > 1)
+    assert (growth > 0) == (reproduction(L, births=G) > 1) == (factor > 1)
 
 
 @pytest.mark.parametrize(
