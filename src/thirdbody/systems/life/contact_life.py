@@ -361,7 +361,9 @@ def run_dry_history(
         diameters.append(debris.diameter)
     if classes is None:
         ends = [sizes_of(each) for each in diameters] or [(0.25e-6, 64e-6)]
-        classes = SizeClasses.covering(min(a for a, _ in ends), max(b for _, b in ends))
+        classes = SizeClasses.covering(
+            smallest=min(a for a, _ in ends), largest=max(b for _, b in ends)
+        )
     tables = contact_tables(
         contact.replace(particles=None), classes, tuple(kinds), _span(contact, running_in)
     )

@@ -147,13 +147,15 @@ class LifeHistory(Record):
     @cached_property
     def R0(self) -> float:
         """Particles bred by one before it is removed [1]."""
-        return 0.0 if self.births is None else reproduction(self._losses, self.births)
+        return 0.0 if self.births is None else reproduction(self._losses, births=self.births)
 
     @property
     def generations(self) -> Array:
         """Next-generation matrix: daughters of row i of a particle of column j [1], (J, J)."""
         losses = self._losses
-        return generations(losses, np.zeros_like(losses) if self.births is None else self.births)
+        return generations(
+            losses, births=np.zeros_like(losses) if self.births is None else self.births
+        )
 
     @property
     def dirt_gain(self) -> float:
@@ -161,7 +163,7 @@ class LifeHistory(Record):
         if self.births is None:
             return 1.0
         source = (self.terms.source / self.circuit.volume).ravel()
-        return dirt_gain(self._losses, self.births, source)
+        return dirt_gain(self._losses, births=self.births, source=source)
 
     @property
     def time_scales(self) -> dict[str, float]:
