@@ -190,8 +190,8 @@ class OilCircuit(Value):
             if given is not None:
                 several_of = (given,) if isinstance(given, kind) else items_of(given)
                 object.__setattr__(self, name, several_of)
-        sequences(self, "oil_changes")
         Value.__post_init__(self)
+        sequences(self, "oil_changes")
 
     def _problems(self) -> list[str]:
         out: list[str] = []
