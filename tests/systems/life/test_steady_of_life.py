@@ -6,12 +6,25 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from thirdbody.systems.life.linear_flow import reproduction, steady_numbers
+from thirdbody.systems.life.linear_flow import dirt_gain, reproduction, steady_numbers
 from thirdbody.systems.life.steady import (
     contact_stock,
     describe_reproduction,
     find_steady_points,
 )
+
+
+def test_births_and_losses_to_their_printed_digits():
+    L, G = np.diag([1e-3, 5e-4]), np.array([[0, 0], [3e-5, 1e-4]])
+    r = np.array([1e5, 0.0])
+    assert reproduction(L, births=G) == pytest.approx(0.2, rel=1e-14)
+    assert steady_numbers(L, births=G, source=r) == pytest.approx([1e8, 7.5e6], rel=1e-14)
+
+
+@pytest.mark.parametrize("R0", [0.0, 1e-4, 0.3, 0.93])
+def test_the_gain_of_one_class(R0):
+    found = dirt_gain([[2e-3]], births=[[R0 * 2e-3]], source=[5.0])
+    assert found == pytest.approx(1 / (1 - R0), rel=1e-13)
 
 
 def test_R0_is_what_generations_add_up_to():

@@ -70,9 +70,7 @@ def _check(contact: Contact, debris: Debris | None, running_in: RunningIn | None
         problems.append(Problem("debris", "must be Debris, or None", repr(debris)))
     if not isinstance(running_in, RunningIn | None):
         problems.append(Problem("running_in", "must be RunningIn, or None", repr(running_in)))
-    elif running_in is not None and running_in.sigma_end == 0 and running_in.length is None:
-        pass
-    if debris is not None and isinstance(debris, Debris):
+    if isinstance(debris, Debris):
         pair = contact.surfaces
         for side, each in ((1, pair.first), (2, pair.second)):
             if each.density is None:
