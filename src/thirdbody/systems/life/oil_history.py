@@ -20,8 +20,8 @@ from scipy.optimize import brentq
 
 from ...errors import InvalidValue, Problem
 from ...quantities.arguments import need_positive
-from ...quantities.say import percent, value_of
 from ...quantities.carried import takes_units
+from ...quantities.say import percent, value_of
 from .circuit import OilCircuit, OilTerms
 from .history import LifeEvent, LifeHistory
 from .ledger import Ledger
