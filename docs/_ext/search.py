@@ -38,6 +38,7 @@ KEYWORDS = {
     "glossary": ["glossary", "p-s", "s-s", "hybrid"],
     "grain": ["breaking", "fracture", "crushing", "quartz", "Weibull strength"],
     "install": ["install", "pip", "Windows", "uv"],
+    "life": ["oil life", "filter life", "oil change", "ingress"],
     "lubrication": ["EHL", "EHD", "elastohydrodynamic", "film thickness", "Stribeck",
                     "lambda ratio"],
     "materials": ["hardness", "material"],

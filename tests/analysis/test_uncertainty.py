@@ -13,7 +13,9 @@ from steel_and_dust import DUSTY, STEEL, TWO_BODY
 import thirdbody as tb
 from thirdbody.analysis.uncertainty.inputs import library_ranges
 from thirdbody.analysis.uncertainty.propagation import OUTPUTS
+from thirdbody.equilibrium import critical_loads as module
 from thirdbody.equilibrium.critical_loads import critical_loads
+from thirdbody.equilibrium.share_splines import Likeness
 from thirdbody.study import check
 
 # small particles, too few to carry a low load: their share rises before it falls
@@ -207,6 +209,38 @@ def test_critical_loads_are_those_of_transitions(contact, inputs, count):
                 below = expected.status in ("never p-s", "always s-s")
                 assert values[i] == 0 if below else not np.isfinite(values[i])
     assert any("found" in statuses for statuses in met.values())
+
+
+def test_critical_loads_of_many_contacts_are_those_of_each(monkeypatch):
+    """Read off splines that contacts share, as `transitions` finds them one by one."""
+    count, left = 600, []
+    alone = module._critical_loads
+
+    def counted(contact, vary, size, *nodes):
+        left.append(size)
+        return alone(contact, vary, size, *nodes)
+
+    monkeypatch.setattr(module, "_critical_loads", counted)
+    vary = draw(RANGES, count, seed=5)
+    found = critical_loads(DUSTY, vary=vary, count=count)
+    assert sum(left) < 0.5 * count
+    for i in range(0, count, 60):
+        one = tb.transitions(DUSTY.replace(**{n: float(v[i]) for n, v in vary.items()}))
+        for name, (values, status) in found.items():
+            expected = one.entries()[name]
+            assert status[i] == expected.status, (name, i)
+            if expected.status == "found":
+                rel = 1e-3 if name == "F_tpca.A" else 4e-6
+                assert values[i] == pytest.approx(expected.value, rel=rel), (name, i)
+
+
+def test_likeness_knows_polynomials_of_second_degree():
+    """Of every contact from some of them, products and doubled inputs among them."""
+    x, y = np.random.default_rng(1).uniform(0.5, 2.0, (2, 300))
+    like = Likeness({"x": x, "y": y, "twice": 2 * y}, 300, np.arange(0, 300, 10))
+    exact = 3 - np.log(x) + 2 * np.log(y) ** 2 - np.log(x) * np.log(y)
+    assert len(like.basis) == 6
+    assert like.of(exact[::10]) == pytest.approx(exact, abs=1e-12)
 
 
 def test_margins_and_modes_tell_the_same():

@@ -169,6 +169,20 @@ def drawn(page, name, other_than=None):
     )
 
 
+def in_full(page, task):
+    """All of what was shown as a preview; by the button where a busy machine was slow at it."""
+    when(
+        page,
+        "task => { const e = document.querySelector(`[data-stale='${task}']`);"
+        " return !e.offsetParent || e.innerText.includes('in full'); }",
+        arg=task,
+    )
+    stale = page.locator(f'[data-stale="{task}"]')
+    if stale.is_visible():
+        page.locator(f'[data-work="{task}"]').click()
+        stale.wait_for(state="hidden")
+
+
 def moved(page, slider, presses, key="ArrowRight"):
     page.locator(f'[data-slider="{slider}"] .q-slider__track-container').focus()
     for _ in range(presses):
@@ -294,8 +308,9 @@ def test_the_map_can_be_cancelled_and_a_click_goes_there(visit):
     tab(page, "Map")
     stale = page.locator('[data-stale="map"]')
     whole = "document.querySelector('[data-figure=map]')?.data?.[0]?.x.length === 60"
-    when(page, whole)  # a preview, then all of it, without a click
-    stale.wait_for(state="hidden")
+    drawn(page, "map")  # a preview, then all of it, without a click
+    in_full(page, "map")
+    when(page, whole)
     sizes = drawn(page, "map")[0]["x"]
     moved(page, "roughness.sigma", 3)  # another map, of itself
     when(page, "old => document.querySelector('[data-figure=map]').data[0].x[9] !== old", sizes[9])
@@ -368,7 +383,7 @@ def laws_are_compared(page):
     rows = page.locator('[data-figure="laws"] tbody tr')
     own = rows.filter(has=page.get_by_role("cell", name="zmc", exact=True))
     assert own.locator("td").nth(1).inner_text() == say.number(point.A_t)
-    page.locator('[data-stale="compare"]').wait_for(state="hidden")  # without a click
+    drawn(page, "compare")  # without a click
     page.locator('[data-work="compare"]').click()
     names = {trace["name"] for trace in drawn(page, "compare")}
     assert {"gw", "ceb", "zmc", "ke", "jg"} <= names <= set(tb.asperity.REGISTRY)
@@ -402,12 +417,12 @@ def outputs_are_drawn(page):
 
 
 def a_surface_is_pressed(page):
-    page.locator('[data-fact="explicit headline"]', has_text="128").wait_for()  # without a click
+    drawn(page, "explicit section")  # without a click
     page.locator('[data-work="explicit"]').click()
     page.locator('[data-cancel="explicit"]').dispatch_event("click")
     page.get_by_text("cancelled", exact=True).wait_for()
     page.locator('[data-work="explicit"]').click()
-    drawn(page, "explicit section")
+    page.locator('[data-fact="explicit headline"]', has_text="128").wait_for()
     found = one_surface(check(STUDY), state_of(STUDY).F_star)
     assert fact(page, "explicit headline") == explicit_words.headline(found, 0).replace("`", "")
     ours, theirs = explicit_words.rows(found, 0)["load on particles"]

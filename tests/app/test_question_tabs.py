@@ -10,13 +10,14 @@ import pytest
 
 from thirdbody.study import check
 from thirdbody.study.run_connector import run_connector
+from thirdbody.study.run_life import run_life
 from thirdbody.study.run_plate import run_plate
-from thirdbody.views import connector_words, plate_words
+from thirdbody.views import connector_words, life_words, plate_words
 
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app.state import Answer
-from thirdbody.app.tabs import connector, plate
+from thirdbody.app.tabs import connector, life, plate
 
 TABS = {"connector": ("connector", connector), "plate": ("wafer-chuck", plate)}
 
@@ -150,3 +151,46 @@ def test_a_connector_is_begun_changed_and_removed(visit):
     page.locator('[data-path="connector.remove"]').click()
     page.locator('[data-path="connector.add"]').wait_for()
     page.locator('[data-fact="connector: answer 0"]', has_text="Under 0.5 N").wait_for()
+
+
+# ---------------------------------------------------------------------------- an oil over time
+def test_the_tab_life_says_what_the_command_says():
+    study = check(study_of("oil-circuit"))
+    shown = life.contents_of(Answer(study))
+    assert shown.answer == life_words.answer(run_life(study.life))
+    grams = shown.flows["data"][0]["link"]["value"]
+    ends = shown.flows["data"][0]["link"]["target"]
+    middle = shown.flows["data"][0]["node"]["label"].index("oil")
+    came = sum(mass for mass, end in zip(grams, ends, strict=True) if end == middle)
+    assert came == pytest.approx(sum(grams) / 2, rel=1e-9)  # all that came has gone, or is there
+
+
+def test_the_sliders_of_an_oil_do_what_their_study_would():
+    data = study_of("oil-circuit")
+    shown = life.contents_of(Answer(check(data)), 0.5, 0.8, 2.0)
+    data["life"]["filters"][0] |= {"flow": "30 L/min", "service": 0.8}
+    data["life"]["oil"]["ingress"]["rate"] = "250 mg/h"
+    asked = check(data).life
+    assert shown.answer == life_words.answer(run_life(asked))
+    assert shown.labels["flow"] == "filter flow = 30 L/min"
+    assert shown.labels["ingress"] == "ingress = 250 mg/h"
+
+
+def test_a_study_without_an_oil_shows_one():
+    data = study_of("oil-circuit")
+    del data["life"]
+    shown = life.contents_of(Answer(check(data)))
+    begun = check(data | {"life": life.START})
+    assert shown.answer == life_words.answer(run_life(begun.life))
+
+
+@pytest.mark.check
+def test_a_slider_of_an_oil_moves_its_code(visit):
+    page = visit(study_of("oil-circuit"), "life")
+    before = fact(page, "at the end")
+    page.locator('[data-slider="life.ingress"]').evaluate(
+        "e => window.getElement(+e.id.slice(1)).$emit('update:modelValue', 30)"
+    )
+    page.locator(".hint", has_text="ingress = 395 mg/h").first.wait_for()
+    assert fact(page, "at the end") != before
+    shot(page, "life")

@@ -1,6 +1,7 @@
 """``thirdbody life``: an oil over time from the shell, and what reports of it say."""
 
 import csv
+import dataclasses
 import json
 from pathlib import Path
 
@@ -12,6 +13,9 @@ import thirdbody as tb
 from thirdbody import cli
 from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
 from thirdbody.systems.life.sizing import least_flow
+from thirdbody.views.html import words as words_in_html
+from thirdbody.views.life_words import answer
+from thirdbody.views.report import report
 
 HOUR = 3600.0
 
@@ -278,3 +282,81 @@ def test_the_book_shows_what_is_printed():
     shown = text.split("```text\n")[1].split("```")[0]
     printed = [line.rstrip() for line in run("life", "oil-circuit.toml").stdout.splitlines()]
     assert shown.splitlines() == printed[2:]
+
+
+def test_the_report_has_a_page_on_the_oil():
+    study = tb.load_study("oil-circuit.toml")
+    page = report(study).html()
+    assert "<h2>The oil over time</h2>" in page or "The oil over time" in page
+    assert words_in_html(answer(run_life(study.life))[0]) in page
+    other = tb.load_study("oil-circuit.toml", ["title=another"])
+    assert "The oil over time" not in report(dataclasses.replace(other, life=None)).html()
+
+
+# ------------------------------------------------------------------------------ contacts in the oil
+CONTACT = """
+[outputs.friction]
+tau_ss = "100 MPa"
+tau_sa = "100 MPa"
+[outputs.wear]
+K_ss = 1e-7
+K_sa = 0
+f_ab = 0.1
+f_roll = 0
+[film]
+conjunction = { shape = "point", R = "9.5 mm" }
+oil = { eta = "30 mPa s", alpha = "20 / GPa" }
+load = "50 N"
+speed = "1 m/s"
+slide_roll = 0.05
+[life.debris]
+sizes = "boundary-lubricated"
+[life.contact]
+contacts = 20
+"""
+
+
+def with_contact(*lines):
+    text = Path("oil-circuit.toml").read_text("utf-8") + CONTACT + "\n".join(lines)
+    Path("contact.toml").write_text(text.replace('oil_changes = "1500 h"', "# "), "utf-8")
+    return ["contact.toml", *setting('life.duration="1 h"')]
+
+
+def test_what_enters_a_contact_has_no_default():
+    done = run("life", *with_contact())
+    assert done.exit_code == 2
+    told = " ".join(done.stderr.split())
+    assert "life.contact.entry_ratio is missing" in told
+    assert "vary it from 1e-3 to 1" in told
+
+
+@pytest.mark.slow
+def test_a_contact_in_the_oil_is_that_of_python():
+    arguments = with_contact("entry_ratio = 0.1")
+    done = run("life", *arguments, "--json")
+    assert done.exit_code == 0, done.stderr
+    data = json.loads(done.stdout)
+    asked = load_life("contact.toml", ['life.duration="1 h"'])
+    of, film = asked.contact, asked.contact.conditions
+    assert (film["load"], film["speed"], film["slide_roll"]) == (50.0, 1.0, 0.05)
+    assert of.debris == tb.systems.life.debris.Debris.boundary_lubricated()
+    history = run_life(asked).history
+    assert data["R0"] == pytest.approx(history.R0, rel=1e-9, abs=1e-30)
+    assert data["codes"] == list(history.codes)
+    assert history.ledger.residual < 1e-9
+    assert data["reproduction"] == history.reproduction
+    assert f"{history.reproduction[1:]}." in said(run("life", *arguments))
+
+
+def test_parts_of_a_contact_that_are_missing_are_named():
+    text = Path("oil-circuit.toml").read_text("utf-8") + "[life.contact]\nentry_ratio = 1\n"
+    Path("part.toml").write_text(text, "utf-8")
+    done = run("life", "part.toml")
+    assert done.exit_code == 2
+    assert "life.contact needs [outputs], [film] with conjunction" in " ".join(done.stderr.split())
+    Path("part.toml").write_text(
+        text.split("[life.contact]")[0] + '[life.debris]\nsizes = "boundary-lubricated"\n'
+    )
+    assert "has no effect without [life.contact]" in " ".join(
+        run("life", "part.toml").stderr.split()
+    )

@@ -161,3 +161,98 @@ def test_how_high_does_a_wafer_stand_over_a_grain(run):
     assert "1.78 bumps on a plate, and 16.8 % of the plates have none" in told
     pins = json.loads(run("plate", "wafer-chuck.toml", "--json", "--set", "plate.touching=0.02"))
     assert pins["bumps"] == pytest.approx(0.02 * 1.78, rel=0.01)
+
+
+def first_sentences(shown):
+    """What stands above the first table, without the title."""
+    _, *lines = shown.split(" \n     ")[0].splitlines()
+    return " ".join(" ".join(lines).split())
+
+
+def test_dust_or_steel_in_my_bearing_and_would_a_finer_filter_help(run):
+    """Three commands; which carries, which dents, how deep, what life loses, what a filter does."""
+    assert run("new", "ball-bearing", "6205").strip() == "thirdbody film ball-bearing.toml"
+    shown = run("film", "ball-bearing.toml")
+    told = first_sentences(shown)
+    dust = re.search(r"Dust dents the inner ring deepest: (\d+) dents an hour, (\d+) nm deep", told)
+    steel = re.search(r"steel debris dents it most often: (\d+) dents an hour, (\d+) nm deep", told)
+    assert int(dust[1]) < int(steel[1])
+    assert int(dust[2]) > int(steel[2])
+    assert re.search(r"The film of 288 nm carries 99.999 % of the load at 2.9 m/s", told)
+    assert "e_C = 0.073, and the life factor a_ISO is 1.6 (50 in clean oil)" in told
+    most = (
+        r"Most uncertain: the hardness of dust\. With 10 GPa and 14\.4 GPa, one in twenty of the "
+    )
+    assert re.search(
+        most + r"deepest dents is beyond \d+ nm to [\d.]+ µm;", " ".join(shown.split())
+    )
+    told = first_sentences(run("film", "ball-bearing.toml", "--filter", "5=75, 10=1000"))
+    assert told.startswith("The filter takes the dents from 25000 to 760 an hour, 33 times fewer")
+    assert "a_ISO from 1.6 to 50, 31 times the life" in told
+
+
+def test_the_connector_and_the_wafer_answer_on_the_first_two_lines(run):
+    """Four commands."""
+    run("new", "connector")
+    told = first_sentences(run("probability", "connector.toml"))
+    assert told.startswith("Under 0.5 N the connector fails to close once in 210 closings")
+    run("new", "wafer-chuck")
+    told = first_sentences(run("plate", "wafer-chuck.toml"))
+    assert told.startswith("The plate stands 410 nm high over a particle of 10 µm (quartz)")
+
+
+NOTEBOOK = """
+import subprocess, sys, warnings
+warnings.simplefilter("ignore")
+import pint
+from uncertainties import ufloat
+import thirdbody as tb
+from thirdbody.study import load_study, run_film, run_study
+
+found = run_study(load_study("ball-screw.toml"))
+print(f"force     {found.forces[0].particle_load_share:.3g}")
+study = load_study("two-body.toml")
+contact, u = study.contact, pint.UnitRegistry()
+state = tb.solve(contact, pressure=5 * u.MPa)
+print(f"pint      {state.A_t:.4g}")
+sigma = ufloat(100e-9, 5e-9)
+bands = tb.propagate(contact, vary={"roughness.sigma": sigma}, pressure=5e6, outputs=["h"])
+slopes = tb.sensitivity(contact, of="h", to="roughness.sigma", pressure=5e6)
+h = slopes.ufloats({"roughness.sigma": sigma})["h"]
+print(f"ufloat    {bands.ufloat('h'):.2uP} {h:.2uP}")
+curves = tb.sweep(contact, F_star=[1e-5, 1e-4], vary={"roughness.sigma": [50e-9, 100e-9]})
+print(f"xarray    {dict(curves.sizes)}")
+print(f"pandas    {curves.to_dataframe().shape[0]} rows")
+surface = tb.synthetic.self_affine(
+    sigma=100e-9, hurst=0.8, shortest=8e-7, longest=3e-6, spacing=1e-7, points=64
+)
+pressed = tb.explicit.solve(contact, surface, F_star=1e-3, blocks=4)
+print(f"map       {pressed.A_t:.3g} +- {pressed.errors['A_t']:.1g}")
+"""
+
+
+@pytest.mark.check
+def test_research_has_everything_in_a_notebook(wheel, tmp_path, monkeypatch):
+    """One cell from the installed wheel: a force, units, uncertain numbers, tables, one map."""
+    for package in ("pint", "uncertainties", "xarray"):
+        pytest.importorskip(package)
+    monkeypatch.chdir(tmp_path)
+    command = installed(wheel)
+    for kind in ("ball-screw", "two-body"):
+        command("new", kind)
+    told = os.environ | {"PYTHONPATH": str(wheel), "PYTHONDONTWRITEBYTECODE": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", NOTEBOOK], env=told, capture_output=True, text=True, encoding="utf-8"
+    )
+    assert done.returncode == 0, done.stderr
+    said = dict(line.split(None, 1) for line in done.stdout.splitlines())
+    (force,) = json.loads(command("solve", "ball-screw.toml", "--json"))["body"]["forces"]
+    assert float(said["force"]) == pytest.approx(force["particle_load_share"], rel=5e-3)
+    state = json.loads(command("solve", "two-body.toml", "--json", "--set", "load.pressure=5 MPa"))
+    assert float(said["pint"]) == pytest.approx(state["states"]["A_t"][0], rel=5e-4)
+    samples, by_slopes = re.findall(r"\((\S+)±(\S+)\)", said["ufloat"])
+    assert float(samples[0]) == pytest.approx(float(by_slopes[0]), rel=0.01)
+    assert float(samples[1]) == pytest.approx(float(by_slopes[1]), rel=0.1)
+    assert said["pandas"] == "4 rows"
+    area, error = map(float, said["map"].split(" +- "))
+    assert 0 < error < area

@@ -132,7 +132,7 @@ def test_insulating_particles_need_no_conductivity():
     with pytest.raises(tb.InvalidValue, match="needs thermal_conductivity of the particles"):
         contact(ThermalConductance(), dust=dust)
     with pytest.raises(tb.InvalidValue, match="needs resistivity of surface 1"):
-        contact(ElectricalConductance(), first=tb.materials["S45C"])
+        contact(ElectricalConductance(), first=tb.materials["100Cr6"])
 
 
 def test_particles_lower_it():

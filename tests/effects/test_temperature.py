@@ -271,7 +271,7 @@ def test_kinds_are_ordered():
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        (dict(first=tb.materials["S45C"]), "needs specific_heat of surface 1"),
+        (dict(first=tb.materials["100Cr6"]), "needs specific_heat of surface 1"),
         (dict(dust=tb.materials["SiO2"], density=1e10), "needs thermal_conductivity of the part"),
         (dict(h_1=10.0), "give both"),
         (dict(h_1=0.0, h_2=0.0), "no way out"),

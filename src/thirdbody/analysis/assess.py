@@ -461,8 +461,9 @@ def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
         found_here = of.elasticity[decisive]
         return {label: float(found_here[label]) for label in some}
 
+    bare = found.contact.replace(outputs=())
     try:
-        return out | slopes([label for label in labels if moves(found.contact, label, QUICK)])
+        return out | slopes([label for label in labels if moves(bare, label, QUICK)])
     except InvalidValue:  # one of them has none
         for label in labels:
             with suppress(InvalidValue):

@@ -237,8 +237,6 @@ class Page:
             self.banner.set_text("; ".join(error.problems))
             self.retry.set_visibility(True)
             self.verdict.clock.set_text("")
-        else:
-            self.retry.set_visibility(False)
         finally:
             self.getting.set_visibility(False)
 
@@ -257,21 +255,28 @@ class Page:
         self.undo.set_enabled(bool(state.past))
         remark = self.address.tell()
         if state.answer is None:
-            self.banner.set_text(with_micro("; ".join(state.problems)))
+            self._say("; ".join(state.problems))
             if state.tab in WITHOUT_ANSWER:
                 await self._draw(state.tab)
             return
         wrong = self._wrong()
+        if not self.retry.visible:  # mistakes that are mended are not told while the tab is drawn
+            self._say(wrong or self.told)
         try:
             await self._draw(state.tab)
         except Died:
             raise
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
-        self.banner.set_text(with_micro(wrong or self.told))
+        self._say(wrong or self.told)
         self.verdict.clock.set_text(_took(time.perf_counter() - state.began, state.began))
         await self.verdict.tell()
         self.verdict.note(remark)
+
+    def _say(self, text: str) -> None:
+        """What is told above the answer, where processes answer again."""
+        self.banner.set_text(with_micro(text))
+        self.retry.set_visibility(False)
 
     def _wrong(self) -> str:
         """What is told of a study with mistakes."""

@@ -34,7 +34,8 @@ def set_attributes(element: Made, props: Mapping[str, object]) -> Made:
     A text written into ``element.props("...")`` is parsed there, so that it could add attributes.
     """
     for name, value in props.items():
-        element.props[name] = value
+        if name not in element.props or element.props[name] != value:  # else nothing is sent
+            element.props[name] = value
     return element
 
 

@@ -86,7 +86,7 @@ def _sheets(
     from ..systems.connector import name_of
     from ..views.question_sheets import inputs_of, question_sheets
 
-    part = found.asked.part
+    part = found.asked.described
     bodies = {"surface 1": part.surfaces.first, "surface 2": part.surfaces.second}
     bodies |= {name_of(dust, i): dust.material for i, dust in enumerate(part.particles)}
     return question_sheets(

@@ -33,6 +33,8 @@ LEAST_PEAK = 1e-6
 """Smallest share of the area that counts as a peak."""
 PROBES = 128
 """Contacts whose separations at the ends of the window say what those of the others are like."""
+ALIKE = 1e-6
+"""What of an input is left, over itself, without those before, where it is one of them."""
 BEYOND, LEAST_BEYOND = 1.5, 0.01
 """How far nodes go beyond the ends that are expected: worst misses of the probes, and part of the
 range of separations."""
@@ -41,7 +43,7 @@ FINE = 97
 CLEAR, WILD = 0.05, 1.0
 """ln of a share that no spline errs by where it may err by nothing else, and error with which a
 spline tells nothing."""
-MISS, NEAR, SECANT = 2e-6, 5e-3, 1e-9
+MISS, NEAR, SECANT = 5e-7, 5e-3, 1e-9
 """Error of ln F* at a critical load; the longest last step to it over the range of separations, and
 the shortest that tells a slope."""
 SLOPE_OF_ERROR = 4.0
@@ -67,23 +69,37 @@ class Likeness:
     """
 
     def __init__(self, vary: Mapping[str, Array], count: int, probes: Rows):
+        self.probes, self.basis = probes, [np.full(count, 1 / math.sqrt(len(probes)))]
         columns = [np.log(v) if np.all(v > 0) else v for v in vary.values()]
-        moving: list[Array] = []
-        for each in ((v - v.mean()) / v.std() for v in columns if np.ptp(v) > 0):
-            if not any(np.allclose(each, other, atol=1e-9) for other in moving):
-                moving.append(each)
+        moving = [each for v in columns if np.ptp(v) > 0 and self._add(each := v - v.mean())]
         squares = [v * v for v in moving]
         products = [v * w for i, v in enumerate(moving) for w in moving[:i]]
         if 2 * (1 + len(moving) + len(squares) + len(products)) > len(probes):
             products = []
-        self.terms = np.stack([np.ones(count), *moving, *squares, *products], axis=1)
-        self.probes, self.enough = probes, 2 * self.terms.shape[1] <= len(probes)
+        for each in (*squares, *products):
+            self._add(each)
+        self.enough = 2 * len(self.basis) <= len(probes)
 
-    def of(self, values: Array) -> Array:
+    def _add(self, column: Array) -> bool:
+        """Whether a column (N,) is none of the others together; what is left then joins them.
+
+        All are orthogonal over the probes. Sums by NumPy itself, as linear algebra may share its
+        own among threads.
+        """
+        size = math.sqrt(np.sum(column[self.probes] ** 2))
+        for _ in range(2):  # once more for what rounding leaves
+            for other in self.basis:
+                column = column - other * np.sum(other[self.probes] * column[self.probes])
+        left = math.sqrt(np.sum(column[self.probes] ** 2))
+        if left > ALIKE * size:
+            self.basis.append(column / left)
+        return left > ALIKE * size
+
+    def extend_to_all(self, values: Array) -> Array:
         """Values (N, ...) of all contacts from those of the probes (M, ...)."""
-        flat = values.reshape(len(values), -1)
-        powers = np.linalg.lstsq(self.terms[self.probes], flat, rcond=None)[0]
-        return np.asarray((self.terms @ powers).reshape(-1, *values.shape[1:]))
+        basis = np.stack(self.basis)
+        powers = np.einsum("km,m...->k...", basis[:, self.probes], values)
+        return np.asarray(np.einsum("kn,k...->n...", basis, powers))
 
 
 def expected_ends(like: Likeness, ends: Array) -> Array:
@@ -92,7 +108,7 @@ def expected_ends(like: Likeness, ends: Array) -> Array:
     From those of the probes ``ends`` (2, M), as far beyond as they are missed: they say where
     nodes are laid, and the loads at these whether they reach far enough.
     """
-    out = like.of(ends.T).T
+    out = like.extend_to_all(ends.T).T
     miss = np.max(np.abs(out[:, like.probes] - ends), axis=1)
     beyond = BEYOND * miss + LEAST_BEYOND * np.mean(ends[0] - ends[1])
     return np.asarray(out + beyond[:, None] * [[1.0], [-1.0]])
@@ -149,9 +165,8 @@ class SplineLoads:
             return np.asarray((3 * a * u + 2 * b) * u + c)
         return np.asarray(((a * u + b) * u + c) * u + value)
 
-    def at(self, what: int, rows: Any, x: Array, slope: int = 0) -> Array:
-        """Of the area, the equality or the load, values or slopes of rows at x; the area's second
-        slopes."""
+    def values_at(self, what: int, rows: Any, x: Array, slope: int = 0) -> Array:
+        """Values or slopes of area, equality or load of rows at x; of the area second slopes."""
         if what == AREA:
             return self._terms(0, rows, x, slope)
         one, two = (self._terms(k, rows, x, slope) for k in (1, 2))
@@ -159,17 +174,17 @@ class SplineLoads:
             return one - two
         if not slope:
             return np.logaddexp(one, two)
-        part = expit(self.at(EQUAL, rows, x))
+        part = expit(self.values_at(EQUAL, rows, x))
         return part * one + (1 - part) * two
 
     def root(
         self, what: int, rows: Rows, level: float, low: Any, high: Any, slope: int = 0
     ) -> Array:
         """x between two at which rows pass a level."""
-        begin = self.at(what, rows, low, slope) >= level
+        begin = self.values_at(what, rows, low, slope) >= level
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            same = (self.at(what, rows, middle, slope) >= level) == begin
+            same = (self.values_at(what, rows, middle, slope) >= level) == begin
             low, high = np.where(same, middle, low), np.where(same, high, middle)
         return np.asarray(0.5 * (low + high))
 
@@ -178,7 +193,7 @@ class SplineLoads:
         """Fill in what is known: from splines alone, then from states at what they tell."""
         passages = []
         for name, what, level in PASSAGES:
-            miss = self.at(what, np.arange(self.count)[:, None], self.x) - level
+            miss = self.values_at(what, np.arange(self.count)[:, None], self.x) - level
             above, doubt = miss >= 0, CLEAR + self.error[what]
             changes = above[:, 1:] != above[:, :-1]
             number = np.count_nonzero(changes, axis=1)
@@ -186,8 +201,8 @@ class SplineLoads:
             self.known &= (number == 1) | ((number == 0) & (np.min(np.abs(miss), axis=1) > doubt))
             self.known &= self.error[what] < WILD
             load, word = np.full(self.count, np.nan), np.full(self.count, FOUND, dtype="<U12")
-            for rows, status, value in _without(name, above[:, 0], above[:, -1]):
-                load[rows], word[rows] = value, status
+            for without, status, value in _without(name, above[:, 0], above[:, -1]):
+                load[without], word[without] = value, status
             self.loads[name] = load, word
             rows = np.flatnonzero(self.known & (word == FOUND))
             cell = np.argmax(changes[rows], axis=1)
@@ -205,8 +220,10 @@ class SplineLoads:
         shares = np.array([what for _, what, _ in PASSAGES])[into]
         level = np.array([level for *_, level in PASSAGES])[into]
         by_area = shares == AREA
-        slope = np.where(by_area, self.at(AREA, rows, x, 1), self.at(EQUAL, rows, x, 1))
-        steep = self.at(LOAD, rows, x, 1)
+        slope = np.where(
+            by_area, self.values_at(AREA, rows, x, 1), self.values_at(EQUAL, rows, x, 1)
+        )
+        steep = self.values_at(LOAD, rows, x, 1)
         wavy = SLOPE_OF_ERROR / self.between * np.max(self.error, axis=0)[rows]
         old = np.full((3, len(x)), np.nan)
         left = np.arange(len(x))
@@ -240,7 +257,7 @@ class SplineLoads:
         load, word = np.full(self.count, np.nan), np.full(self.count, FOUND, dtype="<U12")
         self.loads["F_tpca.A"] = load, word
         every = np.arange(self.count)
-        size = expit(self.at(AREA, every[:, None], self.x))
+        size = expit(self.values_at(AREA, every[:, None], self.x))
         top = np.argmax(size, axis=1)
         most, ends = size[every, top], np.maximum(size[:, 0], size[:, -1])
         # ends of 0.9 of the peak, which decide, are not told from others by a spline
@@ -254,8 +271,10 @@ class SplineLoads:
         sides = np.concatenate([x - PEAK_STEP, x + PEAK_STEP])
         area, *loads = self.states(sides, np.tile(rows, 2))
         (low, high), log_F = np.split(area, 2), np.logaddexp(*loads)
-        step = -(high - low) / (2 * PEAK_STEP) / self.at(AREA, rows, x, 2)
-        load[rows] = np.exp(np.mean(np.split(log_F, 2), axis=0) + self.at(LOAD, rows, x, 1) * step)
+        step = -(high - low) / (2 * PEAK_STEP) / self.values_at(AREA, rows, x, 2)
+        load[rows] = np.exp(
+            np.mean(np.split(log_F, 2), axis=0) + self.values_at(LOAD, rows, x, 1) * step
+        )
         self.known[rows[~(np.abs(step) < PEAK_MISS)]] = False
 
 

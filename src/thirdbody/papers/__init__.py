@@ -7,6 +7,7 @@ PAPERS = (
     "wu2017",
     "frontiers2024",
     "measurements",
+    "life",
     "explicit",
 )
 """Every study, by the name of its module: what ``thirdbody reproduce`` takes."""

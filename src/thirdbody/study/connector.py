@@ -49,7 +49,7 @@ class AskedConnector:
     """The table of the study file."""
 
     @property
-    def part(self) -> Connector:
+    def described(self) -> Connector:
         """What the table describes."""
         return self.connector
 

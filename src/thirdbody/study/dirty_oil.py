@@ -131,8 +131,9 @@ def read_filter(text: str) -> Filter:
     try:
         return Filter.from_text(text)
     except InvalidValue as error:
-        first = error.problems[0].removeprefix("Filter.").removeprefix("Filter ")
-        raise InvalidValue(f"--filter {say(text)}: {first}") from None
+        first = error.problems[0]
+        bare = first.changed(owner="") if first.owner == "Filter" else first
+        raise InvalidValue(f"--filter {say(text)}: {bare}") from None
 
 
 def need_particles(study: Study) -> None:

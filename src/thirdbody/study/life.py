@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -14,12 +14,13 @@ from ..populations.materials import Material
 from ..populations.measured import cleanliness
 from ..quantities.units import say
 from ..quantities.value import quantity
-from ..systems.life import until
+from ..systems.life import contact_until, until
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.ingress import Ingress
 from ..systems.life.oil_dirt import OilDirt
 from ..systems.life.reports import oil_reports, read_reports
 from ..systems.oil_filter import Filter
+from .life_contact import CONTACT_KEYS, LifeContact, contact_of
 from .mistakes import clash
 from .reader import (
     NOTHING,
@@ -52,6 +53,20 @@ LARGEST = quantity("x_max", "m", "largest size", gt=0).metadata["quantity"]
 SMALLEST = quantity("x_min", "m", "smallest size", gt=0).metadata["quantity"]
 FACTOR = quantity("f", "1", "factor on all that enters", gt=0).metadata["quantity"]
 INGRESS_FACTOR = "ingress"
+OF_CONTACT_UNTIL = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "wear_depth": quantity("w", "m", "wear depth of either surface", gt=0),
+        "roughness": quantity("σ", "m", "roughness to which the surfaces have run in", gt=0),
+        "particle_share": quantity("s", "1", "part of the load on particles", gt=0, lt=1),
+    }.items()
+}
+CONTACT_WAITS: Mapping[str, Callable[[float], until.Until]] = {
+    "wear_depth": contact_until.wear_depth,
+    "roughness": contact_until.roughness_below,
+    "particle_share": contact_until.particle_share,
+}
+"""What is waited for in a contact."""
 CLEAN = "clean"
 """The word for oil without particles, and for no ingress."""
 
@@ -72,6 +87,8 @@ class AskedLife:
         What is waited for.
     uncertainty : dict of str to Uncertain
         What is known of the numbers of the circuit.
+    contact : LifeContact, optional
+        The contacts that the oil goes through.
     notes : tuple of str
         What is allowed but looks like a slip.
     assumed : tuple of str
@@ -83,6 +100,7 @@ class AskedLife:
     duration: float
     until: tuple[until.Until, ...] = ()
     uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
+    contact: LifeContact | None = None
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
 
@@ -334,6 +352,7 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
     keys = {
         "iso4406": CODE._replace(about="the oil reaches this code"),
         "filter_full": switch._replace(about="a filter is full"),
+        **{name: quantity_key(name, about) for name, about in OF_CONTACT_UNTIL.items()},
     }
 
     def build(values: dict[str, Any]) -> tuple[until.Until, ...]:
@@ -342,12 +361,15 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
             out.append(until.iso4406(values["iso4406"]))
         if values.get("filter_full"):
             out.append(until.filter_full())
+        for name, wait in CONTACT_WAITS.items():
+            if name in values:
+                out.append(wait(values[name]))
         return tuple(out)
 
     return reader.table(path, data, keys, build)
 
 
-def _kept(reader: Reader, path: str, value: Any) -> Any:
+def _read_entries(reader: Reader, path: str, value: Any) -> Any:
     """A table of which the circuit says what its keys mean."""
     if not isinstance(value, dict) or not value:
         raise wrong(path, 'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }', value)
@@ -394,8 +416,9 @@ def _keys() -> dict[str, Key]:
         "duration": duration._replace(required=True),
         "oil": Key(None, True, 'the oil, with volume = "200 L", start and ingress', NOTHING, _oil),
         "filters": FILTERS,
+        **CONTACT_KEYS,
         "uncertainty": Key(
-            _kept,
+            _read_entries,
             about='what is known of its numbers, e.g. "ingress" = { median = 1, gsd = 2 } (a '
             'factor), "filters.0.service" = { low = 0.5, high = 1 }',
             schema={"type": "object"},
@@ -511,6 +534,7 @@ def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         duration=given["duration"],
         until=given.get("until", ()),
         uncertainty=known,
+        contact=contact_of(reader, values),
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
     )

@@ -70,7 +70,7 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
     contact, film = study.contact, study.film
     if film is None or any(each.strength is not None for each in contact.populations):
         return ()
-    ends: list[tuple[str, str, str, str, tuple[Study, Study]]] = [
+    ends: list[tuple[str, str, str, str, tuple[Study, ...]]] = [
         (
             "the number of particles",
             "half and twice as many, one class of ISO 4406 each way",
@@ -94,7 +94,7 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
                 f"{value_of(low, 'Pa', 3)} and {value_of(high, 'Pa', 3)}",
                 "find out what the particles are",
                 f"particles.{i}.material.H",
-                tuple(_with_hardness(study, i, H) for H in (low, high)),  # type: ignore[arg-type]
+                tuple(_with_hardness(study, i, H) for H in (low, high)),
             )
         )
     out = []

@@ -49,7 +49,7 @@ class AskedPlate:
     """The table of the study file."""
 
     @property
-    def part(self) -> Chuck:
+    def described(self) -> Chuck:
         """What the table describes."""
         return self.chuck
 

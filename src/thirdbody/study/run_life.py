@@ -213,6 +213,16 @@ class LifeResult(Record, Mapping[str, Any]):
         return len(self.to_dict())
 
 
+def _history(asked: AskedLife) -> LifeHistory:
+    """The history of the oil, with the contacts that it goes through where there are some."""
+    shared: dict[str, Any] = {
+        "oil": asked.circuit, "duration": asked.duration, "until": asked.until
+    }  # fmt: skip
+    if (of := asked.contact) is None:
+        return life(**shared)
+    return life(of.contact, debris=of.debris, running_in=of.running_in, **of.conditions, **shared)
+
+
 def run_life(asked: AskedLife) -> LifeResult:
     """The history of an oil, as its study asks.
 
@@ -231,7 +241,7 @@ def run_life(asked: AskedLife) -> LifeResult:
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
-        history = life(oil=asked.circuit, duration=asked.duration, until=asked.until)
+        history = _history(asked)
     bands = None
     if asked.uncertainty:
         bands = propagate_life(

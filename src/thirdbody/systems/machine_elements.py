@@ -390,28 +390,22 @@ def _misfits(bearing: Any, size: float, what: str, count: float) -> list[str]:
     kind = type(bearing).__name__
     bore, outer = bearing.bore, bearing.outer_diameter
     if outer <= bore:
-        return [
-            f"{kind}.outer_diameter = {outer:g} must be above the bore, {bore:g} [m]; check the "
-            "units of both"
-        ]
-    out = []
+        rule = f"must be above the bore, {bore:g} [m]"
+        hint = "check the units of both"
+        return [Problem("outer_diameter", rule, f"{outer:g}", hint=hint, owner=kind)]
+    out: list[str] = []
     if size >= (room := 0.5 * (outer - bore)):
-        out.append(
-            f"{kind}.{what}_diameter = {size:g} must be below {room:g} [m], the room between bore "
-            "and outer diameter"
-        )
+        rule = f"must be below {room:g} [m], the room between bore and outer diameter"
+        out.append(Problem(f"{what}_diameter", rule, f"{size:g}", owner=kind))
     elif count * size > math.pi * bearing.pitch_diameter:
-        out.append(
-            f"{kind}.{what}s = {count:g} of {size:g} m do not fit on a circle of "
-            f"{bearing.pitch_diameter:g} m"
-        )
+        rule = f"of {size:g} m do not fit on a circle of {bearing.pitch_diameter:g} m"
+        out.append(Problem(f"{what}s", rule, f"{count:g}", owner=kind))
     if count != round(count):
-        out.append(f"{kind}.{what}s = {count:g} must be a whole number")
+        out.append(Problem(f"{what}s", "must be a whole number", f"{count:g}", owner=kind))
     if abs(bearing.clearance) > 0.1 * size:
-        out.append(
-            f"{kind}.clearance = {bearing.clearance:g} must be within a tenth of the {what}, "
-            f"{0.1 * size:g} [m]; 10 um are 10e-6"
-        )
+        rule = f"must be within a tenth of the {what}, {0.1 * size:g} [m]"
+        told = f"{bearing.clearance:g}"
+        out.append(Problem("clearance", rule, told, hint="10 um are 10e-6", owner=kind))
     return out
 
 

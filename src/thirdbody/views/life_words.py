@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..quantities.say import join_words, number, percent, value_of
+from ..systems.life.contact_history import ContactHistory, SteadyContact
 from ..systems.life.sizing import least_flow
 
 if TYPE_CHECKING:
     from ..study.run_life import LifeResult
-    from ..systems.life.history import LifeHistory
+    from ..systems.life.history import LifeHistory, SteadyOil
     from ..systems.life.reports import OilReports
 
 __all__ = [
     *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
-    *("answer", "band_words", "breeding", "duration_of", "events", "facts", "flow_of"),
+    *("answer", "band_words", "duration_of", "events", "facts", "flow_of"),
     *("last_words", "least_flow_words", "mass_of", "report_answer", "report_rows", "rows"),
 ]
 
@@ -32,8 +34,6 @@ REPORT_MEANS = {
 MINUTE, HOUR, DAY, YEAR = 60.0, 3600.0, 86400.0, 365.25 * 86400
 ENDS = ((2 * MINUTE, 1.0, "s"), (2 * HOUR, MINUTE, "min"), (20_000 * HOUR, HOUR, "h"))
 NEVER = "for ever"
-MATTERS, RUNS_AWAY = 0.3, 1.0
-"""R₀ from which debris matters, and from which nothing holds it."""
 LARGEST_FLOWS = 3
 
 
@@ -73,22 +73,6 @@ def flow_of(kilograms_per_second: float) -> str:
     return f"{mass_of(kilograms_per_second * HOUR)}/h"
 
 
-def breeding(R0: float) -> str:
-    """What one particle of debris breeds, in a sentence.
-
-    >>> breeding(7e-5)
-    'one particle of debris breeds 7×10⁻⁵ others before it is removed: wear does not feed itself'
-    >>> breeding(1.2)
-    'one particle of debris breeds 1.2 others before it is removed: wear feeds itself'
-    """
-    verdict = "wear does not feed itself"
-    if R0 >= RUNS_AWAY:
-        verdict = "wear feeds itself"
-    elif R0 > MATTERS:
-        verdict = "debris matters, so its hardness and sizes decide"
-    return f"one particle of debris breeds {number(R0, 3)} others before it is removed: {verdict}"
-
-
 def answer(found: LifeResult) -> list[str]:
     """How dirty the oil becomes, what it tends to, and where most of its dirt goes."""
     history = found.history
@@ -97,8 +81,8 @@ def answer(found: LifeResult) -> list[str]:
     if stopped := _stop(found):
         out[0] = f"{stopped}: the oil has gone from {history.codes[0]} to {history.codes[-1]}."
     out += [_tends(history)]
-    if history.births is not None:
-        said = breeding(history.R0)
+    if isinstance(history, ContactHistory):
+        said = history.reproduction
         out.append(f"{said[0].upper()}{said[1:]}.")
     out.append(_largest_flows(history))
     return out
@@ -115,7 +99,9 @@ def _stop(found: LifeResult) -> str:
 
 def _tends(history: LifeHistory) -> str:
     """What the oil comes to, and how soon."""
-    steady = history.steady()
+    steady: Sequence[SteadyOil | SteadyContact] = history.steady()
+    if isinstance(history, ContactHistory):
+        steady = history.steady_with_contact() or history.steady()
     if not steady:
         return "It comes to no state in which it no longer changes."
     if "-" not in steady[0].code:

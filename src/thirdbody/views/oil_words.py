@@ -50,16 +50,18 @@ def uncertainty(what_ifs: Sequence[OilWhatIf]) -> list[str]:
     if not what_ifs or not what_ifs[0].ratio > 1:
         return []
     most = what_ifs[0]
-    ends = [f"{' to '.join(_count(each) for each in most.dents)} dents an hour"]
-    if all(map(math.isfinite, most.depth)):
-        depths = dict.fromkeys(value_of(each, "m", 3) for each in most.depth)
-        if len(depths) > 1:
-            ends.append(f"one in twenty of the deepest beyond {' to '.join(depths)}")
-    if all(map(math.isfinite, most.a_ISO)):
-        ends.append(f"a_ISO {' to '.join(number(each, 2) for each in most.a_ISO)}")
+    clauses = {
+        "there are {} dents an hour": [_count(each) for each in most.dents],
+        "one in twenty of the deepest dents is beyond {}": [
+            value_of(each, "m", 3) for each in most.depth
+        ],
+        "a_ISO is {}": [number(each, 2) for each in most.a_ISO],
+    }
+    moved = [
+        clause.format(" to ".join(ends)) for clause, ends in clauses.items() if ends[0] != ends[1]
+    ]
     return [
-        f"Most uncertain: {most.what}. With {most.between}, there are {join_words(ends)}; "
-        f"{most.action}."
+        f"Most uncertain: {most.what}. With {most.between}, {join_words(moved)}; {most.action}."
     ]
 
 

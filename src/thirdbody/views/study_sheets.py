@@ -99,7 +99,9 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
     for part in result.passing:
         meanings[f"{part.name}: passing"] = "share of its particles narrower than the gap"
         meanings[f"{part.name}: areal_density"] = "particles that enter, per area"
-    inputs = [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
+    body = result.study.body
+    inputs = [] if body is None else [*value_rows(body, "body.")]
+    inputs += [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
     return _sheets(result, found, inputs, meanings)
 
 

@@ -33,7 +33,8 @@ def test_an_oil_that_only_gets_dirtier_is_remembered_as_it_is():
 def test_a_life_may_end_inside_the_history():
     codes = ["-/19/16", "-/13/10"]
     pair = miner_pair([0.0, 9e7], codes=codes, end=1e8, **BEARING)
-    assert pair.forgets < 9e7 and pair.damage_forgets > 1
+    assert pair.forgets < 9e7
+    assert pair.damage_forgets > 1
     assert pair.forgets == pair.remembers
 
 

@@ -1,4 +1,4 @@
-"""Next-generation matrix, steady numbers, the balance of a stock, and all steady states."""
+"""What generations add up to, the balance of a stock, and all steady states."""
 
 import math
 
@@ -6,28 +6,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-import thirdbody as tb
-from thirdbody.systems.life.steady import contact_stock, find_steady_points, next_generation
-
-
-def test_the_next_generation_to_its_printed_digits():
-    found = next_generation([[0, 0], [3e-5, 1e-4]], losses=[1e-3, 5e-4], sources=[1e5, 0.0])
-    assert found.R0 == pytest.approx(0.2, rel=1e-14)
-    assert found.numbers == pytest.approx([1e8, 7.5e6], rel=1e-14)
-    assert found.dirt_gain == pytest.approx(1.075, rel=1e-14)
-
-
-def test_without_births_nothing_is_bred_and_the_gain_is_one():
-    found = next_generation(np.zeros((3, 3)), losses=[1e-3, 2e-3, 5e-4], sources=[1.0, 2.0, 3.0])
-    assert found.R0 == 0 and found.dirt_gain == 1
-    assert "no particle breeds" in found.sentence
-
-
-def test_the_gain_of_one_class():
-    for R0 in (1e-4, 0.3, 0.93):
-        found = next_generation([[R0 * 2e-3]], losses=[2e-3], sources=[5.0])
-        assert found.dirt_gain == pytest.approx(1 / (1 - R0), rel=1e-13)
-    assert next_generation([[3e-3]], losses=[2e-3], sources=[5.0]).dirt_gain == math.inf
+from thirdbody.systems.life.linear_flow import reproduction, steady_numbers
+from thirdbody.systems.life.steady import (
+    contact_stock,
+    describe_reproduction,
+    find_steady_points,
+)
 
 
 def test_R0_is_what_generations_add_up_to():
@@ -36,30 +20,31 @@ def test_R0_is_what_generations_add_up_to():
     G = rng.random((5, 5)) * 1e-4
     L = np.diag(rng.uniform(5e-4, 2e-3, 5)) - 1e-5 * np.tril(rng.random((5, 5)), -1)
     r = rng.random(5)
-    found = next_generation(G, losses=L, sources=r)
     parents = rng.random(5)
     for _ in range(200):
         daughters = G @ np.linalg.solve(L, parents)
         growth = daughters.sum() / parents.sum()
         parents = daughters / daughters.sum()
-    assert found.R0 == pytest.approx(growth, rel=1e-10)
+    assert reproduction(L, G) == pytest.approx(growth, rel=1e-10)
     done = solve_ivp(lambda t, n: r + (G - L) @ n, (0, 2e5), np.zeros(5), method="BDF", rtol=1e-9)
-    assert found.numbers == pytest.approx(done.y[:, -1], rel=1e-6)
+    assert steady_numbers(L, G, r) == pytest.approx(done.y[:, -1], rel=1e-6)
 
 
 @pytest.mark.parametrize("factor", [0.98, 1.02])
 def test_R0_of_one_is_the_edge_of_growth(factor):
-    G, L = np.array([[1e-4, 3e-4], [2e-4, 1e-5]]), np.array([4e-4, 2e-4])
-    G = G * factor / next_generation(G, losses=L).R0
-    growth = np.max(np.linalg.eigvals(G - np.diag(L)).real)
-    assert (growth > 0) == (next_generation(G, losses=L).R0 > 1) == (factor > 1)
+    G, L = np.array([[1e-4, 3e-4], [2e-4, 1e-5]]), np.diag([4e-4, 2e-4])
+    G = G * factor / reproduction(L, G)
+    growth = np.max(np.linalg.eigvals(G - L).real)
+    assert (growth > 0) == (reproduction(L, G) > 1) == (factor > 1)
 
 
-def test_what_never_leaves_is_refused():
-    with pytest.raises(tb.InvalidValue, match="for ever"):
-        next_generation([[0.1]], losses=[0.0])
-    with pytest.raises(tb.InvalidValue, match="square"):
-        next_generation([[0.1]], losses=[1.0, 2.0])
+@pytest.mark.parametrize(
+    ("R0", "words"),
+    [(0.0, "no particle breeds"), (7e-5, "does not feed itself"), (0.93, "hardness and sizes"),
+     (1.2, "without end"), (math.nan, "never removed")],
+)  # fmt: skip
+def test_what_R0_means_in_words(R0, words):
+    assert words in describe_reproduction(R0)
 
 
 def test_the_balance_of_a_stock_to_its_printed_digits():

@@ -159,8 +159,8 @@ def columns_at(
         vary = dict(vary)
     else:
         contact, vary = carrying(contact, vary)
-    loads = vary.pop(load, np.full(count, value))
-    return state_columns(contact, **{load: loads}, vary=vary or None)
+    loads: dict[str, Any] = {load: vary.pop(load, np.full(count, value))}
+    return state_columns(contact, **loads, vary=vary or None)
 
 
 def columns_of_loads(

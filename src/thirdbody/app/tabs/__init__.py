@@ -3,7 +3,7 @@
 GROUPS = {
     "Contact": ("interface", "curves", "mode_map", "outputs"),
     "Oil and dust": ("dust", "film"),
-    "Questions": ("connector", "plate"),
+    "Questions": ("connector", "plate", "life"),
     "How sure": ("error_bars", "compare", "explicit"),
     "What to do": ("surface", "before_after", "design", "take_away"),
 }

@@ -40,8 +40,10 @@ TITLE = "Curves"
 TAB = "curves"
 RESTS = 0.4
 """Seconds after which the slider counts as at rest."""
+BETWEEN = 0.08
+"""Seconds in which the next move of a slider comes, if it moves."""
 TICK = 0.01
-"""Seconds by which a timer may be early."""
+"""Seconds by which a timer may be early, and between two looks."""
 LOOKS = 0.05
 """Seconds after which it is looked whether the tab is still in sight."""
 FIGURES = ("area", "shares", "regimes", "separation")
@@ -226,7 +228,10 @@ class Curves:
         two_body = answer.contact.two_body
         self.plots["shares"].widget.set_visibility(not two_body)
         self.key.set_visibility(not two_body)
-        for names in (FIGURES[:2], FIGURES[2:]):  # those on top first
+        for names in (FIGURES[:2], FIGURES[2:]):  # those on top first, the others as it rests
+            if names != FIGURES[:2] and await self._moves_on(BETWEEN):
+                self.shown = None
+                return
             drawing = asyncio.ensure_future(
                 show_figures((self.plots[name], found[name]) for name in names if name in found)
             )
@@ -238,9 +243,15 @@ class Curves:
                 return
             if not drawing.result():
                 self.shown = None
-            if self.state.study is not self.state.read:  # it moved on: the last move wins
-                self.shown = None
-                return
+
+    async def _moves_on(self, seconds: float) -> bool:
+        """Whether the study is another one within these seconds: the last move wins."""
+        until = time.perf_counter() + seconds
+        while self.state.study is self.state.read:
+            if time.perf_counter() > until:
+                return False
+            await asyncio.sleep(TICK)
+        return True
 
     async def _finish(self) -> None:
         self.later = None

@@ -150,10 +150,7 @@ def _sheets(asked: Study, found: Comparison, index: int) -> list[Sheet]:
     told = [f"{i + 1} {text}" for i, text in enumerate(notes)]
     title = f"{asked.title or 'Study'}: {_at_load(found, index)}"
     columns, units = found.flat()
-    known = {**COLUMNS, "law": "asperity law"}
-    meanings = {
-        name: str(getattr(known.get(name), "meaning", known.get(name, ""))) for name in columns
-    }
+    meanings = {name: COLUMNS[name].meaning for name in columns if name in COLUMNS}
     return question_sheets(
         title,
         _answer(found, index),

@@ -19,7 +19,7 @@ from ..panels import Panel, picture_of
 from .listed import rows
 from .row import STANDINGS, WORDS, Row, Verdict, word_of
 
-__all__ = ["Summary", "reproduce"]
+__all__ = ["Summary", "find", "reproduce"]
 
 Ledger = Mapping[str, Mapping[str, Verdict]]
 
@@ -32,6 +32,7 @@ class Summary(engine.Summary):
     """What `reproduce` did."""
 
     LEDGER: ClassVar[str] = "measurements.json"
+    TITLE: ClassVar[str] = "The model against measurements"
 
     rows: tuple[Row, ...]
     """Lost ones first."""
@@ -105,11 +106,11 @@ def reproduce(
     """
     if preset is not None:
         raise InvalidValue(f"preset = {preset!r} has no meaning for measurements; leave it out")
-    return engine.reproduce("measurements", _find, out, progress=progress)
+    return engine.reproduce("measurements", partial(find, Summary, rows()), out, progress=progress)
 
 
-def _find(folder: Path, report: Progress) -> Summary:
-    known = rows()
+def find(kind: type[Summary], known: tuple[Row, ...], folder: Path, report: Progress) -> Summary:
+    """Judge rows, the lost ones first."""
     ledger: dict[str, dict[str, Verdict]] = {}
     for done, row in enumerate(known):
         report("measurements", done, len(known))
@@ -117,7 +118,7 @@ def _find(folder: Path, report: Progress) -> Summary:
             ledger[row.name] = row.judge()
     report("measurements", len(known), len(known))
     shown = tuple(sorted(known, key=lambda row: WORDS.index(word_of(ledger[row.name]))))
-    return Summary(out=folder, rows=shown, ledger=ledger)
+    return kind(out=folder, rows=shown, ledger=ledger)
 
 
 def _picture(panel_of: Callable[[], Panel]) -> Picture:
@@ -168,7 +169,7 @@ def _as_json(summary: Summary) -> dict[str, object]:
 
 
 def _page(summary: Summary, figures: str) -> str:
-    title = "The model against measurements"
+    title = summary.TITLE
     return document(
         title,
         [

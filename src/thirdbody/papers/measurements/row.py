@@ -13,6 +13,7 @@ __all__ = [
     "CAPTION",
     "CHOSEN",
     "COMPUTED",
+    "REPORTED",
     "STANDINGS",
     "WORDS",
     "Band",
@@ -30,7 +31,9 @@ COMPUTED = "computed here"
 """Standing of a number from a computation that shares nothing with the model."""
 CHOSEN = "chosen here"
 """Standing of an input that the source seen does not give: a range of what it can have been."""
-STANDINGS = (ABSTRACT, CAPTION, COMPUTED, CHOSEN)
+REPORTED = "reported by others"
+"""Standing of what another paper says of the measurement."""
+STANDINGS = (ABSTRACT, CAPTION, REPORTED, COMPUTED, CHOSEN)
 
 WORDS = ("lost", "undecided", "met")
 """Every verdict there is, in the order in which a page shows them."""
@@ -153,12 +156,13 @@ def row_of(
     *,
     statements: tuple[Statement, ...] = (),
     panels: tuple[Callable[[], Panel], ...] = (),
+    paper: str = "measurements",
 ) -> Row:
-    """A row of the data file; a prediction for each of its statements, by their ids.
+    """A row of a data file; a prediction for each of its statements, by their ids.
 
     ``statements`` are those whose numbers are computed, and stand in no file.
     """
-    data = data_of("measurements")[name]
+    data = data_of(paper)[name]
     stated: list[Statement] = []
     for entry in data.get("statements", ()):
         claim = Claim(**{key: value for key, value in entry.items() if key != "undecided"})

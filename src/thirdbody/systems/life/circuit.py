@@ -113,6 +113,14 @@ class OilTerms:
         """Particles that come per time, with ingress and fresh oil [1/s], (K, M)."""
         return self.ingress + self.make_up * self.fresh
 
+    @property
+    def steady(self) -> Array:
+        """Particles per volume in the end [1/m³], (K, M); NaN where they grow for ever."""
+        leaving = self.loss + self.growth
+        kept = leaving > 1e-12 * (self.make_up + abs(self.growth))
+        stays = self.source / np.where(kept, leaving, 1.0)
+        return np.where(self.source == 0, 0.0, np.where(kept, stays, math.nan))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OilCircuit(Value):
@@ -386,11 +394,7 @@ class OilCircuit(Value):
         full : collection of str, optional
             Names of filters that are full and bypassed.
         """
-        terms = self.terms(full=full)
-        leaving = terms.loss + terms.growth
-        kept = leaving > 1e-12 * (self.make_up + self.leak)
-        stays = terms.source / np.where(kept, leaving, 1.0)
-        return np.where(terms.source == 0, 0.0, np.where(kept, stays, math.nan))
+        return self.terms(full=full).steady
 
     def steady_code(self, *, full: Collection[str] = ()) -> str:
         """The ISO 4406 code that no longer changes; "-" for a count that grows for ever.

@@ -98,9 +98,7 @@ class ContactCourse:
                 atol[place] = least
             elif name.startswith("flow"):
                 atol[place] = 1e-3 * least * float(np.mean(loop.volumes))
-            elif name.startswith("wear"):
-                atol[place] = 1e-6 * sigma
-            elif name == "sigma":
+            elif name.startswith("wear") or name == "sigma":
                 atol[place] = 1e-6 * sigma
             else:
                 atol[place] = 1e-9 if name.startswith("thrown") else 1.0
@@ -151,13 +149,13 @@ class ContactCourse:
         return far
 
     def _short_of(self, each: ContactUntil) -> Callable[[float, Array], float]:
-        return lambda time, y: each.excess(self.loop, y)
+        return lambda time, y: each.excess(self.loop, state=y)
 
     def _filling(self, name: str, limit: float) -> Callable[[float, Array], float]:
         return lambda time, y: self._caught(y, name) - limit
 
     def _jamming(self, time: float, y: Array) -> float:
-        return coverage(self.loop, y) - JAMMED
+        return coverage(self.loop, self.loop.present(y, self.loop.last)) - JAMMED
 
     # ------------------------------------------------------------------ what happens
     def _tell(self, name: str, sentence: str) -> None:
@@ -296,8 +294,7 @@ class ContactCourse:
         return found
 
 
-def coverage(loop: Loop, y: Array) -> float:
-    """Projected area of the particles in a contact per area of it [1]."""
-    eta = loop.present(y, loop.find_gap(y).d if loop.pool == "oil" else 0.0)
+def coverage(loop: Loop, eta: Array) -> float:
+    """Projected area of particles η per area of the contact [1]."""
     squares = np.tile(loop.tables.classes.mean_power(2), loop.kinds)
     return float(np.pi / 4 * (eta @ squares))

@@ -52,6 +52,8 @@ COLUMNS: dict[str, Column] = {
 """What a contact adds to a history, over time."""
 NODES = 60
 """Of the scan for steady states."""
+BALANCED = 1e-6
+"""Relative imbalance of loads below which a change of sign is a state."""
 
 
 class SteadyContact(NamedTuple):
@@ -85,8 +87,6 @@ def contact_columns(loop: Loop, times: Array, states: list[Array]) -> dict[str, 
 def _columns_of(loop: Loop, y: Array) -> dict[str, float]:
     gap = loop.find_gap(y)
     state, eta = loop.pressed(y, gap.d), loop.present(y, gap.d)
-    rates = loop.rates(y, gap.d)
-    change = rates.matrix @ y + rates.constant
     assert isinstance(loop, DryLoop | FilmLoop)
     p = loop.pressure
 
@@ -104,12 +104,12 @@ def _columns_of(loop: Loop, y: Array) -> dict[str, float]:
         "sa_share": total("load") / p,
         "mu_solids": friction / p,
         "present": total("loaded") * loop.one_area,
-        "covered": coverage(loop, y),
+        "covered": coverage(loop, eta),
     }
     for side in SURFACES:
         for name in ("wear", "dents", "thrown"):
             out[f"{name}_{side}"] = float(y[loop.layout[f"{name}_{side}"]][0])
-        out[f"wear_rate_{side}"] = float(change[loop.layout[f"wear_{side}"]][0])
+        out[f"wear_rate_{side}"] = loop.wear_rate(y, state, side)
     return out
 
 
@@ -127,7 +127,8 @@ def steady_states(loop: Loop, y: Array) -> tuple[SteadyContact, ...]:
             place = brentq(
                 lambda u: _imbalance(loop, y, u), places[i], places[i + 1], xtol=1e-16, rtol=1e-12
             )
-            out.append(_steady_at(loop, y, float(place)))
+            if abs(_imbalance(loop, y, float(place))) < BALANCED:  # else it jumps there
+                out.append(_steady_at(loop, y, float(place)))
     return tuple(out)
 
 

@@ -23,7 +23,7 @@ from .contact_history import (
     births_and_losses,
     contact_columns,
 )
-from .contact_tables import ContactTables, Kind
+from .contact_tables import Kind, contact_tables
 from .debris import Debris
 from .dry_loop import ARRIVED, LEFT, DryLoop
 from .film_loop import FRESH, INGRESS, FilmLoop
@@ -187,9 +187,7 @@ def _notes(
         what = f"particles cover up to {number(most, 2)} of the contact: they hinder each other"
         out.append(Note(what, code="life.crowded", action="sums of single particles end there"))
     if loop.setting.stays > 0:
-        what = (
-            "a part of the deep particles stays embedded, as the user says; nobody can predict it"
-        )
+        what = "a part of the deep particles stays embedded: nobody can predict how many do"
         out.append(Note(what, code="life.stays"))
     law = loop.setting.running_in
     if law is not None:
@@ -256,7 +254,9 @@ def run_film_history(
         Kind(name=name, material=each, strength=strengths.get(each))
         for name, each in terms.materials.items()
     ]
-    tables = ContactTables(contact, classes, kinds, sigma=_span(contact, running_in))
+    tables = contact_tables(
+        contact.replace(particles=None), classes, tuple(kinds), _span(contact, running_in)
+    )
     area = contacts * float(conjunction.hertz(load, E=2 * contact.E_ss).area)
     setting = _setting(
         contact, debris, classes, names=names, sliding_speed=slide_roll * speed, area=area,
@@ -355,13 +355,16 @@ def run_dry_history(
     ]  # fmt: skip
     kinds += [Kind(name=n, material=m) for n, m in _debris_materials(contact, debris).items()]
     names = [kind.name for kind in kinds]
-    diameters = [*(each.diameter for each in (*contact.populations, *arrivals))]
+    diameters = [each.diameter for each in contact.populations]
+    diameters += [each.diameter for each in arrivals]
     if debris is not None:
         diameters.append(debris.diameter)
     if classes is None:
         ends = [sizes_of(each) for each in diameters] or [(0.25e-6, 64e-6)]
         classes = SizeClasses.covering(min(a for a, _ in ends), max(b for _, b in ends))
-    tables = ContactTables(contact, classes, kinds, sigma=_span(contact, running_in))
+    tables = contact_tables(
+        contact.replace(particles=None), classes, tuple(kinds), _span(contact, running_in)
+    )
     setting = _setting(
         contact, debris, classes, names=names, sliding_speed=sliding_speed, area=area,
         worn_area=worn_area, stays=stays, running_in=running_in,

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["ContactTables", "Kind", "Pressed", "scale_roughness"]
+__all__ = ["ContactTables", "Kind", "Pressed", "contact_tables", "scale_roughness"]
 
 NODES, SIGMA_NODES = 16, 12
 """Chebyshev nodes of a panel over the gap, and over ln σ."""
@@ -62,7 +63,7 @@ SPOTS = ("force", "elastic", "elastoplastic", "plastic", "worn", "shear", "ploug
 length [1], and forces of shear and ploughing [Pa]."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True)
 class Kind:
     """A kind of particles in a history: a material, and its strength if they break."""
 
@@ -272,7 +273,9 @@ class ContactTables:
         top = float(self.tops[-1]) + 9 * width
         step = PANEL * self.span[0]
         first = math.floor(-8 * self.span[1] / step)
-        panels = step * np.arange(first, math.ceil((top + 9 * self.span[1]) / step) + 1)
+        panels = step * np.arange(
+            first, math.ceil((top + 9 * self.span[1]) / step) + 1, dtype=np.float64
+        )
         most = np.stack([self._largest(i) for i, _ in self._distinct]).ravel()
         self.particles = PanelTable(self._of_particles, panels, self.span, most)
         most = self._of_asperities(np.zeros(1), np.array(self.span[1:]))[0, 0]
@@ -288,10 +291,10 @@ class ContactTables:
         most = np.max(np.abs(curve.series.coefficients).sum(axis=1), axis=0)
         return np.column_stack([most * self.tops[:, None] ** curve.powers, np.ones(len(self.tops))])
 
-    def _survival(self, kind: Kind, curve: ParticleCurve) -> list[SurvivalCurve] | None:
+    def _survival(self, kind: Kind, curve: ParticleCurve) -> SurvivalCurve | None:
         if kind.strength is None:
             return None
-        return [SurvivalCurve(curve, kind.strength, float(top)) for top in self.tops]
+        return SurvivalCurve(curve, kind.strength, self.tops)
 
     def _place(self, i: int) -> int:
         """The first of the kinds with the same curve and strength."""
@@ -333,24 +336,22 @@ class ContactTables:
 
     def _of_kind(self, i: int, gap: Array, sigmas: Array) -> Array:
         """Quantities and the broken part of one kind at mean gaps (N,): (N, S, K, Q + 1)."""
-        curve, survival = self.curves[i], self.survival[i]
+        curve = self.curves[i]
         out = np.zeros((len(gap), len(sigmas), len(self.tops), len(NAMES) + 1))
         for k, top in enumerate(self.tops):
-            own = None if survival is None else survival[k]
-            out[:, :, k] = self._of_class(curve, own, gap / top, sigmas / top)
+            out[:, :, k] = self._of_class(i, k, gap / top, sigmas / top)
         out[..., :-1] *= self.tops[:, None] ** curve.powers
         if self.law.shadow == "covered":
             covered = math.pi / 4 * curve.one.breadth * self.classes.mean_power(2)
             out[..., NAMES.index("shadow")] = covered
         return out
 
-    def _of_class(
-        self, curve: ParticleCurve, survival: SurvivalCurve | None, gap: Array, sigmas: Array
-    ) -> Array:
+    def _of_class(self, i: int, k: int, gap: Array, sigmas: Array) -> Array:
         """Quantities of a class with upper edge 1, averaged over its seats: (N, S, Q + 1)."""
+        curve, survival = self.curves[i], self.survival[i]
 
         def values(local: Array) -> Array:
-            broken = np.zeros(len(local)) if survival is None else survival(local)
+            broken = np.zeros(len(local)) if survival is None else survival.of_class(k, local)
             return np.column_stack([curve(local), broken])
 
         if not self.rough_seat:
@@ -503,6 +504,17 @@ class ContactTables:
             asperities=dict(zip(SPOTS, map(float, spots), strict=True)),
             bare=max(1 - shadow, 0.0),
         )
+
+
+@lru_cache(maxsize=8)
+def contact_tables(
+    contact: Contact,
+    classes: SizeClasses,
+    kinds: tuple[Kind, ...],
+    sigma: tuple[float, float] | None,
+) -> ContactTables:
+    """The cached tables of a contact: one for all histories with these particles."""
+    return ContactTables(contact, classes, kinds, sigma=sigma)
 
 
 def _check_contact(contact: Contact) -> None:

@@ -28,7 +28,7 @@ class ContactUntil(Until):
     __slots__ = ()
 
     @abstractmethod
-    def excess(self, loop: Loop, y: Array) -> float:
+    def excess(self, loop: Loop, *, state: Array) -> float:
         """What is below 0 before it happens and above it after."""
 
 
@@ -60,8 +60,8 @@ class WearDepth(ContactUntil):
     def sentence(self) -> str:
         return f"a surface is worn by {value_of(self.depth, 'm', 3)}"
 
-    def excess(self, loop: Loop, y: Array) -> float:
-        deepest = max(float(y[loop.layout[f"wear_{side}"]][0]) for side in (1, 2))
+    def excess(self, loop: Loop, *, state: Array) -> float:
+        deepest = max(float(state[loop.layout[f"wear_{side}"]][0]) for side in (1, 2))
         return deepest / self.depth - 1
 
 
@@ -93,8 +93,8 @@ class RoughnessBelow(ContactUntil):
     def sentence(self) -> str:
         return f"the roughness has come down to {value_of(self.sigma, 'm', 3)}"
 
-    def excess(self, loop: Loop, y: Array) -> float:
-        return 1 - float(y[loop.layout["sigma"]][0]) / self.sigma
+    def excess(self, loop: Loop, *, state: Array) -> float:
+        return 1 - float(state[loop.layout["sigma"]][0]) / self.sigma
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,12 +125,12 @@ class ParticleShare(ContactUntil):
     def sentence(self) -> str:
         return f"particles carry {percent(self.share)} of what the solids carry"
 
-    def excess(self, loop: Loop, y: Array) -> float:
-        state = loop.pressed(y, loop.find_gap(y).d)
-        eta = loop.present(y, state.d)
-        own = float(loop.columns(state, "load") @ eta)
-        all_solids = own + state.bare * state.asperities["force"]
-        present = float(loop.columns(state, "loaded") @ eta) * loop.one_area
+    def excess(self, loop: Loop, *, state: Array) -> float:
+        pressed = loop.pressed(state, loop.find_gap(state).d)
+        eta = loop.present(state, pressed.d)
+        own = float(loop.columns(pressed, "load") @ eta)
+        all_solids = own + pressed.bare * pressed.asperities["force"]
+        present = float(loop.columns(pressed, "loaded") @ eta) * loop.one_area
         if present < 1:
             return -1.0
         return own / all_solids - self.share

@@ -118,9 +118,7 @@ class Debris(Value):
         """
         edges, numbers = tuple(map(float, sizes)), tuple(map(float, counts))
         if len(edges) != len(numbers) + 1:
-            raise InvalidValue(
-                f"sizes ({len(edges)}) must be one more than counts ({len(numbers)})"
-            )
+            raise InvalidValue(f"sizes ({len(edges)}) must be one more than counts")
         found = PowerLaw(edges=edges, counts=numbers, slopes=(3.0,) * len(numbers))
         return cls(diameter=found, hardness=hardness)
 

@@ -70,11 +70,17 @@ class DryLoop(Loop):
         eta = self.shaped(self.present(y, self.last))
         d = self.tables.find_gap(self.pressure, eta=eta, sigma=sigma, start=self.last)
         self.last = d
-        state = self.tables.pressed(d, eta=eta, sigma=sigma)
-        return Gap(d, -self.slope_over_unknowns(y, state) / state.slope, 0.0)
+        return Gap(d, 0.0)
+
+    def gap_slopes(self, y: Array, gap: Gap) -> Array:
+        state = self.pressed(y, gap.d)
+        return -self.slope_over_unknowns(y, state) / state.slope
 
     def standing(self, y: Array, d: float) -> Array:
         return np.eye(len(self.volumes)) / self.setting.area
+
+    def in_contact(self, y: Array, d: float) -> Array:
+        return y[self.layout[self.pool]] / self.setting.area
 
     def passes(self, side: int) -> float:
         return 0.0

@@ -12,6 +12,7 @@ stands in them is ε times a layer of oil.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,8 +36,8 @@ __all__ = ["FilmLoop"]
 INGRESS, FRESH = "ingress", "fresh oil"
 LONGEST = 60.0
 """Largest ln γ of the tables."""
-CLOSE = 1e-5
-"""Half the bracket that is tried first about the ln γ of the state before."""
+SECANTS = 12
+"""Steps of a secant before a bracket is sought."""
 
 
 class FilmLoop(Loop):
@@ -96,7 +97,7 @@ class FilmLoop(Loop):
             np.array([0.0, 1.0, 4.0, 12.0, 30.0, LONGEST]),
             tolerance=1e-12,
         )
-        self.last = 0.0
+        self.last, self._slope = 0.5, -1.0
         self.now = 0.0
 
     @property
@@ -123,45 +124,56 @@ class FilmLoop(Loop):
         """Mean gap at a separation [m]."""
         return float(mean_gap(d + self.tables.mean_plane(sigma), sigma=sigma))
 
-    def find_gap(self, y: Array) -> Gap:
+    def _excess(self, y: Array, x: float) -> float:
+        """What the solids carry over what the film leaves to them, at ln γ, over the load."""
         sigma = self.sigma_of(y)
-
-        def excess(x: float) -> float:
-            d = self.separation(x, sigma)
-            eta = self.shaped(self.present(y, d))
-            return self.tables.load(d, eta=eta, sigma=sigma)[0] / self.pressure + math.expm1(-x)
-
-        x = self._root(excess)
-        self.last = x
         d = self.separation(x, sigma)
-        state = self.pressed(y, d)
-        step = 1e-5 * (1 + x)
-        below = max(x - step, 0.0)
-        stiff = (excess(x + step) - excess(below)) / (x + step - below)
-        opens = (self.separation(x + step, sigma) - self.separation(below, sigma)) / (
-            x + step - below
-        )
-        slopes = -self.slope_over_unknowns(y, state) / self.pressure / stiff * opens
-        return Gap(d, slopes, math.exp(-x))
+        eta = self.shaped(self.present(y, d))
+        return self.tables.load(d, eta=eta, sigma=sigma)[0] / self.pressure + math.expm1(-x)
 
-    def _root(self, excess: object) -> float:
-        f = excess
-        assert callable(f)
-        low, high = max(self.last - CLOSE, 0.0), self.last + CLOSE
-        if f(low) < 0:
-            low, high = max(low - 1e-2, 0.0), low
-        if f(low) < 0:
-            low = 0.0
-            if f(0.0) <= 0:
-                return 0.0
+    def find_gap(self, y: Array) -> Gap:
+        self.last = self._root(lambda x: self._excess(y, x))
+        return Gap(self.separation(self.last, self.sigma_of(y)), math.exp(-self.last))
+
+    def gap_slopes(self, y: Array, gap: Gap) -> Array:
+        x, sigma = -math.log(gap.film_share), self.sigma_of(y)
+        step = 1e-5 * (1 + x)
+        low, high = max(x - step, 0.0), x + step
+        stiff = self._excess(y, high) - self._excess(y, low)
+        opens = self.separation(high, sigma) - self.separation(low, sigma)
+        state = self.pressed(y, gap.d)
+        return -self.slope_over_unknowns(y, state) / self.pressure / stiff * opens
+
+    def _root(self, f: Callable[[float], float]) -> float:
+        """Root of what falls with ln γ: by secants from the last one, or in a bracket."""
+        x, slope = self.last, self._slope
+        value = f(x)
+        for _ in range(SECANTS):
+            there = x - value / slope
+            if not 0 <= there <= LONGEST:
+                break
+            if abs(there - x) <= 1e-13 * (1 + x):
+                self._slope = slope
+                return there
+            after = f(there)
+            if after == value or (after - value) / (there - x) >= 0:
+                break
+            slope = (after - value) / (there - x)
+            x, value = there, after
+        return self._bracketed(f)
+
+    def _bracketed(self, f: Callable[[float], float]) -> float:
+        if f(0.0) <= 0:
+            return 0.0
+        low, high = 0.0, max(2 * self.last, 0.5)
         while f(high) > 0:
             if high >= LONGEST:
                 raise NoEquilibrium(
                     f"no equilibrium at speed = {self.speed:g} m/s: at every gap that this film "
                     "leaves, asperities and particles carry more than the load"
                 )
-            low, high = high, min(high + 100 * (high - low), LONGEST)
-        return float(brentq(f, low, high, xtol=1e-15, rtol=1e-14))
+            low, high = high, min(2 * high, LONGEST)
+        return float(brentq(f, low, high, xtol=1e-13, rtol=1e-13))
 
     # ------------------------------------------------------------------ particles
     def layers(self, d: float, sigma: float) -> Array:
@@ -176,6 +188,12 @@ class FilmLoop(Loop):
     def standing(self, y: Array, d: float) -> Array:
         sigma = self.sigma_of(y)
         return self.pieces(d, sigma) * (self.layers(d, sigma) / self.volume_at(self.now))
+
+    def in_contact(self, y: Array, d: float) -> Array:
+        if self.breaks:
+            return super().in_contact(y, d)
+        layers = self.layers(d, self.sigma_of(y))
+        return y[self.layout[self.pool]] * (layers / self.volume_at(self.now))
 
     def passes(self, side: int) -> float:
         return self.contacts * self.speed * self.width / self.setting.worn_area[side - 1]

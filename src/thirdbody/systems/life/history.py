@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ...populations.measured.cleanliness import counted_sizes
+from ...populations.measured.cleanliness import counted_sizes, iso4406_of_counts
 from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
 from .circuit import OilCircuit, OilTerms
@@ -109,8 +109,7 @@ class LifeHistory(Record):
     @cached_property
     def codes(self) -> tuple[str, ...]:
         """ISO 4406 code at each time."""
-        classes = self.terms.classes
-        return tuple(classes.iso4406(each) for each in self.numbers.sum(axis=-1))
+        return tuple(iso4406_of_counts(each) for each in self.counts)
 
     @property
     def mass_per_volume(self) -> Array:
@@ -131,7 +130,7 @@ class LifeHistory(Record):
     # -------------------------------------------------------------------------- what it tends to
     def steady(self) -> tuple[SteadyOil, ...]:
         """The states in which the oil no longer changes; one, stable, without a contact."""
-        numbers = self.circuit.steady()
+        numbers = self.terms.steady
         classes = self.terms.classes
         leaving = (self.terms.loss + self.terms.growth) / self.circuit.volume
         counts = classes.above(counted_sizes()[:1])[0] > 0

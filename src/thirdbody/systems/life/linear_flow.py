@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Flowing", "dirt_gain", "flowing", "generations", "reproduction", "steady_numbers"]
 
-TERMS = 40
-"""Terms of the series of the divided difference."""
+TERMS = 16
+"""Least number of terms of the series of the divided difference."""
 NEAR = 0.5
 """Exponents below which the series is summed."""
 
@@ -56,7 +56,7 @@ def _divided(a: Array, b: Array) -> Array:
     # Σ h_j(a, b)/(j + 2)!, h_j the complete homogeneous polynomials
     near = np.where(np.abs(a) < NEAR, a, 0.0)
     power, h, series, factorial = np.ones_like(near), np.ones_like(near), np.zeros_like(near), 2.0
-    for j in range(TERMS):
+    for j in range(TERMS + math.ceil(6 * float(np.max(np.abs(b), initial=0.0)))):
         series = series + h / factorial
         power = power * b
         h = near * h + power

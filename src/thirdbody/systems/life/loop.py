@@ -77,14 +77,12 @@ class Gap(NamedTuple):
 
     d: float
     """Separation [m]."""
-    slopes: Array
-    """∂d/∂y of every unknown: (n,)."""
     film_share: float
     """Part of the load that the oil carries [1]; 0 of a dry contact."""
 
 
 class Rates(NamedTuple):
-    """Rates at one gap, affine in the unknowns."""
+    """Rates at one gap, affine in the unknowns; but for what wear sets free, which is frozen."""
 
     matrix: Array
     """M [1/s] (n, n)."""
@@ -92,6 +90,8 @@ class Rates(NamedTuple):
     """r (n,)."""
     births: Array
     """𝒢 of the numbers, daughters by parents [1/s] (J, J)."""
+    release: Array
+    """Change of M y with y through the rate at which surfaces wear [1/s] (n, n)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,8 +161,16 @@ class Loop(ABC):
         """The separation in a state."""
 
     @abstractmethod
+    def gap_slopes(self, y: Array, gap: Gap) -> Array:
+        """∂d/∂y of every unknown: (n,)."""
+
+    @abstractmethod
     def standing(self, y: Array, d: float) -> Array:
-        """Particles per area of contact for one of each number in the pool [1/m²]: (J, J)."""
+        """Particles per area of contact for one of each in the pool [1/m²]: (J, J)."""
+
+    def in_contact(self, y: Array, d: float) -> Array:
+        """Particles of the pool per area of contact [1/m²]: (J,)."""
+        return self.standing(y, d) @ y[self.layout[self.pool]]
 
     @abstractmethod
     def add_exchange(self, out: Rates, y: Array, state: Pressed) -> None:
@@ -170,7 +178,12 @@ class Loop(ABC):
 
     @abstractmethod
     def passes(self, side: int) -> float:
-        """Times per second that each place of a surface meets the particles [1/s]; 0 of a dry one."""
+        """Times per second that a place of a surface meets the particles [1/s]; 0 if dry."""
+
+    @property
+    def breaks(self) -> bool:
+        """Whether particles of some kind break."""
+        return any(kind.strength is not None for kind in self.tables.kinds)
 
     @property
     def one_area(self) -> float:
@@ -185,7 +198,7 @@ class Loop(ABC):
 
     def present(self, y: Array, d: float) -> Array:
         """Particles per area of contact η [1/m²], embedded ones with them: (J,)."""
-        eta = self.standing(y, d) @ y[self.layout[self.pool]]
+        eta = self.in_contact(y, d)
         for side in SURFACES:
             if f"bound_{side}" in self.layout:
                 eta = eta + y[self.layout[f"bound_{side}"]] / self.setting.worn_area[side - 1]
@@ -213,7 +226,8 @@ class Loop(ABC):
     def rates(self, y: Array, d: float) -> Rates:
         """M and r at a separation; y says where asperities are out of reach, and how fast wears."""
         count, J = self.layout.count, len(self.volumes)
-        out = Rates(np.zeros((count, count)), np.zeros(count), np.zeros((J, J)))
+        square = np.zeros((2, count, count))
+        out = Rates(square[0], np.zeros(count), np.zeros((J, J)), square[1])
         state = self.pressed(y, d)
         standing = self.standing(y, d)
         rows = [self._wear_row(state, standing, side) for side in SURFACES]
@@ -227,10 +241,9 @@ class Loop(ABC):
         return out
 
     def pieces(self, d: float, sigma: float) -> Array:
-        """Numbers of which one of each number is made once all that breaks at d is broken: (J, J)."""
-        J = len(self.volumes)
-        out = np.eye(J)
-        if all(kind.strength is None for kind in self.tables.kinds):
+        """What one of each number is once all that breaks at d is broken: (J, J)."""
+        out = np.eye(len(self.volumes))
+        if not self.breaks:
             return out
         broken = self.tables.broken(d, sigma)
         for i, kind in enumerate(self.tables.kinds):
@@ -262,6 +275,11 @@ class Loop(ABC):
             row[layout[f"bound_{other}"]] = v * area * held / self.setting.worn_area[other - 1]
         constant = v * area * worn * (state.bare > 0)
         return row, constant, v * area * worn * state.bare
+
+    def wear_rate(self, y: Array, state: Pressed, side: int) -> float:
+        """Wear depth of a surface per time [m/s]."""
+        row, constant, _ = self._wear_row(state, self.standing(y, state.d), side)
+        return (float(row @ y) + constant) / self.setting.worn_area[side - 1]
 
     def _add_wear(self, out: Rates, side: int, row: Array, constant: float) -> None:
         layout, kind = self.layout, self.setting.debris[side - 1]
@@ -319,7 +337,12 @@ class Loop(ABC):
             free = 2 * depth_rate / self.sizes
             bound = np.arange(*self.layout[f"bound_{side}"].indices(self.layout.count))
             out.matrix[bound, bound] -= free
-            out.matrix[np.arange(pool.start, pool.stop), bound] += free
+            mine = np.arange(pool.start, pool.stop)
+            out.matrix[mine, bound] += free
+            if depth_rate > 0:
+                each = 2 / self.sizes * y[bound] / self.setting.worn_area[side - 1]
+                out.release[bound] -= np.multiply.outer(each, row)
+                out.release[mine] += np.multiply.outer(each, row)
 
     def add_flow(self, out: Rates, name: str, columns: slice, numbers: Array) -> None:
         """Book volume that goes a way per number of a block [1/s]: (J,)."""
@@ -331,14 +354,14 @@ class Loop(ABC):
             out.matrix[place.start + kind, at] += numbers[mine] * self.volumes[mine]
 
     def add_passage(self, out: Rates, numbers: Array, *, pieces: Array) -> None:
-        """Particles of the pool pass a gap and come out as pieces, numbers per one and time: (J,)."""
+        """Let numbers per one and time (J,) pass a gap and come out as pieces."""
         pool = self.layout[self.pool]
         change = (pieces - np.eye(len(numbers))) * numbers
         out.matrix[pool, pool] += change
         self.add_flow(out, FINER, pool, -(self.volumes @ change) / self.volumes)
 
     def add_retention(self, out: Rates, numbers: Array, state: Pressed) -> Array:
-        """Embed a part of what passes, numbers per one and time (J,); returns that part [1]: (J,)."""
+        """Embed a part of what passes, numbers per one and time (J,); returns it [1]."""
         if self.setting.stays == 0:
             return np.zeros_like(numbers)
         pool = self.layout[self.pool]
@@ -387,7 +410,7 @@ class Loop(ABC):
         step = STEP * self.sigma_of(y)
         there = self.rates(y, gap.d + step)
         slope = (there.matrix @ y + there.constant - value) / step
-        out = here.matrix + np.multiply.outer(slope, gap.slopes)
+        out = here.matrix + here.release + np.multiply.outer(slope, self.gap_slopes(y, gap))
         law, place = self.setting.running_in, self.layout["sigma"].start
         if law is not None:
             moved = y.copy()

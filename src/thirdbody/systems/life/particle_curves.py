@@ -132,7 +132,7 @@ class ParticleCurve:
         return replace(found, material=self.material, population=self.population)
 
     def _dent_kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """Which surfaces have a dent that stays, whether it has a shaft, and its end, as a number."""
+        """Where dents that stay set in, get a shaft, and end, as a number."""
         out = np.zeros(spots.x.shape, np.intp)
         for side, ends in zip((0, 1), self._deepest, strict=True):
             depth = self._depth_left(spots, side)
@@ -240,7 +240,7 @@ def particle_curve(
 
 
 class SurvivalCurve:
-    r"""Part of the particles of one class that break as the gap closes on them, over the gap.
+    r"""Part of the particles of each class that break as the gap closes on them, over the gap.
 
     .. math:: b(g) = \int \varphi_a\,[1 - P_s(x, g)]\,dx
 
@@ -249,31 +249,29 @@ class SurvivalCurve:
     curve : ParticleCurve
         Of their kind.
     strength : WeibullStrength
-    scale : float
-        Upper edge of the class [m].
+    tops : array (K,)
+        Upper edges of the classes [m].
 
     Notes
     -----
-    By number, of the particles of a class as they come; the same for pieces of that size. A curve
-    of each class, since strength has a length of its own.
+    By number, of the particles of a class as they come; the same for pieces of that size. Strength
+    has a length of its own, so there is a column for each class, over the gap in its upper edge.
     """
 
-    def __init__(self, curve: ParticleCurve, strength: WeibullStrength, scale: float):
+    def __init__(self, curve: ParticleCurve, strength: WeibullStrength, tops: Array):
         self.average, self.lowest = curve.average, curve.lowest
-        self.breakage = Breakage.of_material(strength, curve.material, scale)
-        self.tension = self.breakage.tension(curve.one)
+        self.breakages = [
+            Breakage.of_material(strength, curve.material, float(top)) for top in tops
+        ]
+        self.tension = self.breakages[0].tension(curve.one)
         low = self.average.sizes.support[0]
         kinks = [float(eps) for eps in self.tension.kinks]
         gaps = {x * (1 - eps) for x in (low, 1.0) for eps in (0.0, *kinks)}
-        self.gaps = np.array(sorted({self.lowest, 1.0, *(g for g in gaps if self.lowest < g < 1)}))
-        edges = np.sqrt(1.0 - self.gaps[::-1])
+        inside = np.array(sorted({self.lowest, 1.0, *(g for g in gaps if self.lowest < g < 1)}))
+        edges = np.sqrt(1.0 - inside[::-1])
         edges = np.concatenate([edges[:1], edges[1:][np.diff(edges) > 1e-9]])
         self.series = PiecewiseChebyshev(
-            lambda u: self.by_quadrature(1.0 - u * u)[:, None],
-            edges,
-            degree=13,
-            tolerance=BELOW,
-            max_depth=8,
+            self._by_root, edges, degree=9, tolerance=1e-5, max_depth=4, kinds=[0] * len(tops)
         )
 
     @property
@@ -281,20 +279,27 @@ class SurvivalCurve:
         """Ends of its panels: between them it is a polynomial in the root of the gap."""
         return 1.0 - self.series.edges[::-1] ** 2
 
+    def _by_root(self, u: Array) -> Array:
+        out = np.empty((len(u), len(self.breakages)))
+        for part in np.array_split(np.arange(len(u)), max(1, len(u) // 100)):
+            out[part] = self.by_quadrature(1.0 - u[part] ** 2)
+        return out
+
     def by_quadrature(self, gap: Array) -> Array:
-        """b at gaps over the upper edge (N,)."""
+        """b of every class at gaps over its upper edge (N,): (N, K)."""
         gap = np.maximum(gap, self.lowest)[:, None]
         x, delta, number = self.average.of_sizes(gap, 1.0 - gap, self.tension.kinks.tolist(), 10)
         eps = np.maximum(delta, 0.0) / x
         stress = np.zeros_like(eps)
         pressed = eps > 0
         stress[pressed] = self.tension.greatest_so_far(eps[pressed])
-        return np.sum(number * (1 - self.breakage.survival(x, stress)), axis=1)
+        broken = [np.sum(number * (1 - b.survival(x, stress)), axis=1) for b in self.breakages]
+        return np.stack(broken, axis=1)
 
-    def __call__(self, gap: Array) -> Array:
-        """b at gaps over the upper edge (N,)."""
+    def of_class(self, k: int, gap: Array) -> Array:
+        """b of one class at gaps over its upper edge (N,)."""
         gap = np.asarray(gap, float)
-        out = self.series(np.sqrt(1.0 - np.clip(gap, self.lowest, 1.0)))[:, 0]
+        out = self.series(np.sqrt(1.0 - np.clip(gap, self.lowest, 1.0)))[:, k]
         out[gap >= 1.0] = 0.0
         return out
 

@@ -15,6 +15,7 @@ from ...populations.materials import Material
 from ...study import FilmResult, Study, StudyResult
 from ...study.dirty_oil import DirtyOil
 from ...study.one_surface import OneSurface
+from ...study.run_life import LifeResult
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,6 +33,7 @@ class Found:
     pressed: OneSurface | str | None = field(repr=False, default=None)
     oil: DirtyOil | None = field(repr=False, default=None)
     oil_filtered: DirtyOil | None = field(repr=False, default=None)
+    life: LifeResult | None = field(repr=False, default=None)
 
     @property
     def contact(self) -> Contact:

@@ -25,6 +25,7 @@ from ...quantities.progress import Stages, counted, nested
 from ...study import Study, run_film, run_study
 from ...study.dirty_oil import dirty_oil
 from ...study.one_surface import OneSurface, one_surface
+from ...study.run_life import run_life
 from ...systems.oil_filter import Filter
 from .found import some_of
 from .page import MOST_SAMPLES, Report, most_samples
@@ -131,6 +132,7 @@ def report(
             film=None if study.film is None else run_film(study),
             pressed=pressed,
             oil=dirty_oil(study),
+            life=None if study.life is None else run_life(study.life),
             oil_filtered=None if filter is None else dirty_oil(study, filter=filter),
         )
 

@@ -29,6 +29,7 @@ from .tables import (
     critical_section,
     explicit_section,
     film_section,
+    life_section,
     oil_section,
     outputs_section,
     states_table,
@@ -86,6 +87,8 @@ class Report(Found):
         it could not be.
     oil, oil_filtered : DirtyOil or None
         What the particles of the oil do, before and after a filter.
+    life : LifeResult or None
+        The oil over time.
     """
 
     def sentences(self) -> tuple[str, ...]:
@@ -107,6 +110,7 @@ class Report(Found):
                 "The answer", [f"<p>{words(each)}</p>" for each in self.lead], name="answer"
             ).replace("<section", "<section class=lead", 1),
             *oil_section(self),
+            *life_section(self),
             section("In full", _in_full(self), name="in-full"),
             *_warnings(self),
             *film_section(self),

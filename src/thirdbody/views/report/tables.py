@@ -23,6 +23,9 @@ from .found import Found, some_of
 MOST_ROWS, MOST_COLUMNS = 20, 5
 """States in the table of states, and in that of the outputs."""
 
+FEW_TIMES = 8
+"""Times in the table of an oil over time."""
+
 CRITICAL_HEADS = ("critical load", "F*", "pressure", "status", "what happens there")
 
 STATES = ("F_star", "pressure", "h", "d_star", "A_t", "A_ss")
@@ -132,6 +135,26 @@ def oil_section(report: Found) -> list[str]:
         rows = bearing_words.rows(report.study)
         out += _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
     return [section("What the oil carries", out, name="oil")] if out else []
+
+
+def life_section(report: Found) -> list[str]:
+    """The oil over time: what it comes to, at a few times, where its dirt goes, what happened."""
+    from .. import life_words
+    from ..plot.life import life
+
+    found = report.life
+    if found is None:
+        return []
+    every = life_words.rows(found)
+    rows = [every[i] for i in some_of(len(every), FEW_TIMES)]
+    said = [*life_words.answer(found), *life_words.last_words(found)]
+    caption = "Code and counts over time, masses since the beginning, and where the dirt went."
+    out = [
+        *(f"<p>{words(sentence)}</p>" for sentence in said),
+        *_with_legend(life_words.HEADS, rows, life_words.MEANS),
+        f"<div class=figures>{figure(svg_of(life(found.history)), caption)}</div>",
+    ]
+    return [section("The oil over time", out, name="life")]
 
 
 def film_section(report: Found) -> list[str]:

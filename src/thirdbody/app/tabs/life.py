@@ -1,0 +1,253 @@
+"""An oil over time under three sliders: flow and service of its filter, and what enters it."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from nicegui import ui
+
+from ...quantities.say import number
+from ...study.life import AskedLife, life_of
+from ...study.run_life import NEEDED, LifeResult
+from ...study.whole import read_tables
+from ...systems.life.history import LifeHistory
+from ...systems.life.oil_history import run_oil_history
+from ...views.life_words import answer as words_of
+from ...views.life_words import events, facts, flow_of
+from ..figures import CLEAR, CONFIG, GREY, INKS, Figure, figure, line
+from ..sliders import Slider
+from ..state import Answer, State
+from ..text import with_micro
+from ..widgets import Facts, Plot, put
+
+__all__ = ["START", "TITLE", "LifeShown", "build", "contents_of"]
+
+TITLE = "Life"
+START: dict[str, Any] = {
+    "duration": "2000 h",
+    "oil": {
+        "volume": "200 L",
+        "material": "quartz",
+        "start": "20/18/15",
+        "ingress": {"test_dust": "A3-lot", "rate": "125 mg/h"},
+    },
+    "filters": [
+        {"flow": "60 L/min", "beta": {"4 um": 5, "7 um": 75, "14 um": 1000}, "capacity": "50 g"}
+    ],
+}
+"""The table where the study has none."""
+POINTS, HOUR, LITRE_PER_MINUTE = 60, 3600.0, 1e-3 / 60
+STEPS, REACH = 60, 10.0
+"""A slider goes so many steps each way, and so many times up and down."""
+SERVICE_STEPS = 30
+"""The slider of the service goes down by a 40th a step."""
+NAMES = ("flow", "service", "ingress")
+
+
+class LifeShown(NamedTuple):
+    """What is shown of an oil."""
+
+    answer: list[str]
+    facts: list[tuple[str, str]]
+    history: Figure
+    flows: Figure
+    labels: dict[str, str]
+    """What each slider says."""
+    notes: list[str]
+
+
+@cache
+def _start() -> AskedLife:
+    """The oil where the study has none."""
+    return read_tables({"life": START}, Path(), life_of, lambda t: t.name in NEEDED)
+
+
+def _slid(asked: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:
+    """The oil with its sliders where they are: factors on what the study says."""
+    circuit = asked.circuit
+    changes: dict[str, Any] = {}
+    for i, each in enumerate(circuit.filters):
+        assert each.flow is not None
+        changes[f"filters.{i}.flow"] = flow * each.flow
+        changes[f"filters.{i}.service"] = service * each.service
+    entering = tuple(
+        each.replace(
+            **{
+                name: ingress * getattr(each, name)
+                for name in ("rate", "steady")
+                if getattr(each, name) is not None
+            }
+        )
+        for each in circuit.ingress
+    )
+    circuit = circuit.replace(ingress=entering, **changes)
+    return AskedLife(title=asked.title, circuit=circuit, duration=asked.duration, until=asked.until)
+
+
+def contents_of(
+    answer_of_study: Answer, flow: float = 1.0, service: float = 1.0, ingress: float = 1.0
+) -> LifeShown:
+    """The answer in words, numbers, the course of the code, and the flows of dirt."""
+    asked = _slid(answer_of_study.study.life or _start(), flow, service, ingress)
+    times = np.concatenate([[0.0], np.geomspace(1e-5, 1.0, POINTS) * asked.duration])
+    times[-1] = asked.duration
+    history = run_oil_history(
+        asked.circuit, duration=asked.duration, until=asked.until, times=times
+    )
+    found = LifeResult(asked=asked, history=history)
+    return LifeShown(
+        answer=words_of(found),
+        facts=list(facts(history).items()),
+        history=_course(history),
+        flows=_flows(history),
+        labels=_labels(asked),
+        notes=[*events(history), *history.warnings],
+    )
+
+
+def _labels(asked: AskedLife) -> dict[str, str]:
+    """What the sliders say."""
+    circuit = asked.circuit
+    flow = sum(each.flow or 0.0 for each in circuit.filters)
+    service = circuit.filters[0].service if circuit.filters else 1.0
+    rates = [each.mass_rate for each in circuit.ingress]
+    entering = flow_of(float(np.nansum(rates))) if rates else "none"
+    return {
+        "flow": f"filter flow = {number(flow / LITRE_PER_MINUTE, 3)} L/min",
+        "service": f"ln β in service = {number(100 * service, 3)} % of the data sheet",
+        "ingress": f"ingress = {entering}",
+    }
+
+
+def _course(history: LifeHistory) -> Figure:
+    """Counts over time."""
+    hours = np.maximum(history.times, 0.5 * history.times[1]) / HOUR
+    names = ("from 4 µm", "from 6 µm", "from 14 µm")
+    traces = [
+        line(hours, np.where(counts > 0, counts / 1e6, np.nan), name, i)
+        for i, (name, counts) in enumerate(zip(names, history.counts.T, strict=True))
+    ]
+    return figure(
+        traces, x="time [h]", y="particles per mL", title="How dirty the oil is", ylog=True
+    )
+
+
+def _flows(history: LifeHistory) -> Figure:
+    """Where the dirt came from and where it went; widths are masses."""
+    ledger = history.ledger
+    came = {"in the oil before": ledger.in_oil[0]} | {k: v[-1] for k, v in ledger.came.items()}
+    went = {k: v[-1] for k, v in ledger.went.items()} | {"in the oil now": ledger.in_oil[-1]}
+    names = [*came, "oil", *went]
+    middle = len(came)
+    sources = [*range(len(came)), *[middle] * len(went)]
+    targets = [*[middle] * len(came), *range(middle + 1, len(names))]
+    grams = [1e3 * float(mass) for mass in (*came.values(), *went.values())]
+    trace: dict[str, object] = {
+        "type": "sankey",
+        "node": {
+            "label": names,
+            "color": [INKS[i % len(INKS)] for i in range(len(names))],
+            "thickness": 14,
+            "pad": 14,
+        },
+        "link": {
+            "source": sources,
+            "target": targets,
+            "value": grams,
+            "color": "rgba(127,127,127,0.35)",
+        },
+        "valuesuffix": " g",
+        "valueformat": ".3g",
+    }
+    made = figure([], x="", y="", title="Where the dirt goes", xlog=False)
+    made["data"] = [trace]
+    made["layout"]["xaxis"] = {"visible": False}
+    made["layout"]["yaxis"] = {"visible": False}
+    made["layout"]["showlegend"] = False
+    made["layout"]["paper_bgcolor"] = CLEAR
+    made["layout"]["font"] = {"color": GREY, "size": 12}
+    made["config"] = CONFIG
+    return made
+
+
+class LifeTab:
+    """The answer, three sliders, two figures."""
+
+    def __init__(self, state: State) -> None:
+        self.state, self.tab = state, state.tab
+        self.answer: Answer | None = None
+        self.words = ui.column().classes("w-full gap-1")
+        ui.label(
+            "How dirty does the oil become, which filter is enough, and where does the dirt go? "
+            "What enters, nobody can predict: move it, or take it from reports of the oil "
+            "(thirdbody life STUDY.toml --reports oil.csv)."
+        ).classes("hint")
+        self.shown_for = ui.label("").classes("hint")
+        self.sliders: dict[str, Slider] = {}
+        self.texts: dict[str, ui.label] = {}
+        with ui.row().classes("sliders w-full"):
+            for name in NAMES:
+                with ui.column().classes("slider gap-0"):
+                    self.texts[name] = ui.label(name).classes("hint")
+                    low, high = (-SERVICE_STEPS, 0) if name == "service" else (-STEPS, STEPS)
+                    slider = Slider(min=low, max=high, step=1, value=0)
+                    put(slider, {"aria-label": name, "data-slider": f"life.{name}"})
+                    slider.on_value_change(self._slid)
+                    self.sliders[name] = slider
+        self.facts = Facts()
+        with ui.element("div").classes("figures w-full"):
+            self.course, self.flows = Plot("life"), Plot("life-flows")
+        self.notes = ui.column().classes("w-full gap-0")
+
+    def _factors(self) -> tuple[float, float, float]:
+        """What the sliders multiply."""
+        flow, service, ingress = (float(self.sliders[name].value) for name in NAMES)
+        return REACH ** (flow / STEPS), 1 + service / 40, REACH ** (ingress / STEPS)
+
+    async def _slid(self) -> None:
+        if self.state.answer is not None:
+            await self._show()
+
+    async def draw(self) -> None:
+        """The answer of the study as it is now."""
+        answer = self.state.answer
+        assert answer is not None
+        if answer is self.answer:
+            return
+        self.answer = answer
+        own = answer.study.life is not None
+        self.shown_for.set_text(
+            ""
+            if own
+            else "Shown for 200 L of oil with one filter of 60 L/min; a table [life] in the study "
+            "takes its place (thirdbody new oil-circuit)."
+        )
+        await self._show()
+
+    async def _show(self) -> None:
+        flow, service, ingress = self._factors()
+        shown: LifeShown = await self.state.ask(contents_of, flow, service, ingress)
+        self.words.clear()
+        with self.words:
+            for i, text in enumerate(shown.answer):
+                said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
+                put(said, {"data-fact": f"life: answer {i}"})
+        self.facts.show(shown.facts)
+        for name, text in shown.labels.items():
+            self.texts[name].set_text(with_micro(text))
+            self.sliders[name].speak(text)
+        await self.course.show(shown.history)
+        await self.flows.show(shown.flows)
+        self.notes.clear()
+        with self.notes:
+            for text in shown.notes:
+                ui.label(with_micro(text)).classes("hint")
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
+    """The answer, sliders, the course of the code and the flows of dirt."""
+    return LifeTab(state).draw

@@ -1,0 +1,167 @@
+"""The tables [life.contact], [life.debris] and [life.running_in]: what acts in the oil."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..contact.contact import Contact
+from ..errors import InvalidValue, Problem
+from ..quantities.value import quantity
+from ..systems.film_conditions import FilmConditions
+from ..systems.life.debris import Debris
+from ..systems.life.surfaces import RunningIn
+from .reader import NOTHING, Key, Reader, get, quantity_key, read_number, table_of, word, wrong
+from .vocabulary import DISTRIBUTIONS
+
+__all__ = ["CONTACT_KEYS", "LifeContact", "contact_of"]
+
+BOUNDARY, AS_SURFACE = "boundary-lubricated", "as surface"
+OF_CONTACT = ("surfaces", "roughness", "asperity_law", "particle_law", "outputs")
+"""Tables of a study that make its contact; its particles are those of the oil."""
+QUANTITIES = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "entry_ratio": quantity(
+            "ε", "1", "particles that enter the contact over those in the oil that passes", gt=0
+        ),
+        "contacts": quantity("N", "1", "contacts in the oil", gt=0),
+        "particle_friction": quantity("μ", "1", "friction that drags particles in", gt=0),
+        "stays": quantity("s_e", "1", "part of the deeply sunk particles that stays", ge=0, le=1),
+    }.items()
+}
+HARDNESS = quantity("H_d", "Pa", "hardness of the debris", gt=0).metadata["quantity"]
+RANGES = (
+    "nobody can predict it: count dents (entry_ratio_from_dents), or vary it from 1e-3 to 1 in "
+    "[life.uncertainty]"
+)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LifeContact:
+    """The contacts that an oil goes through, as a study says them.
+
+    Parameters
+    ----------
+    contact : Contact
+        Without particles, which are those of the oil.
+    conditions : dict
+        Of the film and of what enters it, arguments of `thirdbody.life`.
+    debris : Debris, optional
+        What wear leaves behind.
+    running_in : RunningIn, optional
+        How roughness falls with wear.
+    """
+
+    contact: Contact
+    conditions: Mapping[str, Any] = field(default_factory=dict)
+    debris: Debris | None = None
+    running_in: RunningIn | None = None
+
+
+def _contact(reader: Reader, path: str, data: Any) -> Any:
+    """What enters the contacts."""
+    keys = {name: quantity_key(name, about) for name, about in QUANTITIES.items()}
+    ratio = keys["entry_ratio"]
+    keys["entry_ratio"] = ratio._replace(required=True, about=f"{ratio.about}; {RANGES}")
+    keys["entry_height"] = word(("size", "film"), "height of oil that brings a particle")
+    return reader.table(path, data, keys)
+
+
+def _sizes(reader: Reader, path: str, value: Any) -> Any:
+    """The word of the one estimate there is."""
+    if value != BOUNDARY:
+        table = '{ distribution = "log-normal", median = "1 um", gsd = 1.6 }'
+        raise wrong(path, f'must be "{BOUNDARY}" or a table, e.g. {table}', value)
+    return Debris.boundary_lubricated()
+
+
+def _distribution(reader: Reader, path: str, data: Any) -> Any:
+    """Sizes of debris as a distribution."""
+
+    def build(values: dict[str, Any]) -> Debris:
+        kind = DISTRIBUTIONS[values.pop("distribution")]
+        return Debris(diameter=reader.make(kind, path, values))
+
+    return reader.variant(path, data, "distribution", DISTRIBUTIONS, build)
+
+
+def _hardness(reader: Reader, path: str, value: Any) -> float | None:
+    """A hardness, or that of the surface."""
+    return None if value == AS_SURFACE else read_number(HARDNESS, reader, path, value)
+
+
+def _debris(reader: Reader, path: str, data: Any) -> Any:
+    """What wear leaves behind."""
+    keys = {
+        "sizes": Key(
+            _sizes,
+            True,
+            f'sizes of the debris, which nobody can predict: "{BOUNDARY}" (an estimate), or a '
+            "distribution",
+            {"enum": [BOUNDARY]},
+            _distribution,
+            ({"distribution": "log-normal"},),
+        ),
+        "hardness": Key(
+            _hardness, about=f'"{AS_SURFACE}", or a hardness', schema={"type": ["number", "string"]}
+        ),
+    }
+
+    def build(values: dict[str, Any]) -> Debris:
+        return values["sizes"].replace(hardness=values.get("hardness"))  # type: ignore[no-any-return]
+
+    return reader.table(path, data, keys, build)
+
+
+CONTACT_KEYS = {
+    "contact": Key(
+        None,
+        False,
+        "contacts that the oil goes through, with entry_ratio; they need [surfaces], [roughness], "
+        "[outputs.friction], [outputs.wear] and [film]",
+        NOTHING,
+        _contact,
+    ),
+    "debris": Key(None, False, 'what wear leaves behind, with sizes = "..."', NOTHING, _debris),
+    "running_in": table_of(RunningIn, "how roughness falls with wear"),
+}
+"""Keys of [life] that a contact in the oil has."""
+
+
+def contact_of(reader: Reader, values: dict[str, Any]) -> LifeContact | None:
+    """The contacts in the oil of a study; None where it has no [life.contact]."""
+    given = values["life"]
+    if "contact" not in given:
+        for name in ("debris", "running_in"):
+            if name in given:
+                rule = "has no effect without [life.contact], with entry_ratio"
+                raise InvalidValue(Problem(f"life.{name}", rule))
+        return None
+    film = values.get("film")
+    missing = [f"[{name}]" for name in ("surfaces", "roughness", "outputs") if name not in values]
+    missing += [] if isinstance(film, FilmConditions) else ["[film] with conjunction, load, speed"]
+    if missing:
+        raise InvalidValue(Problem("life.contact", f"needs {', '.join(missing)}"))
+    assert isinstance(film, FilmConditions)
+    parts = {name: values[name] for name in OF_CONTACT if name in values}
+    parts.pop("particle_law", None)
+    contact = reader.make(Contact, "", parts)
+    if get(reader.whole, "particles") is not None:
+        reader.notes.append("[particles] has no effect on [life]: the oil brings its particles")
+    conditions = {
+        "conjunction": film.conjunction,
+        "lubricant": film.oil,
+        "load": film.load,
+        "speed": film.speed[len(film.speed) // 2],
+        "film": film.formula,
+        "hertz": film.hertz,
+        "slide_roll": film.slide_roll or 0.0,
+    }
+    return LifeContact(
+        contact=contact,
+        conditions=conditions | given["contact"],
+        debris=given.get("debris"),
+        running_in=given.get("running_in"),
+    )
