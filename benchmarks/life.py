@@ -28,7 +28,7 @@ def oil(rate: float) -> tb.OilCircuit:
             largest=60e-6,
         ),
         filters=Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3),
-        classes=tb.SizeClasses.covering(0.25e-6, 64e-6),
+        classes=tb.SizeClasses.covering(smallest=0.25e-6, largest=64e-6),
     )
 
 

@@ -59,6 +59,7 @@ KEYWORDS = {
     "uncertainty": ["error bars", "uncertainty", "Sobol", "tornado", "assess"],
     "validation": ["validation", "tests"],
     "wafer": ["wafer", "chuck", "electrostatic", "lithography"],
+    "wear-maximum": ["wear maximum", "three-body abrasion"],
     "wear": ["wear", "Archard", "dents"],
 }  # fmt: skip
 

@@ -124,7 +124,8 @@ def test_any_value_in_any_place_has_its_mistake_and_no_failure(value, tmp_path):
             state = State(study, tmp_path)
             assert state.answer is not None or state.problems, (where, last)
             inputs = Inputs(state, lambda: None)
-            for part in ("surfaces", "roughness", "asperity_law", "particles", "load", "outputs"):
+            parts = ("surfaces", "roughness", "asperity_law", "particles", "load")
+            for part in (*parts, "output_switches", "output_numbers"):
                 getattr(inputs, part)()
             inputs.uncertain()
             inputs.tell()

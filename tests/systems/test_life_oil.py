@@ -47,7 +47,7 @@ def dirty(number):
 
 # ------------------------------------------------------------------------------ classes
 def test_classes_of_the_usual_range():
-    classes = tb.SizeClasses.covering(0.25e-6, 64e-6)
+    classes = tb.SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
     assert classes.count == 24
     edges = np.array(classes.edges)
     np.testing.assert_allclose(edges[1:] / edges[:-1], 2 ** (1 / 3), rtol=1e-14)
@@ -84,7 +84,7 @@ def test_classes_keep_number_or_volume(diameter):
 
 def test_a_size_on_an_edge_counts_as_at_least_that_size():
     diameter = tb.Monodisperse(mean=4e-6)
-    classes = tb.SizeClasses.covering(2e-6, 8e-6)
+    classes = tb.SizeClasses.covering(smallest=2e-6, largest=8e-6)
     assert classes.counted(classes.numbers_of(1e8, diameter))[0] == 1e8
 
 
@@ -183,21 +183,27 @@ def test_a_cascade_keeps_its_mass():
     assert loss * volumes @ found == pytest.approx(1e6 * volumes[0], rel=1e-12)
     # breaking belongs to the losses: pieces are no births
     np.testing.assert_allclose(
-        steady_numbers(losses - births, np.zeros((3, 3)), [1e6, 0.0, 0.0]), found, rtol=1e-12
+        steady_numbers(losses - births, births=np.zeros((3, 3)), source=[1e6, 0.0, 0.0]),
+        found,
+        rtol=1e-12,
     )
 
 
 def test_reproduction_of_debris():
     losses, births = np.diag([1e-3, 5e-4]), np.array([[0.0, 0.0], [3e-5, 1e-4]])
-    assert reproduction(losses, births) == pytest.approx(0.2, rel=1e-13)
-    np.testing.assert_allclose(steady_numbers(losses, births, [1e5, 0.0]), [1e8, 7.5e6], rtol=1e-12)
-    assert dirt_gain(losses, births, [1e5, 0.0]) == pytest.approx(1.075, rel=1e-12)
+    assert reproduction(losses, births=births) == pytest.approx(0.2, rel=1e-13)
+    np.testing.assert_allclose(
+        steady_numbers(losses, births=births, source=[1e5, 0.0]), [1e8, 7.5e6], rtol=1e-12
+    )
+    assert dirt_gain(losses, births=births, source=[1e5, 0.0]) == pytest.approx(1.075, rel=1e-12)
 
 
 def test_one_class_gains_by_its_reproduction():
-    assert dirt_gain([[2.0]], [[1.5]], [3.0]) == pytest.approx(1 / (1 - 0.75), rel=1e-13)
-    assert np.isnan(steady_numbers([[2.0]], [[2.0]], [3.0])[0])
-    assert not generations([[2.0]], [[0.0]])[0, 0]
+    assert dirt_gain([[2.0]], births=[[1.5]], source=[3.0]) == pytest.approx(
+        1 / (1 - 0.75), rel=1e-13
+    )
+    assert np.isnan(steady_numbers([[2.0]], births=[[2.0]], source=[3.0])[0])
+    assert not generations([[2.0]], births=[[0.0]])[0, 0]
 
 
 def test_nothing_is_bred_without_a_contact():
@@ -230,7 +236,7 @@ def test_the_course_against_a_matrix_exponential(case):
     want = scale * (
         expm(M * tau / scale[:, None] * scale) @ (np.array([number, 0, volume, 0]) / scale)
     )
-    found = flowing(volume, number, growth=growth, source=source, loss=loss, time=time)
+    found = flowing(volume, numbers=number, growth=growth, source=source, loss=loss, time=time)
     assert float(found.numbers) == pytest.approx(want[0], rel=1e-10)
     assert float(found.passed) == pytest.approx(want[1], rel=1e-10)
     assert want[3] == pytest.approx(time, rel=1e-10)
@@ -277,7 +283,7 @@ def test_classes_twice_as_fine_change_little():
     dust = tb.Ingress.of_dust("A3", rate="125 mg/h", material=QUARTZ)
 
     def counts(per_octave):
-        classes = tb.SizeClasses.covering(0.25e-6, 128e-6, per_octave=per_octave)
+        classes = tb.SizeClasses.covering(smallest=0.25e-6, largest=128e-6, per_octave=per_octave)
         circuit = tb.OilCircuit(volume=0.2, start=DIRT, ingress=dust, filters=fine, classes=classes)
         return tb.life(oil=circuit, duration=300.0, times=[300.0]).counts[-1]
 
@@ -500,7 +506,7 @@ def test_units_do_not_matter():
     factor = 3.0
     sheet = tb.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3)
     sizes = tb.LogNormal(median=8e-6, gsd=1.3)
-    classes = tb.SizeClasses.covering(1e-6, 200e-6)
+    classes = tb.SizeClasses.covering(smallest=1e-6, largest=200e-6)
 
     def course(f):
         circuit = tb.OilCircuit(

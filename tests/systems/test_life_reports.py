@@ -13,7 +13,7 @@ HOUR = 3600.0
 SIZES, RATES = (4e-6, 6e-6, 14e-6), np.array([2e5, 6e4, 4e3])
 START = tb.OilDirt.from_iso4406("21/19/16", material=QUARTZ)
 FILTER = tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=2e-5)
-FINE = tb.SizeClasses.covering(4e-6, 90e-6, per_octave=48)
+FINE = tb.SizeClasses.covering(smallest=4e-6, largest=90e-6, per_octave=48)
 
 
 def circuit(**changes):
@@ -45,7 +45,7 @@ def test_three_reports_give_rate_and_end():
 def test_one_size_without_filter_is_a_difference():
     """r = V Δn/Δt, whatever lies beyond the size."""
     bare = circuit(filters=(), classes=None)
-    found = oil_reports([0.0, 1e6], [[1e9], [3e9]], sizes=[6e-6], circuit=bare)
+    found = oil_reports([0.0, 1e6], reports=[[1e9], [3e9]], sizes=[6e-6], circuit=bare)
     assert found.rate[0] == pytest.approx(0.2 * 2e9 / 1e6, rel=1e-9)
     assert found.degrees == 0
     assert found.is_constant is None
@@ -66,7 +66,7 @@ CASES = [
 @pytest.mark.parametrize("hours", [[0, 3], [0, 3, 8], [0, 1, 4, 9, 30]])
 def test_exact_reports_give_the_ingress_back(case, hours):
     times = np.array(hours) * HOUR
-    found = oil_reports(times, reported(times, **case), circuit=circuit(**case))
+    found = oil_reports(times, reports=reported(times, **case), circuit=circuit(**case))
     np.testing.assert_allclose(found.rate, RATES, rtol=0.03)
     np.testing.assert_allclose(found.fitted, found.counts, rtol=0.02)
     assert found.start.number == pytest.approx(START.number, rel=0.02)
@@ -77,7 +77,7 @@ def test_exact_reports_give_the_ingress_back(case, hours):
 
 def test_mass_is_that_of_the_ingress():
     times = np.array([0, 3, 8]) * HOUR
-    found = oil_reports(times, reported(times), circuit=circuit())
+    found = oil_reports(times, reports=reported(times), circuit=circuit())
     assert found.mass_rate == pytest.approx(found.ingress.mass_rate, rel=0.05)
     assert found.mass_low < found.mass_rate < found.mass_high
 
@@ -96,7 +96,7 @@ def test_the_band_of_codes_holds_what_is_true():
     exact = reported(times)
     for _ in range(40):
         factor = math.exp(rng.uniform(-1, 1))
-        found = oil_reports(times, coded(exact * factor), circuit=circuit())
+        found = oil_reports(times, reports=coded(exact * factor), circuit=circuit())
         inside += list((found.low < RATES * factor) & (found.high > RATES * factor))
         widths.append(found.high / found.low)
     assert 0.8 < np.mean(inside) < 0.99
@@ -107,7 +107,7 @@ def test_more_reports_make_the_band_narrower_where_they_differ():
     def width(count):
         times = np.linspace(0, 10, count) * HOUR
         bare = dict(filters=(), start=tb.OilDirt.from_iso4406("21/19/16", material=QUARTZ))
-        found = oil_reports(times, reported(times, **bare), circuit=circuit(**bare))
+        found = oil_reports(times, reports=reported(times, **bare), circuit=circuit(**bare))
         return np.log(found.high / found.low)[0]
 
     two, nine = width(2), width(9)
@@ -119,27 +119,29 @@ def test_ingress_that_doubles_does_not_fit_a_constant_one():
     times = np.array([0, 24, 48, 72, 96]) * HOUR
     counts = reported(times)
     counts[3:] *= 8
-    found = oil_reports(times, coded(counts), circuit=circuit())
+    found = oil_reports(times, reports=coded(counts), circuit=circuit())
     assert found.is_constant is False
     assert found.degrees == 9
-    steady = oil_reports(times, coded(reported(times)), circuit=circuit())
+    steady = oil_reports(times, reports=coded(reported(times)), circuit=circuit())
     assert steady.is_constant is True
 
 
 def test_a_clean_start_and_no_dirt_that_enters():
     times = np.array([0, 4]) * HOUR
     counts = reported(times, ingress=())
-    found = oil_reports(times, counts, circuit=circuit())
+    found = oil_reports(times, reports=counts, circuit=circuit())
     assert np.all(found.rate < 0.02 * RATES)
 
 
 def test_codes_without_the_first_count():
-    found = oil_reports([0.0, 9e5], ["-/18/15", "-/16/13"], circuit=circuit(classes=None))
+    found = oil_reports([0.0, 9e5], reports=["-/18/15", "-/16/13"], circuit=circuit(classes=None))
     assert found.sizes.tolist() == [6e-6, 14e-6]
 
 
 def test_the_same_reports_give_the_same_band():
-    one, two = (oil_reports([0.0, 9e5], ["20/18/15", "18/16/13"], circuit=circuit()) for _ in "ab")
+    one, two = (
+        oil_reports([0.0, 9e5], reports=["20/18/15", "18/16/13"], circuit=circuit()) for _ in "ab"
+    )
     assert one.to_dict() == two.to_dict()
 
 
@@ -158,7 +160,7 @@ def test_the_same_reports_give_the_same_band():
 )
 def test_mistakes(times, reports, more, words):
     with pytest.raises(tb.InvalidValue, match=words):
-        oil_reports(times, reports, circuit=circuit(), **more)
+        oil_reports(times, reports=reports, circuit=circuit(), **more)
 
 
 def test_files_of_codes_and_of_counts(tmp_path):

@@ -2,8 +2,8 @@
 The life of an oil
 ==================
 
-Dust of a quarry enters 200 L of oil, 125 mg each hour. Three filters of one flow hold it back, and the
-code that the oil comes to says which of them is enough: all of it passes the filter every
+Dust of a quarry enters 200 L of oil, 125 mg each hour. Three filters of one flow hold it back,
+and the code that the oil comes to says which of them is enough: all of it passes the filter every
 three minutes, so that a finer one than the usual changes little. Widths of the flows are masses.
 """
 

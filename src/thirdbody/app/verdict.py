@@ -47,7 +47,7 @@ def badge_of(notes: Sequence[str]) -> Badge:
         return Badge("holds", "check_circle", "inside all ranges")
     effects = [note.effect if isinstance(note, Note) else math.nan for note in notes]
     largest = max((effect for effect in effects if not math.isnan(effect)), default=0.0)
-    said = percent(float(f"{largest:.2g}"))
+    said = percent(largest, digits=2)
     if largest > LITTLE:
         return Badge("doubtful", "error_outline", f"may be off by {said}")
     if any(map(math.isnan, effects)):

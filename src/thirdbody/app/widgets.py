@@ -43,7 +43,7 @@ def skeleton() -> ui.element:
     """What stands in the place of a tab until its answer is there: its outline, in grey."""
     with set_attributes(ui.element("div").classes("waiting"), {"aria-hidden": "true"}) as made:
         for part in ("line", "line short", "block", "row"):
-            ui.element("div").classes(f"bone {part}")
+            ui.element("div").classes("bone").classes(part)
     return made
 
 

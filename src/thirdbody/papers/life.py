@@ -58,9 +58,9 @@ def _one_class(
     dirt = tb.OilDirt(material=QUARTZ, diameter=sizes, number=start)
     return tb.OilCircuit(
         volume=volume,
-        start=dirt,
-        ingress=tb.Ingress(material=QUARTZ, diameter=sizes, rate=rate),
-        filters=tb.Filter(sizes=(10e-6,), betas=(4.0,), flow=flow),
+        start=(dirt,),
+        ingress=(tb.Ingress(material=QUARTZ, diameter=sizes, rate=rate),),
+        filters=(tb.Filter(sizes=(10e-6,), betas=(4.0,), flow=flow),),
         classes=tb.SizeClasses(edges=sizes.edges),
     )
 
@@ -77,16 +77,16 @@ def _efficiency(hours: float, flow: float) -> float:
 
 
 def _ageing() -> Band:
-    return Band.of(np.round([_efficiency(11.0, 1e-4) / _efficiency(0.5, 1e-4)], 6))
+    return Band.from_values(np.round([_efficiency(11.0, 1e-4) / _efficiency(0.5, 1e-4)], 6))
 
 
 def _over_flow() -> Band:
-    return Band.of(np.round([_efficiency(5.0, 2e-4) / _efficiency(5.0, 1e-4)], 6))
+    return Band.from_values(np.round([_efficiency(5.0, 2e-4) / _efficiency(5.0, 1e-4)], 6))
 
 
 def _generation() -> Band:
     once, twice = (float(_one_class(rate).steady().sum()) for rate in (1e6, 2e6))
-    return Band.of([twice / once])
+    return Band.from_values([twice / once])
 
 
 def _time_of_balance() -> Band:
@@ -94,7 +94,7 @@ def _time_of_balance() -> Band:
         run_oil_history(_one_class(1e6, volume=1e-4 * over), duration=1.0).steady()[0].time
         for over in (10.0, 30.0, 60.0)
     ]
-    return Band.of(np.array(times) / (5 * HOUR))
+    return Band.from_values(np.array(times) / (5 * HOUR))
 
 
 # ------------------------------------------------------------------------------ a convolution
@@ -117,7 +117,7 @@ def _convolution() -> Band:
         first, last = i * step, np.minimum(t, (i + 1) * step)
         inside = np.exp(-decay * (t - last)) - np.exp(-decay * (t - first))
         whole += np.where(t > first, rate / circuit.volume / decay * inside, 0.0)
-    return Band.of([float(np.max(np.abs(course - whole)) / np.max(whole))])
+    return Band.from_values([float(np.max(np.abs(course - whole)) / np.max(whole))])
 
 
 # ------------------------------------------------------------------------------ order of sizes
@@ -129,16 +129,16 @@ def _order() -> Band:
         sizes = tb.PowerLaw(edges=edges, counts=(1.0,), slopes=(3.0,))
         circuit = tb.OilCircuit(
             volume=0.02,
-            start=tb.OilDirt(material=QUARTZ, diameter=sizes, number=1.0),
+            start=(tb.OilDirt(material=QUARTZ, diameter=sizes, number=1.0),),
             ingress=(),
-            filters=sheet,
+            filters=(sheet,),
             viscosity=0.03,
             density=870.0,
             settling_area=0.1,
         )
         terms = circuit.terms()
         constants.append(circuit.volume / float(terms.loss[terms.start > 0].max()))
-    return Band.of([constants[0] / constants[1]])
+    return Band.from_values([constants[0] / constants[1]])
 
 
 # ------------------------------------------------------------------------------ filters of 1979
@@ -160,8 +160,8 @@ def dirt_behind(size: float, turnover: float) -> float:
     circuit = tb.OilCircuit(
         volume=VOLUME,
         start=(),
-        ingress=tb.Ingress.of_dust("A3-lot", rate=RATE, material=QUARTZ),
-        filters=tb.Filter(sizes=(size,), betas=(75.0,), flow=VOLUME / turnover),
+        ingress=(tb.Ingress.of_dust("A3-lot", rate=RATE, material=QUARTZ),),
+        filters=(tb.Filter(sizes=(size,), betas=(75.0,), flow=VOLUME / turnover),),
     )
     times = np.linspace(0.0, 500 * HOUR, 21)
     history = run_oil_history(circuit, duration=500 * HOUR, times=times)
@@ -171,7 +171,7 @@ def dirt_behind(size: float, turnover: float) -> float:
 
 
 def _over(coarse: float, fine: float) -> Band:
-    return Band.of([dirt_behind(coarse, t) / dirt_behind(fine, t) for t in TURNOVERS])
+    return Band.from_values([dirt_behind(coarse, t) / dirt_behind(fine, t) for t in TURNOVERS])
 
 
 def _filters() -> Panel:
@@ -223,7 +223,7 @@ def _rows() -> Iterable[Row]:
         },
         panels=(_filters,),
     )
-    yield row("oleic1970", {"additive": lambda: Band.of([1.0])})
+    yield row("oleic1970", {"additive": lambda: Band.from_values([1.0])})
 
 
 ROWS = tuple(_rows())

@@ -498,7 +498,7 @@ def _with_reports(
     times, reports, sizes = entry["reports"]
     material = entry.get("material", own)
     try:
-        found = oil_reports(times, reports, sizes=sizes, circuit=circuit, material=material)
+        found = oil_reports(times, reports=reports, sizes=sizes, circuit=circuit, material=material)
     except InvalidValue as error:
         raise error.under(path) from None
     low, high = (3.6e9 * each for each in (found.mass_low, found.mass_high))

@@ -110,7 +110,7 @@ def _debris(reader: Reader, path: str, data: Any) -> Any:
     }
 
     def build(values: dict[str, Any]) -> Debris:
-        return values["sizes"].replace(hardness=values.get("hardness"))  # type: ignore[no-any-return]
+        return values["sizes"].replace(hardness=values.get("hardness"))
 
     return reader.table(path, data, keys, build)
 

@@ -137,7 +137,7 @@ def reports_of(asked: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
         As `thirdbody.systems.life.reports.read_reports` reads it.
     """
     times, reports, sizes = read_reports(Path(file))
-    found = oil_reports(times, reports, sizes=sizes, circuit=asked.circuit)
+    found = oil_reports(times, reports=reports, sizes=sizes, circuit=asked.circuit)
     return ReportsResult(asked=asked, reports=found)
 
 

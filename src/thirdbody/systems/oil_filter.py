@@ -106,8 +106,8 @@ class Filter(Value):
     name: str = ""
 
     def __post_init__(self) -> None:
-        sequences(self, "sizes", "betas")
         Value.__post_init__(self)
+        sequences(self, "sizes", "betas")
 
     def _problems(self) -> list[str]:
         x, beta = self.sizes, self.betas

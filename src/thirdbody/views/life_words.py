@@ -50,7 +50,7 @@ def duration_of(seconds: float, digits: int = 3) -> str:
     for end, unit, name in ENDS:
         if seconds < end:
             size = seconds / unit
-            whole = len(f"{size:.0f}")
+            whole = len(str(round(size)))
             return f"{number(size, max(digits, whole))} {name}"
     return f"{number(seconds / YEAR, digits)} years"
 

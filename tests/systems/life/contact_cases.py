@@ -8,7 +8,7 @@ from thirdbody.systems.oil_filter import Filter
 STEEL = tb.materials["S45C"].replace(density=7850.0)
 SOFT = STEEL.replace(H=2.5e9)
 QUARTZ = tb.materials["quartz"]
-CLASSES = SizeClasses.covering(1e-6, 16e-6, per_octave=2)
+CLASSES = SizeClasses.covering(smallest=1e-6, largest=16e-6, per_octave=2)
 FRICTION = tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6)
 WEAR = dict(K_ss=1e-6, K_sa=0.0, f_ab=0.1, f_roll=0.001, renewal=1.0)
 NO_WEAR = dict(K_ss=0.0, K_sa=0.0, f_ab=0.0, f_roll=0.0, renewal=1.0)

@@ -13,7 +13,7 @@ from thirdbody.systems.life.pieces import break_up, daughters
 from thirdbody.systems.life.size_classes import SizeClasses
 from thirdbody.systems.oil_particles import FilmParticles
 
-THIRDS = SizeClasses.covering(0.25e-6, 64e-6)
+THIRDS = SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
 
 
 def test_halves_fall_three_classes_down_and_are_eight():

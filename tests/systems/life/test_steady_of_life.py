@@ -6,12 +6,25 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from thirdbody.systems.life.linear_flow import reproduction, steady_numbers
+from thirdbody.systems.life.linear_flow import dirt_gain, reproduction, steady_numbers
 from thirdbody.systems.life.steady import (
     contact_stock,
     describe_reproduction,
     find_steady_points,
 )
+
+
+def test_births_and_losses_to_their_printed_digits():
+    L, G = np.diag([1e-3, 5e-4]), np.array([[0, 0], [3e-5, 1e-4]])
+    r = np.array([1e5, 0.0])
+    assert reproduction(L, births=G) == pytest.approx(0.2, rel=1e-14)
+    assert steady_numbers(L, births=G, source=r) == pytest.approx([1e8, 7.5e6], rel=1e-14)
+
+
+@pytest.mark.parametrize("R0", [0.0, 1e-4, 0.3, 0.93])
+def test_the_gain_of_one_class(R0):
+    found = dirt_gain([[2e-3]], births=[[R0 * 2e-3]], source=[5.0])
+    assert found == pytest.approx(1 / (1 - R0), rel=1e-13)
 
 
 def test_R0_is_what_generations_add_up_to():
@@ -25,17 +38,17 @@ def test_R0_is_what_generations_add_up_to():
         daughters = G @ np.linalg.solve(L, parents)
         growth = daughters.sum() / parents.sum()
         parents = daughters / daughters.sum()
-    assert reproduction(L, G) == pytest.approx(growth, rel=1e-10)
+    assert reproduction(L, births=G) == pytest.approx(growth, rel=1e-10)
     done = solve_ivp(lambda t, n: r + (G - L) @ n, (0, 2e5), np.zeros(5), method="BDF", rtol=1e-9)
-    assert steady_numbers(L, G, r) == pytest.approx(done.y[:, -1], rel=1e-6)
+    assert steady_numbers(L, births=G, source=r) == pytest.approx(done.y[:, -1], rel=1e-6)
 
 
 @pytest.mark.parametrize("factor", [0.98, 1.02])
 def test_R0_of_one_is_the_edge_of_growth(factor):
     G, L = np.array([[1e-4, 3e-4], [2e-4, 1e-5]]), np.diag([4e-4, 2e-4])
-    G = G * factor / reproduction(L, G)
+    G = G * factor / reproduction(L, births=G)
     growth = np.max(np.linalg.eigvals(G - L).real)
-    assert (growth > 0) == (reproduction(L, G) > 1) == (factor > 1)
+    assert (growth > 0) == (reproduction(L, births=G) > 1) == (factor > 1)
 
 
 @pytest.mark.parametrize(

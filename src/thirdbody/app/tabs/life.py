@@ -22,7 +22,7 @@ from ..figures import CLEAR, CONFIG, GREY, INKS, Figure, figure, line
 from ..sliders import Slider
 from ..state import Answer, State
 from ..text import with_micro
-from ..widgets import Facts, Plot, put
+from ..widgets import Facts, Plot, set_attributes
 
 __all__ = ["START", "TITLE", "LifeShown", "build", "contents_of"]
 
@@ -195,7 +195,7 @@ class LifeTab:
                     self.texts[name] = ui.label(name).classes("hint")
                     low, high = (-SERVICE_STEPS, 0) if name == "service" else (-STEPS, STEPS)
                     slider = Slider(min=low, max=high, step=1, value=0)
-                    put(slider, {"aria-label": name, "data-slider": f"life.{name}"})
+                    set_attributes(slider, {"aria-label": name, "data-slider": f"life.{name}"})
                     slider.on_value_change(self._slid)
                     self.sliders[name] = slider
         self.facts = Facts()
@@ -235,7 +235,7 @@ class LifeTab:
         with self.words:
             for i, text in enumerate(shown.answer):
                 said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
-                put(said, {"data-fact": f"life: answer {i}"})
+                set_attributes(said, {"data-fact": f"life: answer {i}"})
         self.facts.show(shown.facts)
         for name, text in shown.labels.items():
             self.texts[name].set_text(with_micro(text))

@@ -103,7 +103,7 @@ def _falling(
 
 
 @takes_units
-def sizes_above(sizes: ArrayLike, counts: ArrayLike, *, largest: float) -> Distribution:
+def sizes_above(sizes: ArrayLike, *, counts: ArrayLike, largest: float) -> Distribution:
     """Sizes of particles that were counted above some sizes; power laws through the counts.
 
     Beyond the last size the count falls as from 14 µm(c) on in every class of SAE AS4059.
@@ -124,7 +124,7 @@ def sizes_above(sizes: ArrayLike, counts: ArrayLike, *, largest: float) -> Distr
 
     Examples
     --------
-    >>> found = sizes_above([4e-6, 6e-6], [2000.0, 500.0], largest=70e-6)
+    >>> found = sizes_above([4e-6, 6e-6], counts=[2000.0, 500.0], largest=70e-6)
     >>> round(2000 * float(found.partial_moment(0, 6e-6, 1.0)), 6)
     500.0
     """
@@ -360,13 +360,14 @@ def counted_sizes() -> tuple[float, ...]:
     return tuple(1e-6 * size for size in _table("cleanliness")["iso4406"]["sizes"])
 
 
+@takes_units
 def iso4406_range(number: int) -> tuple[float, float]:
     """The counts that a number of an ISO 4406 code stands for [1/m³]: above one, up to another.
 
     Parameters
     ----------
     number : int
-        From 0 to 28.
+        From 0 to 28 [1].
 
     Examples
     --------

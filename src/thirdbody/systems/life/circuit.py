@@ -17,6 +17,7 @@ import numpy as np
 from ...errors import InvalidValue, Note, Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
+from ...quantities.carried import takes_units
 from ...quantities.say import join_words, value_of
 from ...quantities.value import Value, items_of, quantity, sequences, several
 from ..oil_filter import Filter
@@ -37,6 +38,7 @@ SETTLED, LEAKED = "settled", "leaked"
 """Names of what takes particles out beside filters."""
 
 
+@takes_units
 def settling_speed(
     x: Array | float, *, particle_density: float, oil_density: float, viscosity: float
 ) -> Array:
@@ -188,8 +190,8 @@ class OilCircuit(Value):
             if given is not None:
                 several_of = (given,) if isinstance(given, kind) else items_of(given)
                 object.__setattr__(self, name, several_of)
-        sequences(self, "oil_changes")
         Value.__post_init__(self)
+        sequences(self, "oil_changes")
 
     def _problems(self) -> list[str]:
         out: list[str] = []
@@ -271,7 +273,7 @@ class OilCircuit(Value):
         lowest = min((low for low, _ in ends), default=1e-6)
         highest = max((high for _, high in ends), default=64e-6)
         known = [x for each in self.filters for x in each.sizes]
-        return SizeClasses.covering(min([lowest, *known]), max([highest, *known]))
+        return SizeClasses.covering(smallest=min([lowest, *known]), largest=max([highest, *known]))
 
     def filter_names(self) -> tuple[str, ...]:
         """A name of each filter that no other has."""

@@ -258,10 +258,9 @@ class ContactCourse:
                 watched[i][1]()
         elif self.changes and self.time >= self.changes[0]:
             self._change()
+            self._keep(self.time, self.y)
         else:
             self.stopped = True
-        if hit or not self.stopped:
-            self._keep(self.time, self.y)
         return self.stopped
 
     def _integrate(self, end: float, events: list[Any]) -> Any:

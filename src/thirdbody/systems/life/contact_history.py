@@ -223,7 +223,7 @@ def reproduction_of(births: Array, losses: Array) -> float:
         return 0.0
     if float(np.min(np.linalg.eigvals(losses).real)) <= 0:
         return math.nan
-    return reproduction(losses, births)
+    return reproduction(losses, births=births)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -337,7 +337,7 @@ class DryHistory(Record):
     @property
     def generations(self) -> Array:
         """Next-generation matrix: daughters of row i of a particle of column j [1], (J, J)."""
-        return generations(self.losses, self.births)
+        return generations(self.losses, births=self.births)
 
     def flows(self, *, rates: bool = False) -> list[tuple[str, str, float]]:
         """The flow table: from where, to where, and how much [kg].

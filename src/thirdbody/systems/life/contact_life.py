@@ -70,9 +70,7 @@ def _check(contact: Contact, debris: Debris | None, running_in: RunningIn | None
         problems.append(Problem("debris", "must be Debris, or None", repr(debris)))
     if not isinstance(running_in, RunningIn | None):
         problems.append(Problem("running_in", "must be RunningIn, or None", repr(running_in)))
-    elif running_in is not None and running_in.sigma_end == 0 and running_in.length is None:
-        pass
-    if debris is not None and isinstance(debris, Debris):
+    if isinstance(debris, Debris):
         pair = contact.surfaces
         for side, each in ((1, pair.first), (2, pair.second)):
             if each.density is None:
@@ -361,7 +359,9 @@ def run_dry_history(
         diameters.append(debris.diameter)
     if classes is None:
         ends = [sizes_of(each) for each in diameters] or [(0.25e-6, 64e-6)]
-        classes = SizeClasses.covering(min(a for a, _ in ends), max(b for _, b in ends))
+        classes = SizeClasses.covering(
+            smallest=min(a for a, _ in ends), largest=max(b for _, b in ends)
+        )
     tables = contact_tables(
         contact.replace(particles=None), classes, tuple(kinds), _span(contact, running_in)
     )

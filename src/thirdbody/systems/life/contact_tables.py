@@ -79,8 +79,6 @@ class Pressed(NamedTuple):
     """Separation [m]."""
     sigma: float
     """Roughness [m]."""
-    slope: float
-    """dp/dd at fixed particles [Pa/m]."""
     each: Array
     """(kinds, classes, quantities of `POWERS`)."""
     asperities: dict[str, float]
@@ -499,7 +497,6 @@ class ContactTables:
         return Pressed(
             d=d,
             sigma=sigma,
-            slope=self.load(d, eta=eta, sigma=sigma)[1],
             each=each,
             asperities=dict(zip(SPOTS, map(float, spots), strict=True)),
             bare=max(1 - shadow, 0.0),

@@ -73,8 +73,11 @@ class DryLoop(Loop):
         return Gap(d, 0.0)
 
     def gap_slopes(self, y: Array, gap: Gap) -> Array:
-        state = self.pressed(y, gap.d)
-        return -self.slope_over_unknowns(y, state) / state.slope
+        sigma = self.sigma_of(y)
+        eta = self.shaped(self.present(y, gap.d))
+        slope = self.tables.load(gap.d, eta=eta, sigma=sigma)[1]
+        state = self.tables.pressed(gap.d, eta=eta, sigma=sigma)
+        return -self.slope_over_unknowns(y, state) / slope
 
     def standing(self, y: Array, d: float) -> Array:
         return np.eye(len(self.volumes)) / self.setting.area

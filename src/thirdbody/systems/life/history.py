@@ -13,6 +13,7 @@ import numpy as np
 from ...populations.measured.cleanliness import counted_sizes, iso4406_of_counts
 from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
+from ...quantities.say import value_of
 from .circuit import OilCircuit, OilTerms
 from .ledger import Ledger
 from .linear_flow import dirt_gain, generations, reproduction
@@ -147,13 +148,15 @@ class LifeHistory(Record):
     @cached_property
     def R0(self) -> float:
         """Particles bred by one before it is removed [1]."""
-        return 0.0 if self.births is None else reproduction(self._losses, self.births)
+        return 0.0 if self.births is None else reproduction(self._losses, births=self.births)
 
     @property
     def generations(self) -> Array:
         """Next-generation matrix: daughters of row i of a particle of column j [1], (J, J)."""
         losses = self._losses
-        return generations(losses, np.zeros_like(losses) if self.births is None else self.births)
+        return generations(
+            losses, births=np.zeros_like(losses) if self.births is None else self.births
+        )
 
     @property
     def dirt_gain(self) -> float:
@@ -161,7 +164,7 @@ class LifeHistory(Record):
         if self.births is None:
             return 1.0
         source = (self.terms.source / self.circuit.volume).ravel()
-        return dirt_gain(self._losses, self.births, source)
+        return dirt_gain(self._losses, births=self.births, source=source)
 
     @property
     def time_scales(self) -> dict[str, float]:
@@ -174,7 +177,7 @@ class LifeHistory(Record):
         for size, part in zip(counted_sizes(), terms.classes.above(counted_sizes()), strict=True):
             held = np.flatnonzero(part > 0)
             loss = float(terms.loss[held[0]].max()) if len(held) else 0.0
-            name = f"removal of particles of {size * 1e6:.0f} µm"
+            name = f"removal of particles of {value_of(float(size), 'm')}"
             out[name] = volume / loss if loss > 0 else math.nan
         return out
 

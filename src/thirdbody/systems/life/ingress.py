@@ -135,7 +135,7 @@ class Ingress(Value):
         if len(above) != len(sizes) or any(b >= a for a, b in pairwise(above)):
             rule = "must fall with the size, one for each: larger particles are among the smaller"
             raise InvalidValue(Problem("counts", rule))
-        diameter = cleanliness.sizes_above(sizes, above, largest=to_si(largest, "m"))
+        diameter = cleanliness.sizes_above(sizes, counts=above, largest=to_si(largest, "m"))
         return cls(material=material, diameter=diameter, rate=above[0])
 
     @classmethod

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...errors import InvalidValue, Problem
+from ...quantities.carried import takes_units
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -33,7 +34,7 @@ class Flowing(NamedTuple):
 
     Examples
     --------
-    >>> found = flowing(0.2, 1e6, growth=0.0, source=0.0, loss=1e-3, time=200.0)
+    >>> found = flowing(0.2, numbers=1e6, growth=0.0, source=0.0, loss=1e-3, time=200.0)
     >>> round(float(found.numbers))
     367879
     """
@@ -67,10 +68,11 @@ def _divided(a: Array, b: Array) -> Array:
     return np.where(np.abs(a) < NEAR, series, closed)
 
 
+@takes_units
 def flowing(
     volume: float,
-    numbers: ArrayLike,
     *,
+    numbers: ArrayLike,
     growth: float,
     source: ArrayLike,
     loss: ArrayLike,
@@ -115,7 +117,8 @@ def flowing(
 
 
 # ------------------------------------------------------------------------------ births
-def steady_numbers(losses: ArrayLike, births: ArrayLike, source: ArrayLike) -> Array:
+@takes_units
+def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -> Array:
     r"""Numbers that no longer change, n* = (𝓛 − 𝒢)⁻¹ s.
 
     Parameters
@@ -133,16 +136,17 @@ def steady_numbers(losses: ArrayLike, births: ArrayLike, source: ArrayLike) -> A
     Examples
     --------
     >>> losses = [[1e-3, 0], [0, 5e-4]]
-    >>> steady_numbers(losses, [[0, 0], [3e-5, 1e-4]], [1e5, 0]).round().tolist()
+    >>> steady_numbers(losses, births=[[0, 0], [3e-5, 1e-4]], source=[1e5, 0]).round().tolist()
     [100000000.0, 7500000.0]
     """
     some = np.asarray(source, float)
-    if reproduction(losses, births) >= 1:
+    if reproduction(losses, births=births) >= 1:
         return np.full_like(some, math.nan)
     return np.linalg.solve(np.asarray(losses, float) - np.asarray(births, float), some)
 
 
-def generations(losses: ArrayLike, births: ArrayLike) -> Array:
+@takes_units
+def generations(losses: ArrayLike, *, births: ArrayLike) -> Array:
     r"""Next-generation matrix 𝒢𝓛⁻¹ [1]: daughters of class i of a particle of class j.
 
     Parameters
@@ -169,7 +173,8 @@ def generations(losses: ArrayLike, births: ArrayLike) -> Array:
         raise InvalidValue(Problem("losses", rule)) from None
 
 
-def reproduction(losses: ArrayLike, births: ArrayLike) -> float:
+@takes_units
+def reproduction(losses: ArrayLike, *, births: ArrayLike) -> float:
     r"""Particles bred by one before it is removed, R₀ = ρ(𝒢𝓛⁻¹) [1].
 
     Parameters
@@ -183,13 +188,14 @@ def reproduction(losses: ArrayLike, births: ArrayLike) -> float:
 
     Examples
     --------
-    >>> round(reproduction([[1e-3, 0], [0, 5e-4]], [[0, 0], [3e-5, 1e-4]]), 12)
+    >>> round(reproduction([[1e-3, 0], [0, 5e-4]], births=[[0, 0], [3e-5, 1e-4]]), 12)
     0.2
     """
-    return float(np.max(np.abs(np.linalg.eigvals(generations(losses, births))), initial=0.0))
+    return float(np.max(np.abs(np.linalg.eigvals(generations(losses, births=births))), initial=0.0))
 
 
-def dirt_gain(losses: ArrayLike, births: ArrayLike, source: ArrayLike) -> float:
+@takes_units
+def dirt_gain(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -> float:
     """Particles in the steady state over those without births [1], 1/(1 − R₀) of one class.
 
     Parameters
@@ -199,5 +205,5 @@ def dirt_gain(losses: ArrayLike, births: ArrayLike, source: ArrayLike) -> float:
     source : array (J,)
         s [1/(m³ s)].
     """
-    alone = steady_numbers(losses, np.zeros_like(np.asarray(births, float)), source)
-    return float(np.sum(steady_numbers(losses, births, source)) / np.sum(alone))
+    alone = steady_numbers(losses, births=np.zeros_like(np.asarray(births, float)), source=source)
+    return float(np.sum(steady_numbers(losses, births=births, source=source)) / np.sum(alone))

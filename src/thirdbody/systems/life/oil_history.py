@@ -20,7 +20,8 @@ from scipy.optimize import brentq
 
 from ...errors import InvalidValue, Problem
 from ...quantities.arguments import need_positive
-from ...quantities.say import value_of
+from ...quantities.say import percent, value_of
+from ...quantities.carried import takes_units
 from .circuit import OilCircuit, OilTerms
 from .history import LifeEvent, LifeHistory
 from .ledger import Ledger
@@ -42,6 +43,7 @@ MOST_EVENTS = 1000
 """Events after which a history is given up."""
 
 
+@takes_units
 def usual_times(duration: float, *, shortest: float) -> Array:
     """Times at which a history is kept: half of them evenly, half in the logarithm [s].
 
@@ -71,7 +73,7 @@ class _Stretch:
     def after(self, time: ArrayLike) -> Flowing:
         """What is in the oil, and what has passed, a time [s] after the beginning."""
         return flowing(
-            self.volume, self.numbers, growth=self.terms.growth, source=self.terms.source,
+            self.volume, numbers=self.numbers, growth=self.terms.growth, source=self.terms.source,
             loss=self.terms.loss, time=np.asarray(time, float)[..., None, None],
         )  # fmt: skip
 
@@ -208,7 +210,7 @@ class _Course:
             self.full.add(name)
             self.now.terms = self.circuit.terms(full=self.full, classes=self.first.classes)
             part = each.still_filtered
-            past = "all of the oil" if part == 0 else f"{1 - part:.0%} of the oil"
+            past = "all of the oil" if part == 0 else f"{percent(1 - part)} of the oil"
             self._tell("filter full", f"{said}, and {past} goes past it")
         else:
             self._tell("filter full", f"{said}, and is changed")
@@ -286,6 +288,7 @@ class _Course:
         self.now = _Stretch(now.terms, now.begin + time, volume, numbers)
 
 
+@takes_units
 def run_oil_history(
     circuit: OilCircuit,
     *,

@@ -54,7 +54,7 @@ def daughters(classes: SizeClasses, *, ratio: float) -> Array:
 
     Examples
     --------
-    >>> classes = SizeClasses.covering(1e-6, 8e-6)
+    >>> classes = SizeClasses.covering(smallest=1e-6, largest=8e-6)
     >>> daughters(classes, ratio=0.5)[:, 3].tolist()[:4]
     [8.0, 0.0, 0.0, 0.0]
     """
@@ -96,7 +96,7 @@ def break_up(broken: ArrayLike, *, classes: SizeClasses, ratio: float) -> Array:
 
     Examples
     --------
-    >>> classes = SizeClasses.covering(1e-6, 8e-6)
+    >>> classes = SizeClasses.covering(smallest=1e-6, largest=8e-6)
     >>> b = [0.0] * 6 + [0.5] * 3
     >>> break_up(b, classes=classes, ratio=0.5)[:, 8].round(3).tolist()
     [0.0, 0.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.5]

@@ -233,7 +233,7 @@ def _responses(
     for stop in stops:
         step = float(stop) - now
         numbers = flowing(
-            volume, numbers, growth=growth, source=source, loss=loss, time=step
+            volume, numbers=numbers, growth=growth, source=source, loss=loss, time=step
         ).numbers
         volume, now = volume + growth * step, float(stop)
         if stop in circuit.oil_changes and stop > times[0]:
@@ -340,8 +340,8 @@ def _material_of(circuit: OilCircuit, material: Material | None) -> Material:
 @takes_units
 def oil_reports(
     times: ArrayLike,
-    reports: Sequence[str] | ArrayLike,
     *,
+    reports: Sequence[str] | ArrayLike,
     circuit: OilCircuit,
     sizes: ArrayLike | None = None,
     material: Material | None = None,
@@ -391,7 +391,7 @@ def oil_reports(
     >>> circuit = tb.OilCircuit(
     ...     volume=0.2, start=tb.OilDirt.from_iso4406("20/18/15", material=quartz), ingress=(),
     ...     filters=tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3))
-    >>> found = oil_reports([0.0, 9e5], ["20/18/15", "18/16/13"], circuit=circuit)
+    >>> found = oil_reports([0.0, 9e5], reports=["20/18/15", "18/16/13"], circuit=circuit)
     >>> [f"{rate:.2g}" for rate in found.rate]
     ['1.3e+06', '4.2e+05', '5.6e+04']
     """
@@ -466,13 +466,13 @@ def _sizes_of(sizes: Array, above: Array) -> tuple[Any, float]:
     last = LARGEST["iso4406"]
     if not len(filled):
         return sizes_above(
-            sizes, np.ones(len(sizes)) / (1 + np.arange(len(sizes))), largest=last
+            sizes, counts=np.ones(len(sizes)) / (1 + np.arange(len(sizes))), largest=last
         ), 0.0
     if len(filled) < len(sizes):
         last = float(sizes[len(filled)])
     # no count equals the one before: a slope of 0 is none
     counts = above[filled] * (1 - 1e-12 * np.arange(len(filled)))
-    return sizes_above(sizes[filled], counts, largest=last), float(above[0])
+    return sizes_above(sizes[filled], counts=counts, largest=last), float(above[0])
 
 
 # ------------------------------------------------------------------------------ files

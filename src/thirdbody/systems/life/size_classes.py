@@ -52,7 +52,7 @@ class SizeClasses(Value):
 
     Examples
     --------
-    >>> classes = SizeClasses.covering(0.25e-6, 64e-6)
+    >>> classes = SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
     >>> classes.count, classes.edges[12]
     (24, 4e-06)
     """
@@ -71,7 +71,7 @@ class SizeClasses(Value):
         return [Problem("edges", "must be two sizes or more that increase and start above 0 [m]")]
 
     @classmethod
-    def covering(cls, smallest: float, largest: float, *, per_octave: int = PER_OCTAVE) -> Self:
+    def covering(cls, *, smallest: float, largest: float, per_octave: int = PER_OCTAVE) -> Self:
         """Classes on the grid of 0.25 µm that hold all sizes from one to another.
 
         Parameters
