@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart
-from .curves import EDGE, FORM_1, FORM_2
+from .curves import EDGE, FORM_1, FORM_2, TO
 from .fields import EQUAL
 from .sides import exact, scalar
 from .vectors import BLEND, DISC, DOUBLED, PLASTIC, TABLE, exp
@@ -25,6 +25,8 @@ __all__ = [
 LINEAR, ROOTED, CUBIC, LOGARITHMIC, FLATTENED = range(5)
 """Variables: itself, its root, its cube root, the logarithm of it over what is left of one, and of
 the height that a disc has left."""
+THINNEST = 1.001
+"""Ratio of the ends of a panel up to which every variable is as good as another."""
 
 
 @scalar
@@ -32,6 +34,8 @@ def variable_of(given, panels, p, n):
     """Variable of panel n."""
     if panels[p, n, EDGE] == 0:
         return ROOTED
+    if panels[p, n, TO] <= THINNEST * panels[p, n, EDGE]:
+        return LINEAR  # so that no node is rounded to beyond an end
     if given[p, EQUAL] != 1:
         return CUBIC
     formula = panels[p, n, FORM_1]
