@@ -253,7 +253,15 @@ class ThermalPath(Value):
         return self
 
     def temperature(self, q: float, *, v: float) -> float:
-        """Mean temperature of the surfaces under heat q [W/m²] per nominal area."""
+        """Mean temperature of the surfaces under heat.
+
+        Parameters
+        ----------
+        q : float
+            Heat per nominal area [W/m^2].
+        v : float
+            Sliding speed [m/s]; this path does not depend on it.
+        """
         T = partition(q, G_1=self.h_1, G_2=self.h_2, T_1=self.T_1, T_2=self.T_2)
         return float(T)
 

@@ -24,6 +24,7 @@ from ...contact.field_sums import FieldSum
 from ...errors import InvalidValue, NoEquilibrium
 from ...laws.base import SeatedLaw
 from ...numerics.chebyshev import chebyshev_transform
+from ...quantities.carried import takes_units
 from .particle_curves import (
     POWERS,
     REACH,
@@ -87,6 +88,7 @@ class Pressed(NamedTuple):
     """Part of the area that is out of the shadow of particles [1]."""
 
 
+@takes_units
 def scale_roughness(roughness: Roughness, sigma: float) -> Roughness:
     """A surface with its heights scaled at fixed wavelengths: R ∝ 1/σ, η stays.
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...quantities.carried import takes_units
 from ...quantities.say import percent, value_of
 from ...quantities.value import quantity
 from .loop import Loop
@@ -136,6 +137,7 @@ class ParticleShare(ContactUntil):
         return own / all_solids - self.share
 
 
+@takes_units
 def wear_depth(depth: float, *, stops: bool = True) -> WearDepth:
     """Wait for a wear depth of either surface.
 
@@ -154,6 +156,7 @@ def wear_depth(depth: float, *, stops: bool = True) -> WearDepth:
     return WearDepth(depth=depth, stops=stops)
 
 
+@takes_units
 def roughness_below(sigma: float, *, stops: bool = True) -> RoughnessBelow:
     """Wait for a roughness.
 
@@ -172,6 +175,7 @@ def roughness_below(sigma: float, *, stops: bool = True) -> RoughnessBelow:
     return RoughnessBelow(sigma=sigma, stops=stops)
 
 
+@takes_units
 def particle_share(share: float, *, stops: bool = True) -> ParticleShare:
     """Wait for a share of the particles in the load of the solids.
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ..oil_particles import FilmParticles
 from .size_classes import SizeClasses
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["entry_ratio_from_dents", "oil_layer"]
 
 
+@takes_units
 def oil_layer(
     classes: SizeClasses, *, film: float, largest: float = math.inf, height: str = "size"
 ) -> Array:
@@ -64,6 +66,7 @@ def oil_layer(
     return below + above
 
 
+@takes_units
 def entry_ratio_from_dents(
     count: float, *, area: float, overrollings: float, oil: FilmParticles, side: int = 1
 ) -> float:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.record import Record
 from ..bearing_life import contamination_factor, life_factor
 
@@ -52,6 +53,7 @@ class FatiguePair(Record):
     """a_ISO of each stretch [1]: (N,)."""
 
 
+@takes_units
 def miner_pair(
     times: Sequence[float],
     *,
@@ -74,9 +76,14 @@ def miner_pair(
         ISO 4406 code of each.
     end : float
         End of the history [s].
-    place, bearing, kappa, D
-        As in `thirdbody.systems.bearing_life`: "filter", "bath"; "ball", "roller"; κ [1]; pitch
-        diameter [m].
+    place : {"filter", "bath"}
+        As in `thirdbody.systems.bearing_life`.
+    bearing : {"ball", "roller"}
+        Kind of the bearing.
+    kappa : float
+        Viscosity ratio κ [1].
+    D : float
+        Pitch diameter [m].
     load_ratio : float
         C_u/P, fatigue load limit over equivalent load [1].
     L_10 : float

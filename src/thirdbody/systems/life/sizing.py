@@ -102,6 +102,7 @@ def least_flow(circuit: OilCircuit, *, code: str, which: int = 0) -> float:
 
 
 @names_arguments
+@takes_units
 def filter_for_code(
     circuit: OilCircuit, *, code: str, filters: Sequence[Filter], which: int = 0
 ) -> Filter | None:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.record import Record
 from ...quantities.say import number
 
@@ -31,6 +32,7 @@ MATTERS = 0.3
 """R_0 above which hardness and sizes of debris decide the answer."""
 
 
+@takes_units
 def describe_reproduction(R0: float) -> str:
     """What a reproduction number means, in words.
 
@@ -76,6 +78,7 @@ class ContactStock(Record):
     """Steady wear flow M*/τ, which is the steady source too."""
 
 
+@takes_units
 def contact_stock(source: float, *, capacity: float, residence: float) -> ContactStock:
     r"""Steady stock of debris where the stock itself reduces its source.
 
@@ -149,6 +152,7 @@ class SteadyPoint(Record):
         return -1 / self.rate if self.stable else math.inf
 
 
+@takes_units
 def find_steady_points(
     balance: Callable[[float], float], *, low: float, high: float, nodes: int = 400
 ) -> list[SteadyPoint]:

@@ -65,6 +65,7 @@ class ClippedGaussian(NamedTuple):
     """dσ/dw there [1]."""
 
 
+@takes_units
 def clip_gaussian(level: float) -> ClippedGaussian:
     r"""A Gaussian surface cut at a height over its mean plane: the fastest smoothing by removal.
 
@@ -286,7 +287,15 @@ class RunningIn(Value):
     )
 
     def slope(self, sigma: float, *, separation: float) -> float:
-        """dσ/dw at a roughness σ [m] and a separation h over the mean plane [m]."""
+        """dσ/dw at a roughness and a separation.
+
+        Parameters
+        ----------
+        sigma : float
+            σ [m].
+        separation : float
+            h over the mean plane [m].
+        """
         if self.length is not None:
             return -(sigma - self.sigma_end) / self.length
         return -max(separation, 0.0) / sigma * (1 - self.sigma_end / sigma)
