@@ -472,5 +472,7 @@ def test_numbers_of_the_choosing_page():
 def test_python_of_the_choosing_page_runs():
     text = (ROOT / "docs" / "choose-a-law.md").read_text("utf-8")
     (code,) = re.findall(r"^```python\n(.*?)^```$", text, re.S | re.M)
-    for line in code.splitlines():
+    imports, *lines = filter(None, code.splitlines())
+    assert imports == "import thirdbody as tb"
+    for line in lines:
         assert isinstance(eval(line, {"tb": tb}), (tb.Heights, tb.asperity.AbstractAsperityLaw))

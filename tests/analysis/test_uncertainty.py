@@ -240,7 +240,7 @@ def test_likeness_knows_polynomials_of_second_degree():
     like = Likeness({"x": x, "y": y, "twice": 2 * y}, 300, np.arange(0, 300, 10))
     exact = 3 - np.log(x) + 2 * np.log(y) ** 2 - np.log(x) * np.log(y)
     assert len(like.basis) == 6
-    assert like.of(exact[::10]) == pytest.approx(exact, abs=1e-12)
+    assert like.extend_to_all(exact[::10]) == pytest.approx(exact, abs=1e-12)
 
 
 def test_margins_and_modes_tell_the_same():

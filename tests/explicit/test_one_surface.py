@@ -134,8 +134,8 @@ def test_the_page_shows_what_was_pressed():
     from thirdbody.app.worker import in_little
     from thirdbody.study import check
 
-    told = in_little("explicit", {"study": example(), "folder": ".", "F_star": 2e-4})
-    found = one_surface(check(example()), 2e-4)
+    told = in_little("explicit", {"study": example(), "folder": ".", "F_star": 2e-4, "points": 128})
+    found = one_surface(check(example()), 2e-4, points=128)
     assert told["headline"] == explicit_words.headline(found, 0)
     force = found.state.particles.force.values
     assert told["carrying"]["force"] == force[force > 0].tolist()

@@ -90,7 +90,7 @@ def test_reads_the_documented_file(write):
     assert study.load == "F_star"
     assert np.array_equal(study.values, np.geomspace(5e-7, 2.4e-4, 5))
     assert study.contact == tb.Contact(
-        surfaces=tb.MaterialPair(steel, steel),
+        surfaces=tb.MaterialPair(steel, tb.Material(E=205e9, nu=0.29, H=5e9)),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6, alpha=5.0, eta_R_sigma=0.0455),
         asperity_law=tb.asperity.ZMC(k=0.4),
         particles=tb.Particles(

@@ -261,7 +261,15 @@ def test_a_guess_is_said():
         ({"contact": TWO_BODY}, "needs outputs.Friction"),
         ({"laws": []}, "feedback is empty"),
         ({"cooling": None}, "cooling is missing"),
-        ({"cooling": feedback.HalfSpaces(A_n=1e-6, T_1=1.0, T_2=1.0)}, "thermal_conductivity"),
+        (
+            {
+                "contact": RUBBING.replace(
+                    surfaces=tb.MaterialPair(STEEL, STEEL.replace(thermal_conductivity=None))
+                ),
+                "cooling": feedback.HalfSpaces(A_n=1e-6, T_1=1.0, T_2=1.0),
+            },
+            "surfaces.second needs thermal_conductivity",
+        ),
         ({"laws": [softening(body="particles")]}, "the contact has none"),
         ({"laws": [feedback.Thinning(beta=0.03, T_0=40.0)]}, "there is no film"),
         ({"laws": [softening(T_melt=250.0, T_0=0.0)]}, "both in K, or both in °C"),

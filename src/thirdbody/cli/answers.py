@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..quantities.record import declared_columns
 from ..quantities.tables import Table
 from ..version import __version__
 from .show import ALL, MOST_ROWS, some, terminal
@@ -83,6 +82,7 @@ def _sheets(
     table: tuple[Sequence[str], Sequence[Sequence[str]]],
     last: Sequence[str],
 ) -> list[Sheet]:
+    from ..quantities.record import declared_columns
     from ..systems.connector import name_of
     from ..views.question_sheets import inputs_of, question_sheets
 

@@ -1,23 +1,26 @@
 """Systems around a contact: films, oil, bodies, waves, bearings."""
 
-from . import bearing_life as bearing_life
-from . import bearing_sizes as bearing_sizes
-from . import chuck as chuck
-from . import connector as connector
-from . import contact_probability as contact_probability
-from . import coupled as coupled
-from . import feedback as feedback
-from . import film_conditions as film_conditions
-from . import fractal as fractal
-from . import interaction as interaction
-from . import life as life
-from . import load_sharing as load_sharing
-from . import mixed_film as mixed_film
-from . import oil_filter as oil_filter
-from . import oil_particles as oil_particles
-from . import plate_over_particle as plate_over_particle
-from . import rough_body as rough_body
-from . import waviness as waviness
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from . import bearing_life as bearing_life
+    from . import bearing_sizes as bearing_sizes
+    from . import chuck as chuck
+    from . import connector as connector
+    from . import contact_probability as contact_probability
+    from . import coupled as coupled
+    from . import feedback as feedback
+    from . import film_conditions as film_conditions
+    from . import fractal as fractal
+    from . import interaction as interaction
+    from . import life as life
+    from . import load_sharing as load_sharing
+    from . import mixed_film as mixed_film
+    from . import oil_filter as oil_filter
+    from . import oil_particles as oil_particles
+    from . import plate_over_particle as plate_over_particle
+    from . import rough_body as rough_body
+    from . import waviness as waviness
 
 __all__ = [
     "bearing_life",
@@ -39,3 +42,12 @@ __all__ = [
     "rough_body",
     "waviness",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """A module of this one, imported when it is first asked for: few commands need many."""
+    from importlib import import_module
+
+    if name in __all__:
+        return import_module(f".{name}", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

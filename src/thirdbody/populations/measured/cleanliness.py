@@ -128,11 +128,15 @@ def sizes_above(sizes: ArrayLike, *, counts: ArrayLike, largest: float) -> Distr
     >>> round(2000 * float(found.partial_moment(0, 6e-6, 1.0)), 6)
     500.0
     """
-    x = [float(size) for size in np.atleast_1d(np.asarray(sizes, float))]
+    x = [float(size) for size in np.ravel(np.asarray(sizes, float))]
     if not largest > x[-1]:
         rule = f"must be above {x[-1]:g} [m], the largest size that is counted"
         raise InvalidValue(Problem("largest", rule, f"{largest:g}", hint=MICRONS))
-    return _falling(x, [float(n) for n in np.atleast_1d(np.asarray(counts, float))], None, largest)
+    numbers = [float(n) for n in np.ravel(np.asarray(counts, float))]
+    if len(numbers) != len(x):
+        rule = f"must be a number for each of {len(x)} sizes"
+        raise InvalidValue(Problem("counts", rule, f"{len(numbers)} numbers"))
+    return _falling(x, numbers, None, largest)
 
 
 def _check_ends(kind: str, sizes: list[float], smallest: float | None, largest: float) -> None:
@@ -340,7 +344,7 @@ def iso4406_of_counts(counts: ArrayLike) -> str:
     scale = _table("cleanliness")["iso4406"]
     most = np.array(scale["most"]) * (1 + 1e-9)
     out = []
-    for count in np.asarray(counts, float) * scale["volume"]:
+    for count in np.ravel(np.asarray(counts, float)) * scale["volume"]:
         if math.isnan(count):
             out.append("-")
             continue

@@ -1,23 +1,26 @@
 """The life of an oil and of a contact in it: particles that come, act and go, over time."""
 
-from . import circuit as circuit
-from . import contact_until as contact_until
-from . import debris as debris
-from . import entry as entry
-from . import fatigue as fatigue
-from . import history as history
-from . import ingress as ingress
-from . import ledger as ledger
-from . import linear_flow as linear_flow
-from . import oil_dirt as oil_dirt
-from . import oil_history as oil_history
-from . import reports as reports
-from . import run as run
-from . import size_classes as size_classes
-from . import sizing as sizing
-from . import steady as steady
-from . import surfaces as surfaces
-from . import until as until
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from . import circuit as circuit
+    from . import contact_until as contact_until
+    from . import debris as debris
+    from . import entry as entry
+    from . import fatigue as fatigue
+    from . import history as history
+    from . import ingress as ingress
+    from . import ledger as ledger
+    from . import linear_flow as linear_flow
+    from . import oil_dirt as oil_dirt
+    from . import oil_history as oil_history
+    from . import reports as reports
+    from . import run as run
+    from . import size_classes as size_classes
+    from . import sizing as sizing
+    from . import steady as steady
+    from . import surfaces as surfaces
+    from . import until as until
 
 __all__ = [
     "circuit",
@@ -39,3 +42,12 @@ __all__ = [
     "surfaces",
     "until",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """A module of this one, imported when it is first asked for: few commands need many."""
+    from importlib import import_module
+
+    if name in __all__:
+        return import_module(f".{name}", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from ...populations.measured.cleanliness import counted_sizes, iso4406_of_counts
+from ...quantities.arguments import names_arguments
 from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
 from ...quantities.say import value_of
@@ -117,6 +118,7 @@ class LifeHistory(Record):
         """Mass of particles per volume of oil [kg/m³], (T, M)."""
         return np.einsum("tkm,km->tm", self.numbers, self.terms.masses)
 
+    @names_arguments
     def flows(self, *, rates: bool = False) -> list[tuple[str, str, float]]:
         """The flow table: from where, to where, and how much [kg].
 

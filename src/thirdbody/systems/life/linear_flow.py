@@ -139,10 +139,23 @@ def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -
     >>> steady_numbers(losses, births=[[0, 0], [3e-5, 1e-4]], source=[1e5, 0]).round().tolist()
     [100000000.0, 7500000.0]
     """
+    L, G = _matrices(losses, births)
     some = np.asarray(source, float)
+    if some.shape != L.shape[:1]:
+        raise InvalidValue(Problem("source", f"must have a number for each of {len(L)} classes"))
     if reproduction(losses, births=births) >= 1:
         return np.full_like(some, math.nan)
-    return np.linalg.solve(np.asarray(losses, float) - np.asarray(births, float), some)
+    return np.linalg.solve(L - G, some)
+
+
+def _matrices(losses: ArrayLike, births: ArrayLike) -> tuple[Array, Array]:
+    """Both matrices, if they are square and of one size."""
+    L, G = np.asarray(losses, float), np.asarray(births, float)
+    if L.ndim != 2 or L.shape[0] != L.shape[1]:
+        raise InvalidValue(Problem("losses", "must be a square matrix"))
+    if G.shape != L.shape:
+        raise InvalidValue(Problem("births", "must be a matrix of the size of losses"))
+    return L, G
 
 
 @takes_units
@@ -163,7 +176,7 @@ def generations(losses: ArrayLike, *, births: ArrayLike) -> Array:
     ----------
     Diekmann, Heesterbeek, Metz 1990, J. Math. Biol. 28, 365, doi:10.1007/BF00178324.
     """
-    L, G = np.asarray(losses, float), np.asarray(births, float)
+    L, G = _matrices(losses, births)
     if not np.any(G):
         return np.zeros_like(L)
     try:
@@ -205,5 +218,6 @@ def dirt_gain(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -> flo
     source : array (J,)
         s [1/(m³ s)].
     """
-    alone = steady_numbers(losses, births=np.zeros_like(np.asarray(births, float)), source=source)
+    none = np.zeros_like(_matrices(losses, births)[1])
+    alone = steady_numbers(losses, births=none, source=source)
     return float(np.sum(steady_numbers(losses, births=births, source=source)) / np.sum(alone))

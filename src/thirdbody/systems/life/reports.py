@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from scipy.optimize import nnls
-from scipy.stats import chi2 as chi_squared
+from scipy.special import chdtrc
 
 from ...errors import InvalidValue, Problem
 from ...populations.materials import Material
@@ -29,6 +29,7 @@ from ...populations.measured.cleanliness import (
     read_iso4406,
     sizes_above,
 )
+from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.csv_cells import numbered_cells
 from ...quantities.record import Record
@@ -436,7 +437,7 @@ def oil_reports(
         mass_high=float(mass_high),
         chi2=misfit,
         degrees=degrees,
-        probability=float(chi_squared.sf(misfit, degrees)) if degrees else math.nan,
+        probability=float(chdtrc(degrees, misfit)) if degrees else math.nan,
         ingress=_ingress(at, rates[0], of),
         start=_dirt(at, np.cumsum(fit.start[::-1])[::-1], of),
     )
@@ -479,6 +480,7 @@ def _sizes_of(sizes: Array, above: Array) -> tuple[Any, float]:
 MOST_ROWS = 10_000
 
 
+@names_arguments
 def read_reports(path: str | Path) -> tuple[Array, list[str] | Array, Array | None]:
     """Times, reports and sizes of a CSV file, as `oil_reports` takes them.
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import InvalidValue, Problem
 from ...populations.measured.cleanliness import iso4406_range, read_iso4406
+from ...quantities.arguments import names_arguments
 from ...quantities.value import Value
 
 if TYPE_CHECKING:
@@ -133,6 +134,7 @@ class FilterFull(Until):
         return "a filter is full"
 
 
+@names_arguments
 def iso4406(code: str, *, stops: bool = True) -> CodeReached:
     """Wait for an ISO 4406 code of the oil.
 
@@ -151,6 +153,7 @@ def iso4406(code: str, *, stops: bool = True) -> CodeReached:
     return CodeReached(code=code, stops=stops)
 
 
+@names_arguments
 def filter_full(*, stops: bool = True) -> FilterFull:
     """Wait for a filter that is full.
 

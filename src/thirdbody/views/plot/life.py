@@ -111,7 +111,7 @@ def histories(history: LifeHistory) -> Figure:
     ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> figure = histories(tb.life(oil=oil, duration=1800.0))
     >>> len(figure.axes)
-    2
+    3
     """
     figure = Figure(figsize=(6.4, 6.4), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True)
@@ -231,7 +231,7 @@ def life(history: LifeHistory) -> Figure:
     ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
     ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> len(life(tb.life(oil=oil, duration=1800.0)).axes)
-    3
+    4
     """
     figure = Figure(figsize=(6.4, 9.6), layout="constrained")
     above, below, last = figure.subplots(3, 1, height_ratios=(1, 1, 1))
