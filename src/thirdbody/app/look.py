@@ -173,6 +173,7 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 }
 .js-plotly-plot .main-svg text { fill: currentColor !important; }
 .js-plotly-plot .main-svg { background: transparent !important; }
+.js-plotly-plot .node-label { text-shadow: none !important; }
 .js-plotly-plot .hoverlayer text { fill: #222 !important; }
 .body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
 .body--dark [data-figure="map"] .legendlines path { stroke: #dddddd !important; }
