@@ -327,7 +327,14 @@ def test_what_enters_a_contact_has_no_default():
     assert done.exit_code == 2
     told = " ".join(done.stderr.split())
     assert "life.contact.entry_ratio is missing" in told
-    assert "vary it from 1e-3 to 1" in told
+    assert "try it from 1e-3 to 1 with --set life.contact.entry_ratio=" in told
+
+
+def test_bands_are_those_of_the_oil_alone():
+    more = ("entry_ratio = 0.1", "[life.uncertainty]", "ingress = { low = 0.5, high = 2 }")
+    done = run("life", *with_contact(*more))
+    assert done.exit_code == 2
+    assert "life.uncertainty and [life.contact] do not go together" in done.stderr
 
 
 @pytest.mark.slow

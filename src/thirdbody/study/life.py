@@ -528,13 +528,19 @@ def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
     known = _uncertainty(reader, given.get("uncertainty", {}), circuit)
+    contact = contact_of(reader, values)
+    if known and contact is not None:
+        rule = (
+            "and [life.contact] do not go together: bands are those of the oil alone; leave one out"
+        )
+        raise InvalidValue(Problem("life.uncertainty", rule))
     return AskedLife(
         title=values.get("title", ""),
         circuit=circuit,
         duration=given["duration"],
         until=given.get("until", ()),
         uncertainty=known,
-        contact=contact_of(reader, values),
+        contact=contact,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
     )

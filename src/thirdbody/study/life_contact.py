@@ -33,8 +33,8 @@ QUANTITIES = {
 }
 HARDNESS = quantity("H_d", "Pa", "hardness of the debris", gt=0).metadata["quantity"]
 RANGES = (
-    "nobody can predict it: count dents (entry_ratio_from_dents), or vary it from 1e-3 to 1 in "
-    "[life.uncertainty]"
+    "nobody can predict it: count dents (entry_ratio_from_dents), or try it from 1e-3 to 1 with "
+    "--set life.contact.entry_ratio=..."
 )
 
 
