@@ -145,7 +145,7 @@ def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -
         raise InvalidValue(Problem("source", f"must have a number for each of {len(L)} classes"))
     if reproduction(losses, births=births) >= 1:
         return np.full_like(some, math.nan)
-    return np.linalg.solve(L - G, some)
+    return np.asarray(np.linalg.solve(L - G, some), dtype=float)
 
 
 def _matrices(losses: ArrayLike, births: ArrayLike) -> tuple[Array, Array]:
@@ -180,7 +180,7 @@ def generations(losses: ArrayLike, *, births: ArrayLike) -> Array:
     if not np.any(G):
         return np.zeros_like(L)
     try:
-        return np.linalg.solve(L.T, G.T).T
+        return np.asarray(np.linalg.solve(L.T, G.T).T, dtype=float)
     except np.linalg.LinAlgError:
         rule = "let particles stay for ever that breed others; give a filter, settling or a leak"
         raise InvalidValue(Problem("losses", rule)) from None
