@@ -182,3 +182,15 @@ def test_the_book_shows_what_is_printed(command, kind, page):
     shown = text.split("```text\n")[1].split("```")[0]
     printed = [line.rstrip() for line in run(command, f"{kind}.toml").stdout.splitlines()]
     assert shown.splitlines() == printed[2:]
+
+
+def test_what_solve_prints_as_most_uncertain_stands_first_in_its_json():
+    assert run("new", "ball-screw").exit_code == 0
+    told = said(run("solve", "ball-screw.toml"))
+    data = json.loads(run("solve", "ball-screw.toml", "--json").stdout)
+    first, *others = data["what_ifs"]
+    assert f"Most uncertain: {first['what']}. With {first['between']}" in told
+    assert first["action"] in told
+    low, high = sorted(first["values"])
+    assert low <= data["states"]["particle_load_share"][0] <= high
+    assert high / low >= max(max(each["values"]) / min(each["values"]) for each in others)

@@ -114,7 +114,7 @@ class ParticleInputs(Entries):
     def _sized(self, place: Place, word: str) -> None:
         """Another way to give the sizes: what does not go with it goes."""
         table = self.table(*place)
-        own = ("material", "name", "law", "strength")
+        own = ("material", "name", "law", "strength", "conducts")
         kept = {key: table[key] for key in own if key in table}
         if isinstance(shape := table.get("shape"), dict) and word != "weibull":
             kept["shape"] = shape

@@ -13,6 +13,7 @@ from ..contact.evaluation import bodies_of
 from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column, missing
 from ..errors import Note
+from ..populations.conduction import conducts
 from ..populations.materials import Material
 from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
@@ -88,18 +89,20 @@ def _through_asperities(
 def _through_particles(
     state: Solved,
     rho: Resistivity,
-    particles: str,
+    output: _Conductance,
     *,
     film: float = 0.0,
     mean_free_path: float = 0.0,
 ) -> Array:
     """Σ n/R of the particles that conduct per nominal area: (N,)."""
     pair = state.contact.surfaces
+    if not _some_conduct(output, state.contact):
+        return np.zeros_like(state.d)
 
     def conductance(spots: ParticleSpots) -> Any:
-        if not _conducts(particles, spots.population):
-            return 0.0
         assert spots.population is not None
+        if not output.passes(spots.population):
+            return 0.0
         own = rho(spots.population.material)
         touches = (spots.areas[0] > 0) & (spots.areas[1] > 0)
         b_1, b_2 = (np.sqrt(np.where(touches, area, 1.0) / np.pi) for area in spots.areas)
@@ -116,23 +119,21 @@ def _through_particles(
     return state.total_of_particles(conductance)
 
 
-def _conducting(state: Solved, particles: str) -> Array:
+def _conducting(state: Solved, output: _Conductance) -> Array:
     """Contacts through which something flows, per nominal area (N,) [1/m²]."""
     n = state.total(lambda spots: spots.area > 0)
-    if particles != "insulate":
+    if _some_conduct(output, state.contact):
         n = n + state.total_of_particles(
             lambda spots: (
-                _conducts(particles, spots.population) & (spots.areas[0] > 0) & (spots.areas[1] > 0)
+                output.passes(spots.population) & (spots.areas[0] > 0) & (spots.areas[1] > 0)
             )
         )
     return n
 
 
-def _conducts(particles: str, dust: Particles | None) -> bool:
-    """Whether these particles conduct; "by material" asks for a known resistivity."""
-    if particles == BY_MATERIAL and dust is not None:
-        return dust.material.resistivity is not None
-    return particles == "conduct"
+def _some_conduct(output: _Conductance, contact: Contact) -> bool:
+    """Whether anything flows through particles."""
+    return any(map(output.passes, contact.populations))
 
 
 def _closing(
@@ -141,10 +142,10 @@ def _closing(
     """Columns that are means over many contacts of A_n (NaN where it is open), and P_c."""
     if output.A_n is None:
         return means | {closed: np.full_like(state.d, np.nan)}
-    count = output.A_n * _conducting(state, output.particles)
+    count = output.A_n * _conducting(state, output)
     out = means | {closed: -np.expm1(-count)}
     is_open = count < ONE
-    conduct = any(_conducts(output.particles, dust) for dust in state.contact.populations)
+    conduct = _some_conduct(output, state.contact)
     found = single_contacts(output, state, tuple(means), closed, conduct=conduct)
     if found is not None:
         out = {
@@ -193,7 +194,7 @@ def _about_open(
     output: _Conductance, state: Solved, numbers: str, which: Any = slice(None)
 ) -> list[str]:
     """Notes on states in which fewer than one contact conducts."""
-    n = _conducting(state, output.particles)[which]
+    n = _conducting(state, output)[which]
     if not len(n):
         return []
     least = float(np.min(n))
@@ -242,16 +243,14 @@ def wide_share(state: Solved) -> float:
     return float(np.max(wide / np.where(load > 0, load, 1.0), initial=0.0))
 
 
-def _warnings(
-    output: _Conductance, state: Solved, particles: str, numbers: str, closed: str
-) -> list[str]:
+def _warnings(output: _Conductance, state: Solved, numbers: str, closed: str) -> list[str]:
     found = state.kept.get(output)
     if found is None:
         out = _about_open(output, state, numbers)
     else:
         out = _about_open(output, state, numbers, ~found.concerned)
         out += _about_single(output, found, closed)
-    if particles != "insulate" and (share := wide_share(state)) > 0.01:
+    if _some_conduct(output, state.contact) and (share := wide_share(state)) > 0.01:
         out.append(about_wide(output.name, share))
     return out
 
@@ -353,16 +352,18 @@ class ThermalConductance(AbstractOutput):
     }
 
     def problems(self, contact: Contact) -> list[str]:
-        return missing(self, _conducting_bodies(contact, self.particles), "thermal_conductivity")
+        return missing(self, _conducting_bodies(contact, self), "thermal_conductivity")
+
+    def passes(self, dust: Particles | None) -> bool:
+        """Whether heat flows through the particles of a population."""
+        return self.particles == "conduct"
 
     def one_by_one(self, contact: Contact) -> bool:
         return bool(self.film or self.A_n)
 
     def of(self, state: Solved) -> dict[str, Array]:
         asperities = _through_asperities(state, _thermal, self.form, film=self.film)
-        particles = np.zeros_like(state.d)
-        if self.particles == "conduct":
-            particles = _through_particles(state, _thermal, self.particles, film=self.film)
+        particles = _through_particles(state, _thermal, self, film=self.film)
         gap = np.zeros_like(state.d)
         if self.k_gap:
             with np.errstate(divide="ignore"):
@@ -384,7 +385,7 @@ class ThermalConductance(AbstractOutput):
         return cooper_mikic_yovanovich(part, H=pair.H, k=k, m=float(m), sigma=rough.sigma)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        return _warnings(self, state, self.particles, "hc, hc_ss and hc_sa", "hc_closed")
+        return _warnings(self, state, "hc, hc_ss and hc_sa", "hc_closed")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -401,7 +402,8 @@ class ElectricalConductance(AbstractOutput):
     ----------
     particles : {"insulate", "conduct", "by material"}, optional
         Insulating particles still hold the surfaces apart. "conduct" needs their resistivity; by
-        material those conduct that have one, and the others insulate.
+        material those conduct that have one, or are of a metal of the library, and the others
+        insulate. What a population says of itself (``conducts``) counts before this.
     film : float, optional
         Resistance of a surface film times its area at every spot, σ_f [Ω m²]; two on a particle.
     mean_free_path : float, optional
@@ -477,14 +479,25 @@ class ElectricalConductance(AbstractOutput):
     }
 
     def problems(self, contact: Contact) -> list[str]:
-        out = missing(self, _conducting_bodies(contact, self.particles), "resistivity")
-        kinds = {dust.material.resistivity is None for dust in contact.populations}
-        if self.particles == BY_MATERIAL and self.A_n is not None and len(kinds) > 1:
+        out = missing(self, _conducting_bodies(contact, self), "resistivity")
+        kinds = {self.passes(dust) for dust in contact.populations}
+        if self.A_n is not None and len(kinds) > 1:
             out.append(
                 f"outputs.{self.name}.A_n must be left out where some particles conduct and some "
                 "insulate: which of them close a contact that holds few is not known"
             )
         return out
+
+    def passes(self, dust: Particles | None) -> bool:
+        """Whether a current flows through the particles of a population.
+
+        What a population says of itself (`Particles.conducts`) counts before ``particles``.
+        """
+        if dust is not None and dust.conducts is not None:
+            return dust.conducts
+        if self.particles == BY_MATERIAL and dust is not None:
+            return bool(conducts(dust))
+        return self.particles == "conduct"
 
     def one_by_one(self, contact: Contact) -> bool:
         return bool(self.film or self.mean_free_path or self.A_n)
@@ -492,24 +505,21 @@ class ElectricalConductance(AbstractOutput):
     def of(self, state: Solved) -> dict[str, Array]:
         small: dict[str, float] = dict(film=self.film, mean_free_path=self.mean_free_path)
         asperities = _through_asperities(state, _electrical, self.form, **small)
-        particles = np.zeros_like(state.d)
-        if self.particles != "insulate":
-            particles = _through_particles(state, _electrical, self.particles, **small)
+        particles = _through_particles(state, _electrical, self, **small)
         out = _closing(self, state, {"gc_ss": asperities, "gc_sa": particles}, "gc_closed")
         total = out["gc_ss"] + out["gc_sa"]
         with np.errstate(divide="ignore"):
             return {"gc": total, **out, "rho_c": 1 / total}
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        return _warnings(self, state, self.particles, "gc, gc_ss, gc_sa and rho_c", "gc_closed")
+        return _warnings(self, state, "gc, gc_ss, gc_sa and rho_c", "gc_closed")
 
 
-def _conducting_bodies(contact: Contact, particles: str) -> dict[str, Material]:
+def _conducting_bodies(contact: Contact, output: _Conductance) -> dict[str, Material]:
     """Bodies whose conductivity counts."""
-    bodies = bodies_of(contact)
-    if particles == "conduct":
-        return bodies
-    return {name: bodies[name] for name in ("surface 1", "surface 2")}
+    surfaces, particles = 2, list(bodies_of(contact).items())
+    flows = [True] * surfaces + [output.passes(dust) for dust in contact.populations]
+    return {name: body for (name, body), does in zip(particles, flows, strict=True) if does}
 
 
 def _thermal(material: Material) -> float:

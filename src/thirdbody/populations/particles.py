@@ -40,6 +40,9 @@ class Particles(Value):
         How strong the particles are: they break as the gap closes. Without it they never do.
     shape : Sphere or Angular, optional
         Round, the default, or a rounded tip and faces on each side.
+    conducts : bool, optional
+        Whether they conduct an electric current; without it their material says so
+        (`thirdbody.populations.conduction.conducts`). Grains of metal under a skin of oxide do not.
 
     Raises
     ------
@@ -65,6 +68,7 @@ class Particles(Value):
     law: Value | None = None
     strength: WeibullStrength | None = None
     shape: Sphere | Angular = SPHERE
+    conducts: bool | None = None
 
     def _problems(self) -> list[str]:
         out: list[str] = []
@@ -92,6 +96,8 @@ class Particles(Value):
                     repr(self.shape),
                 )
             )
+        if not isinstance(self.conducts, bool | None):
+            out.append(Problem("conducts", "must be true, false or left out", repr(self.conducts)))
         if not out and self.coverage >= 1:
             out.append(
                 Problem(
@@ -146,7 +152,7 @@ class Particles(Value):
         particle_density, oil_density : float or str, optional
             ρ_p, by default that of the material, needed for a mass; ρ_f, 870 by default [kg/m³].
         **others
-            ``name``, ``law``, ``strength`` and ``shape``, as in the class.
+            ``name``, ``law``, ``strength``, ``shape`` and ``conducts``, as in the class.
 
         Raises
         ------
@@ -207,7 +213,7 @@ class Particles(Value):
         smallest, largest : float or str, optional
             Ends of the sizes [m]: 4 µm and 70 µm by default.
         **others
-            ``name``, ``law``, ``strength`` and ``shape``, as in the class.
+            ``name``, ``law``, ``strength``, ``shape`` and ``conducts``, as in the class.
 
         Raises
         ------

@@ -74,6 +74,7 @@ class Declaration:
 
 KINDS: Mapping[str, Literal["switch", "text", "word or number"]] = {
     "bool": "switch",
+    "bool | None": "switch",
     "str": "text",
     "str | float": "word or number",
 }

@@ -146,6 +146,9 @@ def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) ->
         about=about, required=density.required and not by_volume and kind != SETTLED
     )
     keys["strength"] = STRENGTH
+    keys["conducts"] = keys["conducts"]._replace(
+        about="whether they conduct a current; without it their material says so"
+    )
     sizes = DISTRIBUTIONS.get(str(given.get("distribution")))
     of_sizes = getattr(sizes, "__dataclass_fields__", {}).get("shape")
     if of_sizes is None or isinstance(given.get("shape"), dict):

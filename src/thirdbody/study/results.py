@@ -21,6 +21,7 @@ from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
 from ..systems.film_formulas import full_range
 from ..systems.mixed_film import COLUMNS
+from ..systems.natures import Nature, natures
 from ..systems.stribeck import RegimeSpeeds
 from ..version import __version__
 from .load import force_sentences
@@ -68,6 +69,11 @@ class _Result(MappedRecord):
         area = film.conjunction.hertz(film.load, E=2 * contact.E_ss).area
         return float(area * sum(dust.areal_density for dust in contact.populations))
 
+    @cached_property
+    def natures(self) -> tuple[Nature, ...]:
+        """What the particles of each population are: do they conduct, dent, break?"""
+        return natures(self.study.contact)
+
     def _plain_data(self, inputs: dict[str, Any], **found: Any) -> dict[str, Any]:
         """Plain data with what every study says: title, version, inputs, warnings, citations."""
         return {
@@ -75,6 +81,7 @@ class _Result(MappedRecord):
             "version": __version__,
             "inputs": self.study.contact.to_dict() | inputs,
             **plain_data(found),
+            "natures": [each.to_dict() for each in self.natures],
             "warnings": list(self.warnings),
             "citations": self.citations,
         }
@@ -192,7 +199,8 @@ class StudyResult(_Result):
         -------
         dict
             Title, version, inputs (SI), scales, states (a list each), what each of several
-            populations carries in them, transitions, warnings, citations; ``body``, where a force
+            populations carries in them, transitions, what the answer hangs on, what the particles
+            of each population are, warnings, citations; ``body``, where a force
             presses one: pressures and integrals of each force, and sentences; and where none does,
             of a study with [film], ``particles_held``: how many lie in the contact of its bodies.
         """
@@ -203,6 +211,7 @@ class StudyResult(_Result):
             populations=self.states.populations,
             engine=self.states.engine,
             transitions=self.transitions,
+            what_ifs=[each.to_dict() for each in self.what_ifs],
         )
         if self.forces:
             body: dict[str, Any] = {} if self.study.body is None else self.study.body.to_dict()
@@ -292,7 +301,8 @@ class FilmResult(_Result):
         dict
             Title, version, inputs (SI), states (a list each, one entry a speed), the speeds at
             which the regime changes, what of each population passes the film, how many particles
-            one Hertz contact holds, what the oil brings, warnings, citations.
+            one Hertz contact holds, what the oil brings, what the particles of each population
+            are, warnings, citations.
         """
         return self._plain_data(
             {"film": self.conditions.to_dict()},

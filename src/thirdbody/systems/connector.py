@@ -30,6 +30,7 @@ import numpy as np
 from ..errors import InvalidValue, Problem
 from ..laws.particle.series import Series
 from ..laws.particle.tension import breaks
+from ..populations.conduction import conducts
 from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
@@ -88,7 +89,8 @@ class Connector(Value):
         without it none is, and the wipe changes nothing.
     conducting : tuple of str, optional
         Names of the kinds of dust that conduct; ``"by material"`` for those whose resistivity is
-        known.
+        known, or that are of a metal of the library. What a population says of itself
+        (``conducts``) counts before this.
     law : AbstractParticleLaw, optional
         What one particle does between the contacts.
 
@@ -205,8 +207,9 @@ class Connector(Value):
         ]
 
     def _conducts(self, dust: Particles, name: str) -> bool:
-        by_material = BY_MATERIAL in self.conducting and dust.material.resistivity is not None
-        return by_material or name in self.conducting
+        if dust.conducts is not None:
+            return dust.conducts
+        return name in self.conducting or (BY_MATERIAL in self.conducting and bool(conducts(dust)))
 
     # ------------------------------------------------------------------ how often it fails
     def failure(self, load: float) -> float:
@@ -238,7 +241,7 @@ class Connector(Value):
             Loads W [N].
         """
         every = np.asarray(loads, float)
-        if self.conducting:
+        if self.conducting or any(dust.conducts for dust in self.particles):
             return np.array([self.failure(float(load)) for load in every])
         out, left = np.empty(len(every)), every.copy()
         kinds = self._kinds(conduct=False)

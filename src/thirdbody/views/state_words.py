@@ -16,6 +16,7 @@ from ..equilibrium.words import (
     two_bodies,
 )
 from ..quantities.say import number, percent, plural, value_of
+from .nature_words import sentences
 
 if TYPE_CHECKING:
     from ..study import StudyResult
@@ -37,9 +38,9 @@ def answer(result: StudyResult) -> list[str]:
 
 
 def details(result: StudyResult) -> list[str]:
-    """What forces do to their bodies, and of what the states are."""
+    """What particles are, what forces do to their bodies, and of what the states are."""
     whole = result.body_sentence()
-    return [*result.force_sentences, *([whole] if whole else [])]
+    return [*sentences(result.natures), *result.force_sentences, *([whole] if whole else [])]
 
 
 def uncertainty(result: StudyResult) -> list[str]:

@@ -125,6 +125,12 @@ class _Found(NamedTuple):
             return oil_words.HEADS, oil_words.rows(self.oil)
         return ("", "before", "after the filter"), oil_words.filter_rows(self.oil, self.filtered)
 
+    def natures(self) -> list[str]:
+        """What the particles of each population are, a sentence each."""
+        from ...views.nature_words import sentences
+
+        return sentences(self.result.natures)
+
     def rest(self) -> list[str]:
         """What stands below the tables; the answer of an oil without particles holds the first."""
         from ...views.film_words import summary
@@ -148,7 +154,8 @@ def _sheets(found: _Found) -> list[Sheet]:
     told: list[str | Grid] = [*found.answer()]
     if found.oil is not None:
         told.append(grid_of_words(*found.oil_table()))
-    rest = [*oil_words.uncertainty(found.what_ifs), bodies(found.result), *found.rest()]
+    most = oil_words.uncertainty(found.what_ifs)
+    rest = [*most, *found.natures(), bodies(found.result), *found.rest()]
     return film_sheets(found.result, [*told, *rest])
 
 
@@ -163,7 +170,7 @@ def _show(found: _Found) -> None:
         console.print(sentence)
     if found.oil is not None:
         console.print(_oil_table(found))
-    for sentence in uncertainty(found.what_ifs):
+    for sentence in [*uncertainty(found.what_ifs), *found.natures()]:
         console.print(sentence)
     _show_bearing(console, result)
     states, sigma = result.states, result.study.contact.roughness.sigma

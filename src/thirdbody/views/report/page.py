@@ -18,7 +18,7 @@ from ...equilibrium.words import unsolved
 from ...quantities.say import join_words, signed, value_of
 from ...study.oil_what_ifs import what_ifs_of_oil
 from ...version import __version__
-from .. import oil_words, state_words
+from .. import nature_words, oil_words, state_words
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
 from .figures import figures_of
@@ -144,7 +144,8 @@ def _lead(report: Found) -> list[str]:
 
 
 def _in_full(report: Found) -> list[str]:
-    told = (*report.result.force_sentences, *answer_sentences(report))
+    natures = nature_words.sentences(report.result.natures)
+    told = (*natures, *report.result.force_sentences, *answer_sentences(report))
     return [f"<p>{words(sentence)}</p>" for sentence in told]
 
 
