@@ -271,8 +271,8 @@ def test_kinds_are_ordered():
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        (dict(first=tb.materials["100Cr6"]), "needs specific_heat of surface 1"),
-        (dict(dust=tb.materials["SiO2"], density=1e10), "needs thermal_conductivity of the part"),
+        (dict(first=tb.materials["WC"]), "needs specific_heat of surface 1"),
+        (dict(dust=tb.materials["TiO2"], density=1e10), "needs thermal_conductivity of the part"),
         (dict(h_1=10.0), "give both"),
         (dict(h_1=0.0, h_2=0.0), "no way out"),
         (dict(A_n=0.0), "1 mm² is 1e-6"),

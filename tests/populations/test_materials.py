@@ -444,3 +444,19 @@ def test_page_is_generated():
     page = (Path(__file__).parents[2] / "docs" / "materials.md").read_text("utf-8")
     assert page.endswith("<!-- thirdbody materials --markdown -->\n" + run("--markdown").stdout)
     assert f"{len(ENTRIES)} engineering materials" in page
+
+
+def test_bearing_steel_has_what_flash_temperature_and_current_need():
+    """52100 at 7.3 % of annealed copper, 1/58 Ω mm²/m; its heat by electrons is most of all."""
+    steel = tb.materials["100Cr6"]
+    assert steel.resistivity == pytest.approx(1e-6 / 58 / 0.073, rel=2e-3)
+    assert 0.5 < 2.44e-8 * 293 / steel.resistivity / steel.thermal_conductivity < 1
+    pair = tb.MaterialPair(steel, steel)
+    heat = tb.outputs.FlashTemperature(v=1.0, A_n=1e-6)
+    outputs = (tb.outputs.Friction(tau_ss=5e8), heat, tb.outputs.ElectricalConductance())
+    contact = tb.Contact(
+        surfaces=pair, roughness=tb.Roughness(sigma=1e-7, R=2.8e-6), outputs=outputs
+    )
+    found = tb.solve(contact, pressure=5e6).outputs
+    assert found["dT_ss_load"] > 0
+    assert found["rho_c"] > 0
