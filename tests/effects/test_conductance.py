@@ -126,13 +126,13 @@ def test_parts_and_insulators():
 
 
 def test_insulating_particles_need_no_conductivity():
-    dust = tb.materials["SiO2"]
+    dust = tb.materials["TiO2"]
     tb.solve(contact(ElectricalConductance(), dust=dust), pressure=5e6)
     tb.solve(contact(ThermalConductance(particles="insulate"), dust=dust), pressure=5e6)
     with pytest.raises(tb.InvalidValue, match="needs thermal_conductivity of the particles"):
         contact(ThermalConductance(), dust=dust)
     with pytest.raises(tb.InvalidValue, match="needs resistivity of surface 1"):
-        contact(ElectricalConductance(), first=tb.materials["100Cr6"])
+        contact(ElectricalConductance(), first=tb.materials["SnSb8Cu4"])
 
 
 def test_particles_lower_it():

@@ -494,7 +494,7 @@ def test_rules_of_the_objects_are_told_with_the_keys_of_the_file(problems, old, 
         ('"mixture"\nweights = [1]\nparts = []', ["particles.parts = []", "list of size"]),
         (
             '"mixture"\nweights = [1]\nparts = [{ distribution = "monodisperse", mean = -1 }]',
-            ["particles.parts[0].mean = -1", "> 0"],
+            ["particles.parts.0.mean = -1", "> 0"],
         ),
     ],
 )

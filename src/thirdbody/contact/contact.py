@@ -111,22 +111,22 @@ class Contact(Value):
                     "nominal area and it must stay below 1",
                 )
             )
-        for each in self.populations:
+        for place, each in self.places.items():
             if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
                 allowed = "must be a particle law, e.g. " + Advice(
                     "particle.Series(seat='plane')", '{ name = "series", seat = "plane" }'
                 )
-                out.append(Problem("law", allowed, repr(each.law), owner="Particles"))
+                out.append(Problem("law", allowed, repr(each.law), owner=place))
                 continue
             try:
                 law = self.law_of(each)
             except InvalidValue as error:
-                out += error.problems
+                out += [_of_population(one, place, each) for one in error.problems]
                 continue
             if each.strength is not None and not law.breakable:
                 rule = f": particles of the law {law.name} do not break"
                 hint = "use " + SERIES + ", or remove strength"
-                out.append(Problem("strength", rule, hint=hint, owner="Particles"))
+                out.append(_of_population(Problem("strength", rule, hint=hint), place, each))
         if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
             out.append(
                 Problem(
@@ -145,6 +145,16 @@ class Contact(Value):
         given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
         return tuple(each for each in given if each.areal_density > 0)
 
+    @property
+    def places(self) -> dict[str, Particles]:
+        """The populations that have a density, by their dotted places in the contact."""
+        every: dict[str, Particles] = {}
+        if isinstance(self.particles, tuple):
+            every = {f"particles.{i}": each for i, each in enumerate(self.particles)}
+        elif self.particles is not None:
+            every = {"particles": self.particles}
+        return {place: each for place, each in every.items() if each.areal_density > 0}
+
     def law_of(self, particles: Particles) -> AbstractParticleLaw:
         """The law that a population follows, for particles of its shape."""
         law = particles.law
@@ -160,6 +170,17 @@ class Contact(Value):
     def two_body(self) -> bool:
         """No particles between the surfaces."""
         return not self.populations
+
+
+def _of_population(problem: Problem, place: str, particles: Particles) -> Problem:
+    """A problem of one population at its place; advice on its law where it has one of its own."""
+
+    def advice(text: str) -> str:
+        if particles.law is None or not isinstance(text, Advice):
+            return text
+        return Advice(text, text.study.replace("particle_law.", f"{place}.law."))
+
+    return problem.changed(owner=place).worded(advice)
 
 
 def _shape_problems(law: AbstractAsperityLaw) -> list[str]:

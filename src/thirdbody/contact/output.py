@@ -93,7 +93,7 @@ def missing(output: AbstractOutput, bodies: Mapping[str, Material], *names: str)
         + (f" ({body.name})" if body.name else "")
         + Advice(
             f"; give it with the material, e.g. material.replace({name}=...)",
-            f": {KEYS_OF_BODIES.get(label, 'material')} = "
+            f": {KEYS_OF_BODIES.get(label, 'in its table [[particles]] material')} = "
             f"{{ E = ..., nu = ..., H = ..., {name} = ... }}",
         )
         for label, body in bodies.items()

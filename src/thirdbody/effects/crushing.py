@@ -93,7 +93,7 @@ class Crushing(AbstractOutput):
             "outputs.crushing needs particles with a strength, e.g. "
             + Advice(
                 "Particles(..., strength=WeibullStrength.of(material))",
-                'particles.strength = "material"',
+                'strength = "material" in [particles]',
             )
         ]
 

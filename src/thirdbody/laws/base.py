@@ -470,11 +470,9 @@ class AbstractParticleLaw(Law):
         """This law for particles of a shape; most laws are written for a `Sphere`."""
         if isinstance(shape, Sphere):
             return self
-        raise InvalidValue(
-            f"Particles.shape: particles of the law {self.name} have a shape of their own; use "
-            + SERIES
-            + ", or remove shape"
-        )
+        rule = f": particles of the law {self.name} have a shape of their own"
+        hint = "use " + SERIES + ", or remove shape"
+        raise InvalidValue(Problem("shape", rule, hint=hint, owner="Particles"))
 
     def single(
         self, x: ArrayLike, gap: ArrayLike, *, surfaces: MaterialPair, particle: Material

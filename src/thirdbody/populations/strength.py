@@ -16,7 +16,7 @@ __all__ = ["WeibullStrength"]
 
 OTHER_STRENGTH = Advice(
     "give WeibullStrength(sigma_0=..., x_0=..., m=...), or material.replace(K_c=...)",
-    'give particles.strength = { sigma_0 = "60 MPa", x_0 = "10 mm", m = 3 } with numbers of your '
+    'give a table, strength = { sigma_0 = "60 MPa", x_0 = "10 mm", m = 3 }, with numbers of your '
     "own, or K_c with the numbers of the material",
 )
 """What to do where a material has no strength."""

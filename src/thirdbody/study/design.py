@@ -75,7 +75,7 @@ def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, A
     """One variable: its name in the library, and its range or its materials."""
     label, entry = told
     if isinstance(entry, list):
-        items = {f"{where}[{i}]": each for i, each in enumerate(entry)}
+        items = {f"{where}.{i}": each for i, each in enumerate(entry)}
         return label, list(reader.read_each(items, MATERIAL.read_any))
     if not (isinstance(entry, dict) and set(entry) == {"low", "high"}):
         raise wrong(where, "must be { low = ..., high = ... }, or a list of materials", entry)
@@ -143,7 +143,7 @@ def _several(
     """One objective or limit, or a list of them."""
     entries = {path: given}
     if isinstance(given, list):
-        entries = {f"{path}[{i}]": entry for i, entry in enumerate(given)}
+        entries = {f"{path}.{i}": entry for i, entry in enumerate(given)}
     return list(reader.read_each(entries, partial(_one, kind)))
 
 

@@ -21,7 +21,7 @@ def _parts(reader: Reader, path: str, value: Any) -> Any:
     if not (isinstance(value, list) and value):
         rule = 'must be a list of size distributions, e.g. [{ distribution = "monodisperse", '
         raise wrong(path, f'{rule}mean = "100 nm" }}, ...]', value)
-    return reader.read_each({f"{path}[{i}]": item for i, item in enumerate(value)}, _component)
+    return reader.read_each({f"{path}.{i}": item for i, item in enumerate(value)}, _component)
 
 
 def _component(reader: Reader, path: str, data: Any) -> Any:

@@ -235,7 +235,7 @@ def _several(table: Any, plain: Any) -> Any:
 
     def read(reader: Reader, path: str, value: Any) -> Any:
         if isinstance(value, list):
-            items = {f"{path}[{i}]": item for i, item in enumerate(value)}
+            items = {f"{path}.{i}": item for i, item in enumerate(value)}
             found = reader.read_each(items, table)
             return [each for some in found for each in some]
         return plain(reader, path, value)
@@ -333,7 +333,7 @@ def _filters(reader: Reader, path: str, data: Any) -> Any:
     """A list of filters."""
     if not isinstance(data, list):
         raise wrong(path, "must be a table, headed [[life.filters]]", data)
-    return reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, _filter)
+    return reader.read_each({f"{path}.{i}": each for i, each in enumerate(data)}, _filter)
 
 
 FILTERS = Key(

@@ -483,7 +483,8 @@ def _read_word_or_number(reader: Reader, path: str, value: Any) -> str | float:
 def _read_text(reader: Reader, path: str, value: Any) -> str:
     if isinstance(value, str):
         return value
-    raise wrong(path, f'must be text in quotes, e.g. "{value}"', value)
+    simple = isinstance(value, (int, float)) and not isinstance(value, bool)
+    raise wrong(path, "must be text in quotes" + f', e.g. "{value}"' * simple, value)
 
 
 def _read_switch(reader: Reader, path: str, value: Any) -> bool:

@@ -442,10 +442,10 @@ def preloaded_load(force: float, preload: float) -> float:
         return preload
 
     def excess(x: float) -> float:
-        other = 2 * preload ** (2 / 3) - x ** (2 / 3)
-        return x - max(other, 0.0) ** 1.5 - force
+        """Of F_1 = x F_0, which a preload of any size leaves near 1."""
+        return x - max(2 - x ** (2 / 3), 0.0) ** 1.5 - force / preload
 
-    return float(brentq(excess, preload, BALLS_RELIEVED * preload, xtol=1e-300, rtol=1e-14))
+    return preload * float(brentq(excess, 1.0, BALLS_RELIEVED, xtol=1e-300, rtol=1e-14))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

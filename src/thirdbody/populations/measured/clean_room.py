@@ -29,6 +29,7 @@ import numpy as np
 from ...errors import InvalidValue
 from ...numerics.quadrature import panel_rule
 from ...quantities.carried import takes_units
+from ...quantities.units import say
 from ..distributions import Distribution
 from ..tabulated_sizes import PowerLaw
 
@@ -59,8 +60,7 @@ def read_class(value: object) -> float:
     except ValueError:
         found = math.nan
     if isinstance(value, bool) or not 0 < found <= 9:
-        shown = f'"{value}"' if isinstance(value, str) else value
-        raise InvalidValue(f"{shown} is no class of ISO 14644-1, which go up to 9, e.g. 7")
+        raise InvalidValue(f"{say(value)} is no class of ISO 14644-1, which go up to 9, e.g. 7")
     return found
 
 

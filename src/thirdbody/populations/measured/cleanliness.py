@@ -499,7 +499,7 @@ def dust_table(name: str) -> dict[str, Any]:
         A name that is not a grade.
     """
     dusts = _table("test_dust")
-    if name not in dusts:
+    if not isinstance(name, str) or name not in dusts:
         known = ", ".join(f"{say(key)} ({dust['name']})" for key, dust in dusts.items())
         raise InvalidValue(f"test dust {say(name)} must be one of {known}")
     return dusts[name]

@@ -221,7 +221,7 @@ class OilCircuit(Value):
         for i, each in enumerate(self.filters):
             if each.flow is None:
                 rule = "is missing: oil through the filter [m^3/s]; 60 L/min is 1e-3"
-                yield Problem(f"filters[{i}].flow", rule)
+                yield Problem(f"filters.{i}.flow", rule)
             if self.classes is not None:
                 low, high = self.classes.edges[0], self.classes.edges[-1]
                 missed = [x for x in each.sizes if not low <= x <= high]
@@ -238,7 +238,7 @@ class OilCircuit(Value):
             for i, each in enumerate(getattr(self, name) or ()):
                 if each.material.density is None:
                     rule = "is missing: the mass of particles is counted [kg/m^3]"
-                    yield Problem(f"{name}[{i}].material.density", rule)
+                    yield Problem(f"{name}.{i}.material.density", rule)
 
     # -------------------------------------------------------------------------- what is in it
     @property
