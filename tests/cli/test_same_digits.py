@@ -16,7 +16,7 @@ from .test_cli import run
 openpyxl = pytest.importorskip("openpyxl", reason="needs the extra: pip install 'thirdbody[xlsx]'")
 
 SIZES = {
-    "": "1", "nm": "1e-9", "µm": "1e-6", "mm": "1e-3", "m": "1", "Pa": "1", "kPa": "1e3",
+    "": "1", "N": "1", "nm": "1e-9", "µm": "1e-6", "mm": "1e-3", "m": "1", "Pa": "1", "kPa": "1e3",
     "MPa": "1e6", "GPa": "1e9", "%": "0.01", "m/s": "1",
 }  # fmt: skip
 HELD = 1e-15
@@ -103,8 +103,10 @@ def compare_tables(printed, drawn, *, most=20):
     ]  # fmt: skip
     for told, held in zip(rows, every, strict=True):
         for text, name, cell in zip(told, names, held, strict=True):
+            text = re.sub(r"(?<=\d)\s(?=\d{3}\b)", "", text)  # thousands
             if (value := si(text)) is None:
-                assert shown(cell) == text
+                unit = name.partition(" [")[2].removesuffix("]")
+                assert f"{shown(cell)} {unit}".rstrip() == text
             else:
                 assert isinstance(cell.value, (int, float)), (name, text)
                 assert shown_in_si(name, cell) == value, (name, text)
@@ -197,6 +199,31 @@ def test_a_film(folder):
             assert text in (value.value, NOT_KNOWN, f"{shown(value)} {unit.value or ''}".strip())
         else:
             assert shown_in_si(f"[{unit.value or ''}]", value) == amount
+
+
+@pytest.mark.parametrize("fine", [(), ("--filter", "5=75, 10=1000")], ids=["as it is", "filter"])
+def test_what_the_oil_does_is_in_numbers(folder, fine):
+    """The populations and the balls of a bearing: numbers in one unit, as they are printed."""
+    run("new", "ball-bearing")
+    done = run("film", "ball-bearing.toml", "--xlsx", "a.xlsx", *fine)
+    assert done.exit_code == 0, done.output
+    (book,) = (openpyxl.load_workbook("a.xlsx")["Answer"],)
+    heads, rows = grid(book, "place")
+    printed = printed_table(run("film", "ball-bearing.toml").stdout, "place")[1]
+    assert heads[1:4] == ["load [N]", "p_0 inner [GPa]", "p_0 outer [GPa]"]
+    for told, held in zip(printed, rows, strict=True):
+        assert [shown_in_si(heads[i], held[i]) for i in (1, 2, 3)] == [
+            si(told[i]) for i in (1, 2, 3)
+        ]
+    if not fine:
+        heads, rows = grid(book, "population")
+        assert heads[4:] == ["depth [nm]", "5 % above [nm]", "deepest [µm]", "width [µm]"]
+        assert {row[0].value: row[4].value for row in rows} == {"dust": 397, "steel debris": 51}
+        return
+    held = {row[0].value: [cell.value for cell in row[1:3]] for row in book.iter_rows()}
+    assert held["dust: depth [nm]"] == [397, 300]
+    assert held["dust: deepest of an hour [nm]"] == [3660, 556]
+    assert held["ISO 4406 code"] == ["18/16/13", "13/9/3"]
 
 
 def test_what_a_cell_shows_is_what_is_printed():

@@ -184,7 +184,10 @@ def test_a_sweep_has_tables_beside_its_folder(tmp_path, design):
     name = "h [m]" if design == "sampled" else "h_quantile [m]"
     assert [float(row[name]) for row in rows] == held[name[:-4]][:].ravel().tolist()
     sheets = openpyxl.load_workbook(book)
-    assert sheets.sheetnames == ["States", "Notes"]
+    assert sheets.sheetnames == ["Answer", "States", "Notes"]
+    told, answer = (cell.value for cell in sheets["Answer"]["A"] if cell.value)
+    assert told.startswith("Sweep of study.toml (thirdbody")
+    assert answer in " ".join(done.stdout.split())
     assert [cell.value for cell in sheets["States"][1]] == list(rows[0])
     if design == "sampled":
         assert {row["status"] for row in rows} == {"ok"}

@@ -21,7 +21,7 @@ def _sentence(each: Nature) -> str:
     of = f" ({each.material})" if each.material not in ("", each.name) else ""
     current = CURRENT[each.conducts] if each.conducts is not None else "may conduct or not"
     since = value_of(each.breaks_from, "m", 2)
-    kept = 'is kept whole: strength = "material" lets it'
+    kept = 'is kept whole without strength = "material"'
     end = {
         "breaks": f"breaks from {since} on",
         "would break": f"would break from {since} on, but {kept}",

@@ -9,8 +9,9 @@ from ..errors import ranked
 from ..populations.materials import NUMBERS
 from ..quantities.say import unit_of
 from ..version import __version__
+from .printed_tables import grid_of_words
 from .report.sources import Row, alike, value_rows
-from .study_sheets import amount_cells, grid_of_words, note_line
+from .study_sheets import amount_cells, note_line
 from .workbook import Grid, Sheet, sheet_of_table
 
 if TYPE_CHECKING:

@@ -41,7 +41,6 @@ __all__ = [
     "amount_cells",
     "film_sheets",
     "grid_of",
-    "grid_of_words",
     "note_line",
     "state_sheets",
 ]
@@ -118,11 +117,6 @@ def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
     """A table for readers, each column in the unit that suits most of its values."""
     drawn = [each.column(np.atleast_1d(values[each.name]).tolist()) for each in columns]
     return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))
-
-
-def grid_of_words(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Grid:
-    """A table of the screen as it is printed: words, and numbers with their units."""
-    return Grid(list(heads), [tuple(row) for row in rows])
 
 
 def _with_column(grid: Grid, head: str, words: Sequence[Any]) -> Grid:

@@ -147,16 +147,21 @@ def _data(found: _Found) -> dict[str, Any]:
 
 
 def _sheets(found: _Found) -> list[Sheet]:
-    from ...views import oil_words
+    from ...views import bearing_words, oil_words
     from ...views.film_words import bodies
-    from ...views.study_sheets import film_sheets, grid_of_words
+    from ...views.printed_tables import grid_of_words
+    from ...views.study_sheets import film_sheets
 
     told: list[str | Grid] = [*found.answer()]
     if found.oil is not None:
         told.append(grid_of_words(*found.oil_table()))
-    most = oil_words.uncertainty(found.what_ifs)
-    rest = [*most, *found.natures(), bodies(found.result), *found.rest()]
-    return film_sheets(found.result, [*told, *rest])
+    told += [*oil_words.uncertainty(found.what_ifs), *found.natures()]
+    if bearing_words.shares_load(study := found.result.study):
+        told += [
+            bearing_words.sharing(study),
+            grid_of_words(bearing_words.HEADS, bearing_words.rows(study)),
+        ]
+    return film_sheets(found.result, [*told, bodies(found.result), *found.rest()])
 
 
 def _show(found: _Found) -> None:

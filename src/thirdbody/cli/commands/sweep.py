@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue, NoEquilibrium
-from ...quantities.say import join_words, percent, value_of
+from ...quantities.say import join_words, percent, plural, value_of
 from ..interrupt import Interrupted
 from ..options import Force, ParquetFile, Settings, XlsxFile, argument, option, tell_notes
 from ..show import terminal
@@ -96,7 +96,7 @@ def command(options: Options) -> None:
             client.close()
     if files.paths:
         with folder.open() as data:
-            files.write(*_table(data), sheets=partial(_sheets, data))
+            files.write(*_table(data), sheets=partial(_sheets, data, options.study))
         tell_written(*files.paths)
     _tell(folder)
 
@@ -134,8 +134,8 @@ def _table(data: xarray.Dataset) -> tuple[dict[str, Any], dict[str, str]]:
     return columns, units
 
 
-def _sheets(data: xarray.Dataset) -> list[Sheet]:
-    """The states, what their columns are, and what the sweep warns of."""
+def _sheets(data: xarray.Dataset, study: Path) -> list[Sheet]:
+    """The answer, the states, what their columns are, and what the sweep warns of."""
     from ...quantities.say import unit_of
     from ...views.workbook import Grid, Sheet, sheet_of_table
 
@@ -147,7 +147,9 @@ def _sheets(data: xarray.Dataset) -> list[Sheet]:
     ]
     notes = [(line, "", "") for name in ("warnings", "citations", "version")
              for line in str(data.attrs[name]).splitlines()]  # fmt: skip
+    title = f"Sweep of {study.name} (thirdbody {data.attrs['version']})"
     return [
+        Sheet("Answer", tuple(_answer(data)), title=title),
         sheet_of_table("States", columns, units),
         Sheet("Notes", (Grid(("column", "unit", "meaning"), told), Grid(("note", "", ""), notes))),
     ]
@@ -204,7 +206,8 @@ def _answer(data: xarray.Dataset) -> list[str]:
         ends = [float(each) for each in (column.min(), column.max())]
         if all(map(math.isfinite, ends)):
             told.append(words.format(" to ".join(dict.fromkeys(map(say, ends)))))
-    over = "Over all states" if "h" in data else "On average over what is drawn"
+    over = f"Over {plural(math.prod(data.sizes.values()), 'state')}"
+    over = over if "h" in data else "On average over what is drawn"
     return [f"{over}, {join_words(told)}."] if told else []
 
 
