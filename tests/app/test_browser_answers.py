@@ -130,9 +130,13 @@ def test_a_force_is_answered_as_the_command_line_does(visit):
     told = run_study(check(BALL))["body"]["sentences"]
     page = visit(BALL)
     page.locator('[data-fact="force"]', has_text="20 N on the body").wait_for()
-    assert fact(page, "force").split(". ")[0] == told[0].split(". ")[0]
+    assert fact(page, "force") == told[0].split(". ")[0] + "."
     page.locator('[data-fact="preliminary"]').wait_for(state="hidden")
-    assert fact(page, "force") == told[0]
+    rest = page.locator('[data-fact="force in full"]')
+    assert f"{fact(page, 'force')} {rest.text_content()}" == told[0]
+    assert not rest.is_visible()
+    page.locator('[data-fold="force"] .q-item').click()
+    rest.wait_for()
     page.locator(".grain").first.wait_for()
     assert page.locator(".grain").count() == 1
     one = re.search(r"One contact in \d+ meets a particle", told[0])[0]
@@ -294,3 +298,33 @@ def test_sliders_are_read_out_with_their_values(visit):
         arg=before,
         polling=100,
     )
+
+
+def test_the_study_before_is_there_after_a_reload(visit):
+    """As it was opened and as it was kept; a slider moves it on before and after the reload."""
+    page = visit(BALL, "before_after")
+    rows = page.locator("table").first
+
+    def pressed(key):
+        before = rows.inner_text()
+        moved(page, "particles.iso4406", key)
+        page.wait_for_function(
+            "old => document.querySelector('table').innerText !== old", arg=before, polling=100
+        )
+
+    rows.wait_for()
+    pressed("ArrowRight")
+    page.get_by_text("particles.iso4406: 18/16/13 → 19/17/14").wait_for()
+    page.wait_for_function("() => location.search.includes('&opened=')", polling=100)
+    page.reload()
+    page.get_by_text("particles.iso4406: 18/16/13 → 19/17/14").wait_for()
+    page.locator('[data-path="before.keep"]').click()
+    page.get_by_text("particles.iso4406: 18/16/13 → 19/17/14").wait_for(state="detached")
+    pressed("ArrowRight")
+    page.wait_for_function("() => location.search.includes('&beside=')", polling=100)
+    page.reload()
+    page.get_by_text("particles.iso4406: 19/17/14 → 20/18/15").wait_for()
+    assert page.locator('[data-path="before"]').input_value() == "as it was kept"
+    page.locator('[data-path="before.back"]').click()
+    page.get_by_text("particles.iso4406: 19/17/14 → 20/18/15").wait_for(state="detached")
+    shot(page, "before")

@@ -11,12 +11,22 @@ from urllib.parse import quote
 
 from nicegui import ui
 
+from ..errors import InvalidValue
 from .state import State
-from .text import LONGEST_LINK, to_link
+from .text import LONGEST_LINK, from_link, to_link
 from .uploads import harmless
 from .widgets import set_attributes
 
-__all__ = ["FOLLOW", "TRAVELLED", "Address", "files_in", "query_of", "surface_in"]
+__all__ = [
+    "FOLLOW",
+    "TRAVELLED",
+    "Address",
+    "beside_in",
+    "beside_query",
+    "files_in",
+    "query_of",
+    "surface_in",
+]
 
 REST = 0.25
 """Seconds without a change after which the address follows: browsers refuse many in a row."""
@@ -54,6 +64,45 @@ def query_of(state: State, at: float | None) -> str:
     if state.surface:
         query += "&surface=" + quote(json.dumps(state.surface, ensure_ascii=False))
     return query
+
+
+def beside_query(state: State, room: int) -> str:
+    """What an address of so much room tells of the studies that lie beside this one.
+
+    They are the one as it was opened, where that is another, the one that was kept, and which of
+    them, or of the examples, the tab lays beside.
+    """
+    studies = {"opened": state.opened if state.opened != state.study else None, "kept": state.kept}
+    told = {name: _code(study) for name, study in studies.items() if study is not None}
+    if state.beside:
+        told["beside"] = quote(state.beside)
+    out = "".join(f"&{name}={text}" for name, text in told.items())
+    return out if len(out) <= room else ""
+
+
+def _code(study: dict[str, object]) -> str:
+    return to_link(study).removeprefix("study=")
+
+
+def beside_in(
+    query: Mapping[str, str],
+) -> tuple[dict[str, object] | None, dict[str, object] | None, str]:
+    """The study as it was opened and the one that was kept, and the name of what lies beside.
+
+    What an address does not tell, or not well, is None, or empty.
+
+    >>> beside_in({"kept": "x", "beside": "as it was kept"})
+    (None, None, 'as it was kept')
+    """
+    opened, kept = (_study_in(query.get(name, "")) for name in ("opened", "kept"))
+    return opened, kept, query.get("beside", "")
+
+
+def _study_in(code: str) -> dict[str, object] | None:
+    try:
+        return from_link(code) if code else None
+    except InvalidValue:
+        return None
 
 
 def files_in(query: Mapping[str, str]) -> dict[str, str]:
@@ -101,7 +150,8 @@ class Address:
 
     def _now(self) -> tuple[Any, ...]:
         state = self.state
-        return state.study, state.wanted, state.tab, state.file_keys(), dict(state.surface)
+        of_study = state.study, state.wanted, state.tab, state.file_keys(), dict(state.surface)
+        return *of_study, state.opened, state.kept, state.beside
 
     def tell(self) -> str:
         """Follow the study; what is to be said about it."""
@@ -125,6 +175,8 @@ class Address:
         _, at, tab, *_ = now
         self.tabs += tab != self.told[2]
         self.told = now
-        query = "" if self._too_long() else f"{query_of(self.state, at)}&"
+        query = "" if self._too_long() else query_of(self.state, at)
+        if query:
+            query += beside_query(self.state, LONGEST_LINK - len(query)) + "&"
         step = str(self.state.steps + self.tabs)
         set_attributes(self.mark, {"data-step": step, "data-address": f"?{query}tab={tab}"})

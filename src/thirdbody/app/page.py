@@ -13,7 +13,7 @@ from nicegui import events, run, ui
 from starlette.datastructures import QueryParams
 
 from ..errors import InvalidValue, ThirdBodyError
-from .address import FOLLOW, TRAVELLED, Address, files_in, surface_in
+from .address import FOLLOW, TRAVELLED, Address, beside_in, files_in, surface_in
 from .examples import EXAMPLES, example
 from .folders import Folders
 from .look import LOOK, RESIZE
@@ -70,7 +70,8 @@ class Start:
         """The state of a new page: that of the link, or the start; and what to tell."""
         own = self.folders.new()
         study, at, tab, told = self.read(query)
-        named = files_of(study)
+        opened, kept, beside = beside_in(query) if "study" in query else (None, None, "")
+        named = [name for each in (study, opened or {}, kept or {}) for name in files_of(each)]
         if self.folder is not None:
             for name in files_of(self.study):
                 beside = self.folder / name
@@ -78,6 +79,7 @@ class Start:
                     shutil.copyfile(beside, own / Path(name).name)
         state = State(study, own, at, later=True)
         state.tab = tab
+        state.opened, state.kept, state.beside = opened or study, kept, beside
         state.shelf = self.folders.shelf
         self.give(state, query)
         return state, told

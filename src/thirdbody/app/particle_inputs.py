@@ -33,6 +33,10 @@ def bins_in_words(given: dict[str, Any]) -> str:
     return f"{len(edges) - 1} bins from {ends[0]} to {ends[-1]}"
 
 
+CURRENT = {"": "as the material", "yes": "they conduct", "no": "they insulate"}
+"""What may be said of a current through the particles."""
+
+
 class ParticleInputs(Entries):
     """Widgets of [particles] and [particle_law]."""
 
@@ -75,6 +79,12 @@ class ParticleInputs(Entries):
         if not isinstance(table.get("strength"), dict):  # a table stands in the file alone
             about = "material: that of the library; empty: never break"
             self.field(place, Field(name="strength", kind="string", label="strength", about=about))
+        flows = table.get("conducts")
+        said = "yes" if flows is True else "no" if flows is False else ""
+        self.select(
+            (*place, "conducts"), CURRENT, said, "current",
+            lambda word: self.state.set(*place, "conducts", {"yes": True, "no": False}.get(word)),
+        )  # fmt: skip
         if kind != "weibull":  # whose own shape has the name
             label = "shape of these particles"
             self.variant((*place, "shape"), VARIANTS["shape"], "sphere", label, tag="kind")

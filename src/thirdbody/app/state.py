@@ -304,6 +304,8 @@ class State:
         """The study as it was opened."""
         self.kept: Tables | None = None
         """A study that was kept, to lay this one beside it."""
+        self.beside = ""
+        """Which study the tab of both lays beside this one, where somebody chose it."""
         self.past: list[tuple[Tables, float | None]] = []
         """Study and operating load before each step."""
         self.steps = 0
@@ -438,8 +440,10 @@ class State:
         self.tell()
 
     def file_keys(self) -> dict[str, str]:
-        """The files that study and tabs name, with their keys."""
-        names = [*files_of(self.study), self.surface.get("file", "")]
+        """The files that studies and tabs name, with their keys."""
+        studies = [self.study, self.opened, self.kept or {}]
+        names = [*(name for each in studies for name in files_of(each))]
+        names.append(self.surface.get("file", ""))
         return {name: self.files[name] for name in names if name in self.files}
 
     # ------------------------------------------------------------------ measured surfaces

@@ -209,7 +209,8 @@ class BeforeAfter:
         self.start = ui.label().classes("stale").props('data-fact="before begun"')
         self.wrong = ui.label().classes("problem").props('role=alert data-said="before"')
         with ui.row().classes("w-full items-end gap-3"):
-            self.which = ui.select(self._options(), value=OPENED, label="before")
+            chosen = state.beside if state.beside in self._options() else OPENED
+            self.which = ui.select(self._options(), value=chosen, label="before")
             set_attributes(
                 self.which.props("dense options-dense").classes("wide"), {"data-path": "before"}
             )
@@ -221,7 +222,7 @@ class BeforeAfter:
         self.rows = ui.column().classes("w-full scroll-x")
         with ui.element("div").classes("figures w-full"):
             self.plots = {name: Plot(f"before {name}", 340) for name in ("shares", "area")}
-        self.which.on_value_change(state.tell)
+        self.which.on_value_change(self._chosen)
 
     def _options(self) -> list[str]:
         return [OPENED, *([KEPT] if self.state.kept is not None else []), *EXAMPLES]
@@ -233,10 +234,15 @@ class BeforeAfter:
             return self.state.kept
         return self.state.opened if name in (OPENED, KEPT) else example(name)
 
+    def _chosen(self) -> None:
+        name = str(self.which.value)
+        self.state.beside = "" if name == OPENED else name
+        self.state.tell()
+
     def _keep_study(self) -> None:
         self.state.kept = self.state.study
         self.which.set_options(self._options(), value=KEPT)
-        self.state.tell()
+        self._chosen()
 
     def _back(self) -> None:
         self.state.replace(self._before())

@@ -29,7 +29,7 @@ from ...study.load import force_sentences, told_forces
 from ...systems.bodies import Pressed, press
 from ..cross_section import section, to_svg
 from ..state import Answer, State
-from ..widgets import Facts
+from ..widgets import Facts, set_attributes
 
 __all__ = ["TITLE", "abouts", "build", "drawing_of", "facts_of", "headline", "swatch"]
 
@@ -42,6 +42,7 @@ PLACE = (
     "What follows is a place of this contact where the pressure is that of the slider, which "
     "begins at the mean and goes up to the largest."
 )
+FORCED = "What the force does to the whole contact"
 FIRST = "Preliminary: the integral over the contact follows."
 RESTS = 0.4
 """Seconds after which what takes long is computed for a study that has not changed."""
@@ -183,8 +184,12 @@ class Force:
         with self.box:
             self.said = ui.label().classes("whole-contact").props('data-fact="force" role=status')
             self.first = ui.label(FIRST).classes("stale").props('data-fact="preliminary"')
-            self.warned = ui.label().classes("problem").props('data-fact="force warning"')
-            self.place = ui.label(PLACE).classes("hint")
+            self.fold = ui.expansion(FORCED).classes("w-full").props("dense")
+            set_attributes(self.fold, {"data-fold": "force"})
+            with self.fold:
+                self.rest = ui.label().props('data-fact="force in full"')
+                self.warned = ui.label().classes("problem").props('data-fact="force warning"')
+                self.place = ui.label(PLACE).classes("hint")
         self.box.set_visibility(False)
         self.shown: Answer | None = None
         """Whose integral is shown, or asked for."""
@@ -204,7 +209,10 @@ class Force:
         if not found:
             return
         follows = not whole and found[0].kind != "flat"
-        self.said.set_text(" ".join(force_sentences(found)))
+        first, rest = first_and_rest(force_sentences(found))
+        self.said.set_text(first)
+        self.rest.set_text(rest)
+        self.fold.set_visibility(bool(rest) or found[0].kind != "flat")
         self.first.set_visibility(follows)
         warned = [text for each in found for text in each.warnings]
         self.warned.set_text(f"Warning: {'; '.join(warned)}." if warned else "")
@@ -238,6 +246,16 @@ class Force:
         # what is drawn counts particles on the area that carries, known only now; of another
         # answer meanwhile the integral is asked for
         await self.redraw()
+
+
+def first_and_rest(sentences: list[str]) -> tuple[str, str]:
+    """The first sentence of several texts, and all the others.
+
+    >>> first_and_rest(["2 N on a ball: 0.1 mm² wide. It yields. So far.", "3 N on it. None."])
+    ('2 N on a ball: 0.1 mm² wide.', 'It yields. So far. 3 N on it. None.')
+    """
+    first, _, rest = " ".join(sentences).partition(". ")
+    return f"{first.removesuffix('.')}.", rest
 
 
 def at_once(answer: Answer) -> list[Pressed]:
