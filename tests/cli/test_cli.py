@@ -518,10 +518,30 @@ def test_version():
     assert (result.exit_code, result.stdout) == (0, f"thirdbody {tb.__version__}\n")
 
 
-@pytest.mark.parametrize("command", ["solve", "compare", "reproduce", "laws", "materials"])
-def test_help(command):
-    assert command in run("--help").stdout
-    assert run(command, "--help").exit_code == 0
+COMMANDS = re.findall(r"(?m)^  ([a-z]+) {2,}\S", run("--help").stdout.partition("Commands:")[2])
+
+
+def test_help_lists_every_command_in_a_whole_sentence(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    lines = run("--help").stdout.partition("Commands:\n")[2].splitlines()
+    assert len(lines) == len(COMMANDS) > 15
+    assert [line for line in lines if not re.search(r"[^.]\.$|\w \.\.\.$", line)] == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help(command, monkeypatch):
+    """Within 80 columns, every option with a sentence, and no type of Python in its place."""
+    monkeypatch.setenv("COLUMNS", "80")
+    done = run(command, "--help")
+    assert done.exit_code == 0
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    options = done.stdout.partition("Options:\n")[2]
+    every = re.split(r"(?m)^  (?=--)", options)[1:]
+    assert len(every) > 1
+    for each in every:
+        name, _, text = " ".join(each.split()).partition(" ")
+        assert re.search(r"[A-Z0-9][^<>]{8,}\.", text), name
+        assert not re.search(r"<(str|int|float|list|path)", each), name
 
 
 def test_laws_come_from_the_registries():

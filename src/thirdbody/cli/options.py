@@ -40,31 +40,40 @@ __all__ = [
     "with_common_options",
 ]
 
-StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")]
+StudyFile = Annotated[
+    Path,
+    typer.Argument(metavar="STUDY.toml", help="A study file; `thirdbody new KIND` writes one."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 JsonFile = Annotated[
     Path | None,
     typer.Option(
         "--json",
         metavar="[FILE.json]",
-        help="Print one JSON object and nothing else; behind it a file, write it there.",
+        help="Print one JSON object and nothing else, or write it to FILE.json.",
     ),
 ]
 XlsxFile = Annotated[
     Path | None,
-    typer.Option("--xlsx", metavar="FILE", help="The same as a workbook (needs openpyxl)."),
+    typer.Option("--xlsx", metavar="FILE", help="Write a workbook, e.g. a.xlsx (needs openpyxl)."),
 ]
 ParquetFile = Annotated[
     Path | None,
-    typer.Option("--parquet", metavar="FILE", help="The same as Parquet (needs pyarrow)."),
+    typer.Option(
+        "--parquet",
+        metavar="FILE",
+        help="Write the rows as Parquet, e.g. a.parquet (needs pyarrow).",
+    ),
 ]
-Force = Annotated[bool, typer.Option("--force", help="Replace files that thirdbody did not make.")]
+Force = Annotated[
+    bool, typer.Option("--force", help="Write over files that thirdbody did not make, too.")
+]
 Settings = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
         metavar="KEY=VALUE",
-        help='Change a key of the file, e.g. particles.mean="500 nm"; may be repeated.',
+        help='Change a key for this run, e.g. particles.mean="500 nm"; may be repeated.',
     ),
 ]
 FilterText = Annotated[

@@ -20,16 +20,29 @@ def command(
         Path | None,
         typer.Argument(metavar="[STUDY.toml]", help="A study file to open with; else an example."),
     ] = None,
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="0 for a free one.")] = 8765,
+    port: Annotated[
+        int,
+        typer.Option(
+            "--port",
+            min=0,
+            max=65535,
+            metavar="NUMBER",
+            help="Port of the page; 0 takes a free one.",
+        ),
+    ] = 8765,
     host: Annotated[
         str,
-        typer.Option("--host", help="Address to listen on; others than this machine's let it in."),
+        typer.Option(
+            "--host",
+            metavar="ADDRESS",
+            help="Address to listen on; 0.0.0.0 lets other machines in.",
+        ),
     ] = "127.0.0.1",
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
     ] = True,
 ) -> None:
-    """The page in the browser: move a slider and see the interface answer."""
+    """The page in the browser, where sliders move the answer."""
     if importlib.util.find_spec("nicegui") is None:
         raise InvalidValue(
             "thirdbody app needs NiceGUI, which is not installed: pip install 'thirdbody[app]'"

@@ -20,13 +20,18 @@ class Options:
         "A study file; its table [uncertainty] says what scatters.", "STUDY.toml"
     )
     as_json: AsJson = False
-    html: Path | None = option("--html", "Write the page with figures, one file.", "FILE")
+    html: Path | None = option(
+        "--html", "Write the page with figures, one file, e.g. a.html.", "FILE"
+    )
     force: Force = False
     settings: Settings = None
 
 
 def command(options: Options) -> None:
-    """One page: the mode at each operating load, how sure it is, and what would change it."""
+    """How sure the answer of a study is, and what would change it.
+
+    One page: the mode at each operating load, its odds, margins and the inputs that matter.
+    """
     from ...quantities.files import write_text
     from ...study.analyses import assess_study
     from ...views.assess_page import page

@@ -61,9 +61,16 @@ class Options:
         'Asperity laws, e.g. ke,jg, or "all"; without it all but adhesive and elliptic.',
         "NAMES",
     )
-    at: str = option("--at", f"Which load the table shows: {', '.join(PLACES)}.", default="middle")
-    out: Path | None = option("--out", "Folder for compare.csv, .png and .svg.", "DIR")
-    csv: Path | None = option("--csv", "Write a row for each law and load.", "FILE")
+    at: str = option(
+        "--at",
+        f"Which load of the study the table shows: {', '.join(PLACES)}.",
+        "PLACE",
+        default="middle",
+    )
+    out: Path | None = option("--out", "Write compare.csv, .png and .svg into a folder.", "DIR")
+    csv: Path | None = option(
+        "--csv", "Write a table, one row per law and load, e.g. a.csv.", "FILE"
+    )
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
     force: Force = False
@@ -71,7 +78,7 @@ class Options:
 
 
 def command(options: Options) -> None:
-    """The interface of a study under every asperity law, against the law the study names."""
+    """A study under every asperity law, beside its own."""
     from ...analysis.compare import Persson, compared
     from ..own_files import refuse_strangers
 

@@ -30,16 +30,23 @@ class Options:
 
     study: Path = argument("A study file with a table [design].", "STUDY.toml")
     json: JsonFile = None
-    csv: Path | None = option("--csv", "Write every point tried.", "FILE")
+    csv: Path | None = option(
+        "--csv", "Write a table, one row per point tried, e.g. a.csv.", "FILE"
+    )
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
     force: Force = False
-    figure: Path | None = option("--figure", "Draw the points tried.", "FILE")
+    figure: Path | None = option(
+        "--figure", "Draw the points tried, as .png, .svg or .pdf.", "FILE"
+    )
     settings: Settings = None
 
 
 def command(options: Options) -> None:
-    """The best size, concentration or roughness over a range of loads, under limits."""
+    """The best size, concentration or roughness, under limits.
+
+    Over a range of loads.
+    """
     from ...study.analyses import design_study
 
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)

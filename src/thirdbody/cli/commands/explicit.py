@@ -30,24 +30,35 @@ class Options:
     """What the command is told."""
 
     study: StudyFile
-    surfaces: int | None = option("--surfaces", "How many synthetic surfaces.")
-    size: int | None = option("--size", "Points along each side of a surface.")
-    spacing: str | None = option("--spacing", 'Of the points: "100 nm".', "LENGTH")
-    seats: str | None = option("--seats", "Where particles lie, e.g. random, settled, valleys.")
-    maps: str = option("--maps", "Maps to keep.", "last|all", default="last")
+    surfaces: int | None = option("--surfaces", "How many synthetic surfaces, e.g. 4.", "N")
+    size: int | None = option("--size", "Points along each side of a surface, e.g. 256.", "N")
+    spacing: str | None = option(
+        "--spacing", 'Distance between the points, e.g. "100 nm".', "LENGTH"
+    )
+    seats: str | None = option(
+        "--seats",
+        "Where particles lie: random, settled, downhill, valleys, highest, summits.",
+        "NAME",
+    )
+    maps: str = option("--maps", "Loads whose maps are kept in DIR.", "last|all", default="last")
     out: Path | None = option(
-        "--out", "Folder for states.csv, maps.nc, explicit.png and .json.", "DIR"
+        "--out", "Write states.csv, maps.nc, explicit.png and .json into a folder.", "DIR"
     )
     workers: int = option("--workers", "Threads that press a surface each.", "N", default=1)
     scheduler: str | None = option(
-        "--scheduler", "A Dask cluster that presses them instead.", "ADDRESS"
+        "--scheduler",
+        "A Dask cluster that presses them instead, e.g. tcp://10.0.0.5:8786.",
+        "ADDRESS",
     )
     as_json: AsJson = False
     settings: Settings = None
 
 
 def command(options: Options) -> None:
-    """The loads of a study on maps of heights, with every particle at its place."""
+    """A study pressed point by point, every particle at its place.
+
+    On maps of heights, as measured or made; it takes seconds to minutes.
+    """
     from ...quantities.run_files import release_folder
     from ...study.run_explicit import claim_results, run_explicit
 

@@ -52,17 +52,22 @@ class Options:
 
     study: Path = argument("A study file with a table [film].", "STUDY.toml")
     json: JsonFile = None
-    csv: Path | None = option("--csv", "Write one row per speed.", "FILE")
+    csv: Path | None = option("--csv", "Write a table, one row per speed, e.g. a.csv.", "FILE")
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
     force: Force = False
-    figure: Path | None = option("--figure", "Draw the curve over speed.", "FILE")
+    figure: Path | None = option(
+        "--figure", "Draw the curve over speed, as .png, .svg or .pdf.", "FILE"
+    )
     filter_text: FilterText = None
     settings: Settings = None
 
 
 def command(options: Options) -> None:
-    """Film, load shares and friction of a lubricated contact, at one speed or over many."""
+    """What an oil film and its dirt do: who carries, dents, life.
+
+    Of a lubricated contact, at one speed or over many.
+    """
     from ...study import run_film
     from ...study.dirty_oil import dirty_oil, need_particles, read_filter
     from ...study.oil_what_ifs import what_ifs_of_oil

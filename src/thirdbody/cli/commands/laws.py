@@ -26,7 +26,7 @@ def command(
         bool, typer.Option("--markdown", help="Print the page of asperity laws, docs/laws.md.")
     ] = False,
 ) -> None:
-    """The laws of asperities and particles, with citation and range."""
+    """The laws of asperities and particles, with their sources."""
     from ...laws import asperity, particle
 
     if as_json and as_page:

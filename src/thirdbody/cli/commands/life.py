@@ -22,17 +22,22 @@ class Options:
     )
     reports: Path | None = option(
         "--reports",
-        "Reports of the oil, time [h] and ISO 4406 code a line: print what enters it.",
+        "Print what enters the oil, from a file with a time [h] and an ISO 4406 code a line, "
+        "two or more, e.g. 500,18/16/13.",
         "OIL.csv",
     )
     flow_for: str | None = option(
-        "--flow-for", "The least flow of each filter with which the oil comes to a code.", "CODE"
+        "--flow-for",
+        "Print the least flow of each filter that brings the oil to a code, e.g. 16/14/11.",
+        "CODE",
     )
     json: JsonFile = None
-    csv: Path | None = option("--csv", "Write one row per time.", "FILE")
+    csv: Path | None = option("--csv", "Write a table, one row per time, e.g. a.csv.", "FILE")
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
-    figure: Path | None = option("--figure", "Draw codes, masses and flows of dirt.", "FILE")
+    figure: Path | None = option(
+        "--figure", "Draw codes, masses and flows of dirt, as .png, .svg or .pdf.", "FILE"
+    )
     force: Force = False
     settings: Settings = None
 

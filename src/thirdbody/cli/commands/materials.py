@@ -20,18 +20,30 @@ __all__ = ["command"]
 def command(
     query: Annotated[
         list[str] | None,
-        typer.Argument(help="Words of name, kind or description.", show_default=False),
+        typer.Argument(
+            metavar="WORD",
+            help="Words of name, kind or description, e.g. bearing steel; all materials without.",
+            show_default=False,
+        ),
     ] = None,
     own: Annotated[
         list[Path] | None,
-        typer.Option("--file", help="A TOML file of your own materials.", show_default=False),
+        typer.Option(
+            "--file",
+            metavar="FILE.toml",
+            help="A file of your own materials; may be repeated.",
+            show_default=False,
+        ),
     ] = None,
     as_json: AsJson = False,
     as_table: Annotated[
         bool, typer.Option("--markdown", help="Print the tables of the page docs/materials.md.")
     ] = False,
 ) -> None:
-    """The materials of the library, with range and source: thirdbody materials bearing steel."""
+    """The materials of the library, with range and source.
+
+    Words choose among them: thirdbody materials bearing steel
+    """
     from ...populations.materials import materials
 
     if as_json and as_table:

@@ -53,7 +53,9 @@ def command(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="STUDY.toml", help="The file to write, KIND.toml else."),
+        typer.Option(
+            "--out", metavar="STUDY.toml", help="Write the file here; KIND.toml without it."
+        ),
     ] = None,
     schema: Annotated[
         bool,
@@ -64,7 +66,7 @@ def command(
         ),
     ] = False,
 ) -> None:
-    """A commented study file that runs at once, to be changed into your own."""
+    """A study file that runs at once: start with this one."""
     from ...quantities.files import need_folders, write_text
     from ...quantities.nearest import guess
     from ...quantities.units import say

@@ -23,7 +23,10 @@ def command(
         bool, typer.Option("--markdown", help="Print the page of outputs, docs/outputs.md.")
     ] = False,
 ) -> None:
-    """The outputs of a contact: friction, temperature, conductance, wear ..., with their keys."""
+    """What else a contact can tell: friction, heat, wear, dents ...
+
+    Its outputs, each with the keys of its table in a study file.
+    """
     from ...views.outputs_page import entries, outputs_page
 
     if as_json and as_page:

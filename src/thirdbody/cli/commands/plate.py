@@ -26,14 +26,20 @@ def command(
     ],
     json_file: JsonFile = None,
     csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per particle.")
+        Path | None,
+        typer.Option(
+            "--csv", metavar="FILE", help="Write a table, one row per particle, e.g. a.csv."
+        ),
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
     force: Force = False,
     settings: Settings = None,
 ) -> None:
-    """How high a wafer, film or plate stands over a particle, and how often too high."""
+    """How high a wafer or plate stands over a particle.
+
+    And how often it is too high: bumps above a limit, plates without one.
+    """
     from ...study.run_plate import load_plate, run_plate
     from ...views.plate_words import MEANS, answer, heads, rows, uncertainty
 

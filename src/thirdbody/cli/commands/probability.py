@@ -26,14 +26,15 @@ def command(
     ],
     json_file: JsonFile = None,
     csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per force.")
+        Path | None,
+        typer.Option("--csv", metavar="FILE", help="Write a table, one row per force, e.g. a.csv."),
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
     force: Force = False,
     settings: Settings = None,
 ) -> None:
-    """How often a connector, relay or switch fails to close because of dust."""
+    """How often dust keeps a connector, relay or switch open."""
     from ...study.run_connector import load_connector, run_connector
     from ...views.connector_words import HEADS, MEANS, answer, rows, uncertainty
 

@@ -22,19 +22,28 @@ def command(
     study: StudyFile,
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="FILE", help="The page, one HTML file; report.html else."),
+        typer.Option(
+            "--out",
+            metavar="FILE",
+            help="Write the page here, one HTML file; report.html without it.",
+        ),
     ] = None,
     pdf_file: Annotated[
         Path | None,
         typer.Option(
-            "--pdf", metavar="FILE", help="The page on paper (needs Chromium, Chrome or Edge)."
+            "--pdf",
+            metavar="FILE",
+            help="Write it as PDF, e.g. a.pdf (needs Chromium, Chrome or Edge).",
         ),
     ] = None,
     force: Force = False,
     filter_text: FilterText = None,
     settings: Settings = None,
 ) -> None:
-    """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
+    """A report to hand on, as one HTML file or PDF.
+
+    With the answer, figures, tables, error bars and sources.
+    """
     from ...quantities.files import read_bytes
     from ...quantities.progress import stages
     from ...quantities.units import say

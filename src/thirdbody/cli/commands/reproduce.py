@@ -22,11 +22,11 @@ __all__ = ["command"]
 class Options:
     """What the command is told."""
 
-    paper: str = argument(f"One of: {', '.join(PAPERS)}.")
-    out: Path | None = option("--out", "Folder for figures and ledger.", "DIR")
+    paper: str = argument(f"One of: {', '.join(PAPERS)}.", "PAPER")
+    out: Path | None = option("--out", "Write figures and ledger into a folder.", "DIR")
     preset: str | None = option(
         "--preset",
-        "Reading that draws the figures of horng2022; quick: a minute of explicit.",
+        "Of horng2022 the reading of its equations, e.g. published; of explicit: quick, a minute.",
         "NAME",
     )
 

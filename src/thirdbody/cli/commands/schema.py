@@ -8,7 +8,10 @@ __all__ = ["command", "schema_text"]
 
 
 def command() -> None:
-    """JSON Schema of study files, by which editors complete them: thirdbody schema > FILE."""
+    """JSON Schema of study files, for editors.
+
+    They complete keys and words by it: thirdbody schema > FILE.json
+    """
     print(schema_text(), end="")
 
 

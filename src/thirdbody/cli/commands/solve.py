@@ -69,7 +69,7 @@ class Options:
 
     study: StudyFile
     json: JsonFile = None
-    csv: Path | None = option("--csv", "Write one row per state.", "FILE")
+    csv: Path | None = option("--csv", "Write a table, one row per state, e.g. a.csv.", "FILE")
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
     force: Force = False
@@ -77,7 +77,10 @@ class Options:
 
 
 def command(options: Options) -> None:
-    """Separation, real contact area, load shares and contact mode under the loads of a study."""
+    """Who carries the load of a study, and how close surfaces are.
+
+    Separation, real contact area, load shares and contact mode under each of its loads.
+    """
     from ...study import run_study
 
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)

@@ -37,25 +37,42 @@ MEANS = {
 class Options:
     """What the command is told."""
 
-    file: Path = argument('A measured surface or profile, or "example".', "FILE")
-    cutoff: str | None = option("--cutoff", 'E.g. "2 um"; 0 as sampled.', "LENGTH")
-    detrend: str | None = option("--detrend", "Form to remove: none, tilt (default) or curvature.")
-    unit: str | None = option("--unit", "Of a file that tells none, e.g. um.")
-    spacing: str | None = option("--spacing", "Of a file that tells none.", "LENGTH[,LENGTH]")
-    channel: str | None = option("--channel", "Number or name of a channel of the file.")
+    file: Path = argument(
+        'A measured surface or profile (x3p, sur, al3d, npy, txt, ...), or the word "example".',
+        "FILE",
+    )
+    cutoff: str | None = option(
+        "--cutoff", 'Waves shorter than this are left out, e.g. "2 um"; 0 leaves all in.', "LENGTH"
+    )
+    detrend: str | None = option(
+        "--detrend", "Form to remove: none, tilt (default) or curvature.", "FORM"
+    )
+    unit: str | None = option(
+        "--unit", "Unit of the heights, where the file says none: nm, um, mm or m.", "UNIT"
+    )
+    spacing: str | None = option(
+        "--spacing",
+        'Distance of the points, where the file says none, e.g. "0.5 um".',
+        "LENGTH[,LENGTH]",
+    )
+    channel: str | None = option(
+        "--channel",
+        "Number or name of a channel, of a file with several, e.g. 1 or Height.",
+        "NAME",
+    )
     resolution: str | None = option(
-        "--resolution", "Shortest wave the instrument tells apart.", "LENGTH"
+        "--resolution", 'Shortest wave that the instrument tells apart, e.g. "1 um".', "LENGTH"
     )
     json: JsonFile = None
-    csv: Path | None = option("--csv", "Write one row per cut-off.", "FILE")
+    csv: Path | None = option("--csv", "Write a table, one row per cut-off, e.g. a.csv.", "FILE")
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
     force: Force = False
-    out: Path | None = option("--out", "Folder for surface.png, .svg and .json.", "DIR")
+    out: Path | None = option("--out", "Write surface.png, .svg and .json into a folder.", "DIR")
 
 
 def command(options: Options) -> None:
-    """Moments and asperities of a measured surface, and what they owe to the cut-off."""
+    """Tip radius, roughness and asperities of a measured surface."""
     from ...populations.measured.topography import from_topography
     from ...quantities.files import refuse_clashes
     from ..own_files import refuse_strangers

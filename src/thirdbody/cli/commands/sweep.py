@@ -36,16 +36,24 @@ class Options:
     study: Path | None = argument(
         "A study file with a table [sweep].", "STUDY.toml", show_default=False, default=None
     )
-    out: Path | None = option("--out", "Folder for the states; the same command resumes.", "DIR")
-    format: str = option("--format", "Of the data in DIR.", "zarr|netcdf", default="zarr")
-    workers: int = option("--workers", "Threads that solve blocks of states.", "N", default=1)
+    out: Path | None = option(
+        "--out", "Write the states into a folder; the same command goes on with it.", "DIR"
+    )
+    format: str = option("--format", "Format of the data in DIR.", "zarr|netcdf", default="zarr")
+    workers: int = option(
+        "--workers", "Threads that solve blocks of states, e.g. 4.", "N", default=1
+    )
     scheduler: str | None = option(
-        "--scheduler", "A Dask cluster that solves them instead.", "ADDRESS"
+        "--scheduler",
+        "A Dask cluster that solves them instead, e.g. tcp://10.0.0.5:8786.",
+        "ADDRESS",
     )
     check: Path | None = option(
-        "--check", "Say instead whether a folder is as it was written.", "DIR"
+        "--check", "Say whether a folder of states is as it was written; stands alone.", "DIR"
     )
-    csv: Path | None = option("--csv", "Write one row per state of DIR, too.", "FILE")
+    csv: Path | None = option(
+        "--csv", "Write a table beside DIR, one row per state, e.g. a.csv.", "FILE"
+    )
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
     force: Force = False
@@ -53,7 +61,10 @@ class Options:
 
 
 def command(options: Options) -> None:
-    """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
+    """Many states, in a folder, on a grid, in pairs or sampled.
+
+    The same command goes on where it was interrupted.
+    """
     from ...analysis.sweep.streaming import run
 
     files = TableFiles(options.csv, options.xlsx, options.parquet)

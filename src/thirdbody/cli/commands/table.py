@@ -20,26 +20,34 @@ class Options:
     """What the command is told."""
 
     study: StudyFile
-    out: Path = option("--out", "The file to write.", "FILE", default=MISSING)
+    out: Path = option("--out", "Write the table here, e.g. a.inp.", "FILE", default=MISSING)
     form: str | None = option(
         "--format",
         "csv, abaqus, comsol, avl, python or c; without it by the suffix of FILE: "
         ".csv, .inp, .txt (COMSOL), .avl, .py, .c.",
         "NAME",
     )
-    tolerance: float = option("--tolerance", "Relative error of pressure and area.", default=1e-06)
-    low: str | None = option("--from", 'Lower end, e.g. "50 nm".', "LENGTH")
-    high: str | None = option("--to", 'Upper end, e.g. "0.4 um".', "LENGTH")
-    coordinate: str = option(
-        "--coordinate", "h, from the mean surface plane, or d as in solve.", default="h"
+    tolerance: float = option(
+        "--tolerance",
+        "Relative error of pressure and area between the rows.",
+        "NUMBER",
+        default=1e-06,
     )
-    units: str | None = option("--units", "SI or mm (mm, MPa), for abaqus and avl.")
+    low: str | None = option("--from", 'Least separation, e.g. "50 nm".', "LENGTH")
+    high: str | None = option("--to", 'Largest separation, e.g. "0.4 um".', "LENGTH")
+    coordinate: str = option(
+        "--coordinate",
+        "Separation from the mean surface plane, h, or from the mean asperity height, d.",
+        "h|d",
+        default="h",
+    )
+    units: str | None = option("--units", "Units of abaqus and avl: SI, or mm with MPa.", "SI|mm")
     force: Force = False
     settings: Settings = None
 
 
 def command(options: Options) -> None:
-    """Pressure and real area of a study's contact against separation, for other solvers."""
+    """Pressure and real area over the gap, for other solvers."""
     from ...equilibrium.table.make import table
     from ...equilibrium.table.writers import FORMATS, rounded_up
     from ..own_files import need_places
