@@ -81,7 +81,7 @@ def test_fields_take_any_text_as_text(payload, tmp_path):
             inputs.uncertain()
             for part in [each.name for each in TABLES if each.name not in FORMED]:
                 inputs.as_text(part)
-            inputs.tell()
+            inputs.show_mistakes()
             for element in client.elements.values():
                 holds = {k for k, v in element.props.items() if "__hit" in json.dumps(v)}
                 assert holds <= allowed, (name, holds)
@@ -128,7 +128,7 @@ def test_any_value_in_any_place_has_its_mistake_and_no_failure(value, tmp_path):
             for part in (*parts, "output_switches", "output_numbers"):
                 getattr(inputs, part)()
             inputs.uncertain()
-            inputs.tell()
+            inputs.show_mistakes()
 
 
 # ---------------------------------------------------------------- studies that are too large

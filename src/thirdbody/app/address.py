@@ -153,7 +153,7 @@ class Address:
         of_study = state.study, state.wanted, state.tab, state.file_keys(), dict(state.surface)
         return *of_study, state.opened, state.kept, state.beside
 
-    def tell(self) -> str:
+    def follow_study(self) -> str:
         """Follow the study; what is to be said about it."""
         if self._now() != self.told:
             if self.later is not None:

@@ -75,7 +75,7 @@ class Entries:
         """Where mistakes without a field stand, and which."""
 
     # ------------------------------------------------------------------ mistakes
-    def tell(self) -> None:
+    def show_mistakes(self) -> None:
         """Put every mistake beside its field, and the others where they can be seen."""
         left = list(self.state.problems)
         for name, (widget, read, show, whole) in self.shown.items():
@@ -150,7 +150,7 @@ class Entries:
             try:
                 self.state.set(name, read(event.value or ""))
             except InvalidValue:
-                self.state.tell()  # which reads it again, to put the mistake beside it
+                self.state.announce_change()  # which reads it again, to put the mistake beside it
 
         def show(table: Any) -> str:
             return "" if table is None else to_toml({name: table})

@@ -156,7 +156,7 @@ class NewStudy:
         """The page, and what is called with the tab that answers the new study first."""
         self.dialog = ui.dialog().props(':maximized="Quasar.Screen.lt.md" full-width')
         self.kind, self.which = "ball-bearing", "6205"
-        self.soon = Soon(self._tell)
+        self.soon = Soon(self._show_answer)
 
     def open(self) -> None:
         """Show the form, as it was left or with what it begins with."""
@@ -319,7 +319,7 @@ class NewStudy:
         self.draft.replace(with_oil(self.draft.study, word))
         self._again()
 
-    async def _tell(self) -> None:
+    async def _show_answer(self) -> None:
         """The mistakes of the draft, each beside its entry, or its answer so far."""
         draft = self.draft
         try:
@@ -334,7 +334,7 @@ class NewStudy:
         if draft is not self.draft or self.go.is_deleted:
             return
         self.inputs.rest = self.rest
-        self.inputs.tell()
+        self.inputs.show_mistakes()
         self.go.set_enabled(not draft.problems)
         self.said.set_text(with_micro(said))
 

@@ -70,7 +70,7 @@ class Start:
         """The state of a new page: that of the link, or the start; and what to tell."""
         own = self.folders.new()
         study, at, tab, told = self.read(query)
-        opened, kept, beside = beside_in(query) if "study" in query else (None, None, "")
+        opened, kept, chosen = beside_in(query) if "study" in query else (None, None, "")
         named = [name for each in (study, opened or {}, kept or {}) for name in files_of(each)]
         if self.folder is not None:
             for name in files_of(self.study):
@@ -79,7 +79,7 @@ class Start:
                     shutil.copyfile(beside, own / Path(name).name)
         state = State(study, own, at, later=True)
         state.tab = tab
-        state.opened, state.kept, state.beside = opened or study, kept, beside
+        state.opened, state.kept, state.beside = opened or study, kept, chosen
         state.shelf = self.folders.shelf
         self.give(state, query)
         return state, told
@@ -252,10 +252,10 @@ class Page:
         await state.settle()
         if state.library != library:
             self.side.again()
-        self.side.inputs.tell()
-        self.sliders.tell()
+        self.side.inputs.show_mistakes()
+        self.sliders.show_study()
         self.undo.set_enabled(bool(state.past))
-        remark = self.address.tell()
+        remark = self.address.follow_study()
         if state.answer is None:
             self._say("; ".join(state.problems))
             if state.tab in WITHOUT_ANSWER:
@@ -272,7 +272,7 @@ class Page:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
         self._say(wrong or self.told)
         self.verdict.clock.set_text(_took(time.perf_counter() - state.began, state.began))
-        await self.verdict.tell()
+        await self.verdict.show_sentence()
         self.verdict.note(remark)
 
     def _say(self, text: str) -> None:

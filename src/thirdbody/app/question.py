@@ -120,7 +120,7 @@ class QuestionTab:
         if there != self.there:
             self.there = there
             self._renewed()
-        self.inputs.tell()
+        self.inputs.show_mistakes()
         answer = self.state.answer
         assert answer is not None
         self.none.set_visibility(answer.contact.two_body)

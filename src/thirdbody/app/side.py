@@ -52,7 +52,7 @@ class Side:
             for name, build in sections.items():
                 self._section(name, build)
             ui.label(ELSEWHERE).classes("hint")
-        inputs.tell()
+        inputs.show_mistakes()
 
     def _tables(self) -> None:
         for table in TABLES:

@@ -103,7 +103,7 @@ class Knob:
         self.moved = True
         self.write(value)
 
-    def tell(self) -> None:
+    def show_value(self) -> None:
         """Show the number of the study."""
         now = self.read()
         self.box.set_visibility(now is not None)
@@ -171,7 +171,7 @@ class CodeKnob(Knob):
         study = self.state.study | {"particles": new if isinstance(given, list) else new[0]}
         self.state.replace(study, kind=self.place)
 
-    def tell(self) -> None:
+    def show_value(self) -> None:
         """Show the code of the study."""
         code = self.code()
         self.box.set_visibility(bool(code))
@@ -289,7 +289,7 @@ class Sliders:
             return
         self.state.go(at_position(answer.loads, float(event.value) / STEPS))
 
-    def tell(self) -> None:
+    def show_study(self) -> None:
         """Show where the study is."""
         answer = self.state.answer
         if answer is None:
@@ -302,6 +302,6 @@ class Sliders:
             self.load_label.set_text(_load_text(answer, at))
             self.load.speak(_load_text(answer, at))
             for knob in self.knobs:
-                knob.tell()
+                knob.show_value()
         finally:
             self.moving = False

@@ -375,7 +375,7 @@ class State:
         self.study, self.wanted = study, at
         if not self.later:
             self.check()
-        self.tell()
+        self.announce_change()
 
     def undo(self) -> None:
         """Take the last step back."""
@@ -437,7 +437,7 @@ class State:
             self.read = None
             if not self.later:
                 self.check()
-        self.tell()
+        self.announce_change()
 
     def file_keys(self) -> dict[str, str]:
         """The files that studies and tabs name, with their keys."""
@@ -481,9 +481,9 @@ class State:
         """What the answer of a tab leaves open; the badge tells it."""
         if (every := list(notes)) != self.noted.get(tab, []):
             self.noted[tab] = every
-            self.tell()
+            self.announce_change()
 
-    def tell(self) -> None:
+    def announce_change(self) -> None:
         """The study or the operating load is another one."""
         for call in list(self.changed):
             call()
@@ -502,7 +502,7 @@ class State:
         self._step("at")
         self.began = time.perf_counter()
         self.wanted = at
-        self.tell()
+        self.announce_change()
 
     def point(self) -> tb.Equilibrium:
         """The state under the operating load."""

@@ -91,7 +91,7 @@ class Verdict:
         self.line.classes(**{"add" if beside else "remove": "beside"})
         self.sentence.set_visibility(self.state.tab not in OWN_ANSWER)
 
-    async def tell(self) -> None:
+    async def show_sentence(self) -> None:
         """The sentence of the answer as it is now."""
         answer = self.state.answer
         if answer is None:

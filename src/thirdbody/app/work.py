@@ -113,7 +113,7 @@ class Work(Generic[Found]):
         self._idle()
         when_left(self.cancel)
 
-    async def tell(self, state: State) -> None:
+    async def update_preview(self, state: State) -> None:
         """Show a preview of the study as it is, then all of it; or say that it does not fit."""
         if self._wanted(state) and not self.trying and not self._fits(self.tried):
             self.tried, self.trying = (self.key(),), True
@@ -138,7 +138,7 @@ class Work(Generic[Found]):
             return
         if not self._fits(self.tried):
             with self.said.client:
-                await self.tell(state)
+                await self.update_preview(state)
         elif shown and not self.slow and self.tried is asked_for:
             await self._follow(asked_for)
 
@@ -158,7 +158,7 @@ class Work(Generic[Found]):
     async def again(self, state: State) -> None:
         """Another preview in the place of the one that is shown."""
         self.done = self.tried = None
-        await self.tell(state)
+        await self.update_preview(state)
 
     def forget(self) -> None:
         """No result is shown any more."""

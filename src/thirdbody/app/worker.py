@@ -183,25 +183,25 @@ class Pressing(TypedDict):
 
 
 def main() -> None:
-    """Read one request, do it, tell."""
+    """Read one request, do it, write what was found."""
     _limit()
     warnings.simplefilter("ignore")
     asked = json.loads(sys.stdin.read())
     out = sys.stdout
     sys.stdout = sys.stderr  # what a reader of instrument files prints is no answer
 
-    def tell(**line: object) -> None:
+    def write_line(**line: object) -> None:
         out.write(json.dumps(line, allow_nan=False) + "\n")
         out.flush()
 
     from ..errors import InvalidValue, ThirdBodyError
 
     def refuse(*problems: str) -> None:
-        tell(problems=[vars(each) for each in InvalidValue(*problems).problems])
+        write_line(problems=[vars(each) for each in InvalidValue(*problems).problems])
 
     try:
         task = TASKS[asked.pop("task")]
-        tell(result=plain_data(task(report=lambda part: tell(done=part), **asked)))
+        write_line(result=plain_data(task(report=lambda part: write_line(done=part), **asked)))
     except ThirdBodyError as error:
         refuse(*(getattr(error, "problems", None) or [str(error)]))
     except MemoryError:

@@ -237,7 +237,7 @@ class BeforeAfter:
     def _chosen(self) -> None:
         name = str(self.which.value)
         self.state.beside = "" if name == OPENED else name
-        self.state.tell()
+        self.state.announce_change()
 
     def _keep_study(self) -> None:
         self.state.kept = self.state.study
@@ -253,7 +253,7 @@ class BeforeAfter:
         state, before = self.state, self._before()
         answer = state.answer
         assert answer is not None
-        self._tell(before)
+        self._show_changes(before)
         now: Answer = answer
         old: Answer | None = answer
         if before != state.study:
@@ -288,7 +288,7 @@ class BeforeAfter:
             self.read = (before, found)
         return self.read[1]
 
-    def _tell(self, before: dict[str, object]) -> None:
+    def _show_changes(self, before: dict[str, object]) -> None:
         """What has changed, entry by entry."""
         every = [with_micro(text) for text in changes(before, self.state.study)]
         more = len(every) - MOST_CHANGES

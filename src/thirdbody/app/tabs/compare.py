@@ -96,13 +96,13 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         plot.update_figure(law_figure(shown, str(what.value)))
         _table(await state.ask(_here, state.operating_load), table)
 
-    async def tell() -> None:
-        await work.tell(state)
+    async def draw_tab() -> None:
+        await work.update_preview(state)
         plot.set_visibility(shown is not None or work.trying)
         await draw()
 
-    what.on_value_change(state.tell)
-    return tell
+    what.on_value_change(state.announce_change)
+    return draw_tab
 
 
 def _here(answer: Answer, at: float) -> Laws:

@@ -186,7 +186,7 @@ class Curves:
         """What the figures show."""
         self.told: Answer | None = None
         """Whose critical loads the table holds."""
-        self.against.on_value_change(state.tell)
+        self.against.on_value_change(state.announce_change)
 
     async def draw(self) -> None:
         answer = self.state.answer
@@ -196,7 +196,7 @@ class Curves:
         await self._show(answer, critical=known)
         self.drawn = time.perf_counter()
         if known:
-            self._tell(answer)
+            self._show_table(answer)
         elif self.later is None:
             # critical loads are many states: they follow when the slider rests
             self._wait(RESTS)
@@ -270,9 +270,9 @@ class Curves:
                 ui.label("; ".join(error.problems)).classes("problem")
             return
         if answer is self.state.answer:
-            self._tell(answer)
+            self._show_table(answer)
 
-    def _tell(self, answer: Answer) -> None:
+    def _show_table(self, answer: Answer) -> None:
         if answer is not self.told:
             self.told = answer
             _table(answer, self.table)

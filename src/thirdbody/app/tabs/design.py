@@ -137,9 +137,9 @@ class Search:
         ).classes("hint")
         self.which.on_value_change(self._changed)
         for entry in (self.of, self.aim, self.over, self.limit):
-            entry.on_value_change(lambda: self.work.tell(state))
+            entry.on_value_change(lambda: self.work.update_preview(state))
         for text in (self.low, self.high, self.most, self.least):
-            text.on("change", lambda: self.work.tell(state))
+            text.on("change", lambda: self.work.update_preview(state))
 
     def _aim(self) -> None:
         """The range, and what is to be small or large in it."""
@@ -167,7 +167,7 @@ class Search:
 
     async def _changed(self) -> None:
         self._ranged()
-        await self.work.tell(self.state)
+        await self.work.update_preview(self.state)
 
     def _ranged(self) -> None:
         """Another input: a range about what it is."""
@@ -215,7 +215,7 @@ class Search:
         self.said.set_text(with_micro(" ".join(design_sentences(result, units, names))))
 
     async def draw(self) -> None:
-        await self.work.tell(self.state)
+        await self.work.update_preview(self.state)
         names, which = _names(self.state), self.which
         if names != which.options:
             which.set_options(names, value=which.value if which.value in names else names[0])

@@ -254,7 +254,7 @@ class ErrorBars:
         self.work = Work(
             "error bars", "Draw error bars", self._ask, self._show, key=self._key, little=_little
         )
-        self.of.on_value_change(lambda: self.work.tell(state))
+        self.of.on_value_change(lambda: self.work.update_preview(state))
         self.box = ui.element("div").classes("figures w-full")
         self.plots: dict[str, ui.plotly] = {}
         with self.box:
@@ -280,7 +280,7 @@ class ErrorBars:
             inputs.uncertain()
             _offer(inputs, self.state)
             inputs.rest = ui.column().classes("w-full")
-            inputs.tell()
+            inputs.show_mistakes()
 
     def _inputs_and_ranges(self) -> object:
         return self.state.get("uncertainty", "inputs"), _ranges(self.state)
@@ -331,14 +331,14 @@ class ErrorBars:
         if self._inputs_and_ranges() != self.known:
             self.known = self._inputs_and_ranges()
             self._renewed()
-        self.inputs.tell()
+        self.inputs.show_mistakes()
         options, of = results_of(self.state), self.of
         if options != of.options:
             of.set_options(options, value=of.value if of.value in options else PLAIN[0])
         names = words_of_inputs(self.state, assumed(self.state))
         self.assumed.set_text(ASSUMED.format(", ".join(names)) if names else "")
         self.assumed.set_visibility(bool(names))
-        await self.work.tell(self.state)
+        await self.work.update_preview(self.state)
         shown = self.work.done is not None or self.work.trying
         self.box.set_visibility(shown)
         self.said.set_visibility(self.work.done is not None)

@@ -188,7 +188,7 @@ class Explicit:
         self.plots["forces"].set_visibility(bool(found["carrying"]["force"]))
 
     async def draw(self) -> None:
-        await self.work.tell(self.state)
+        await self.work.update_preview(self.state)
         nothing = self.work.done is None and not self.work.trying
         self.box.set_visibility(not nothing)
 

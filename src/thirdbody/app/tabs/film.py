@@ -238,7 +238,7 @@ class Film:
         if shape != self.there:
             self.there = shape
             self._renewed()
-        self.inputs.tell()
+        self.inputs.show_mistakes()
         answer = await self._with_film()
         for part in (self.words, self.dents, self.beside):
             part.set_visibility(answer is not None)
@@ -252,7 +252,7 @@ class Film:
         set_attributes(self.slider, {"max": len(found.states["speed"]) - 1})
         self.slider.set_value(self.i)
         self._show(found)
-        await self._tell(answer, found)
+        await self._show_answer(answer, found)
 
     async def _with_film(self) -> Answer | None:
         """The answer of the study, or of the study with a film to begin with."""
@@ -269,7 +269,7 @@ class Film:
             self.wrong.set_text(with_micro("; ".join(problems)))
         return self.start[1]
 
-    async def _tell(self, answer: Answer, found: FilmResult) -> None:
+    async def _show_answer(self, answer: Answer, found: FilmResult) -> None:
         """The answer in sentences: what the particles of the oil do, then the film."""
         try:
             oil = await apart(oil_of, answer, str(self.fine.value or ""))
@@ -305,7 +305,7 @@ class Film:
     async def _filtered(self) -> None:
         if self.answer is not None and self.found is not None:
             self.wrong.set_text("")
-            await self._tell(self.answer, self.found)
+            await self._show_answer(self.answer, self.found)
 
 
 def _entries(inputs: Inputs, state: State) -> None:

@@ -170,7 +170,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     def another() -> None:
         seed["now"] += 1
-        state.tell()  # which is answered as every other change is
+        state.announce_change()  # which is answered as every other change is
 
     return draw
 

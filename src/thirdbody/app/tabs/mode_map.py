@@ -197,8 +197,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     ui.label(ABOUT).classes("hint")
     only = ui.label().classes("hint").props('data-fact="map"')
 
-    async def tell() -> None:
-        await work.tell(state)
+    async def draw_tab() -> None:
+        await work.update_preview(state)
         plot.set_visibility(shown is not None or work.trying)
         await draw()
 
@@ -224,7 +224,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         state.replace(with_size(state.study, size), at=at)
 
     plot.on("plotly_click", clicked)
-    return tell
+    return draw_tab
 
 
 def _little(asked: Asked) -> Asked:

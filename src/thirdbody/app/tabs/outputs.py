@@ -198,7 +198,7 @@ class Outputs:
         state = self.state
         if names_of_outputs(state) != self.asked:  # undone, or another study
             self._renewed()
-        self.inputs.tell()
+        self.inputs.show_mistakes()
         made, rows = await state.ask(_figures_and_rows, state.operating_load)
         for name in [name for name in self.plots if name not in made]:
             self.plots.pop(name).widget.delete()

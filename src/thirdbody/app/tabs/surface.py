@@ -96,7 +96,7 @@ class Surface:
             "surface", "Read it", self._ask, self._show, seconds=SECONDS, key=self._key
         )
         for entry in self.texts.values():
-            entry.on_value_change(lambda: self.work.tell(state))
+            entry.on_value_change(lambda: self.work.update_preview(state))
         self.begun = False
         """Whether the example was shown, or something else."""
         self.box = ui.column().classes("w-full")
@@ -216,7 +216,7 @@ class Surface:
         self._hide()
         self.asked = self._written()
         self.state.surface = self.followed = self._reading()
-        self.state.tell()
+        self.state.announce_change()
         return {"file": self.file, "options": options}
 
     def _show(self, result: Found) -> None:
