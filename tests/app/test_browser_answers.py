@@ -306,22 +306,26 @@ def test_the_study_before_is_there_after_a_reload(visit):
     rows = page.locator("table").first
 
     def pressed(key):
-        before = rows.inner_text()
+        """Until table and address are those of the study then."""
+        before = [rows.inner_text(), page.evaluate("location.search")]
         moved(page, "particles.iso4406", key)
         page.wait_for_function(
-            "old => document.querySelector('table').innerText !== old", arg=before, polling=100
+            "([told, search]) => document.querySelector('table').innerText !== told"
+            " && location.search !== search",
+            arg=before,
+            polling=100,
         )
 
     rows.wait_for()
     pressed("ArrowRight")
     page.get_by_text("particles.iso4406: 18/16/13 → 19/17/14").wait_for()
-    page.wait_for_function("() => location.search.includes('&opened=')", polling=100)
+    assert "&opened=" in page.evaluate("location.search")
     page.reload()
     page.get_by_text("particles.iso4406: 18/16/13 → 19/17/14").wait_for()
     page.locator('[data-path="before.keep"]').click()
     page.get_by_text("particles.iso4406: 18/16/13 → 19/17/14").wait_for(state="detached")
-    pressed("ArrowRight")
     page.wait_for_function("() => location.search.includes('&beside=')", polling=100)
+    pressed("ArrowRight")
     page.reload()
     page.get_by_text("particles.iso4406: 19/17/14 → 20/18/15").wait_for()
     assert page.locator('[data-path="before"]').input_value() == "as it was kept"

@@ -194,3 +194,10 @@ def test_what_solve_prints_as_most_uncertain_stands_first_in_its_json():
     low, high = sorted(first["values"])
     assert low <= data["states"]["particle_load_share"][0] <= high
     assert high / low >= max(max(each["values"]) / min(each["values"]) for each in others)
+
+
+@pytest.mark.parametrize(("command", "kind"), FILES.items())
+def test_film_names_the_command_that_answers_a_study_without_oil(command, kind):
+    done = run("film", f"{kind}.toml")
+    assert done.exit_code == 2
+    assert f"thirdbody {command} answers this study" in " ".join(done.stderr.split())

@@ -113,6 +113,8 @@ def test_hardness_alone_decides_where_the_law_knows_no_sink():
     assert (natures(middle)[0].sinks, natures(middle)[0].pressed) == (None, "dents")
     pair = tb.MaterialPair(STEEL, tb.materials["Al2O3"])
     assert natures(middle.replace(surfaces=pair))[0].pressed == "dents the softer surface"
+    whole = middle.replace(particle_law=tb.particle.Horng2022())
+    assert (natures(whole)[0].pressed, natures(whole)[0].breaks) == ("dents", "not known")
     soft = between(grains("PTFE"), particle_law=law)
     assert natures(soft)[0].pressed == "is squashed"
 

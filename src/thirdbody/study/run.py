@@ -78,10 +78,13 @@ def run_film(study: Study) -> FilmResult:
     """
     film, contact = study.film, study.contact
     if film is None:
+        asked = {"probability": study.connector, "plate": study.plate, "life": study.life}
+        others = [name for name, table in asked.items() if table is not None]
+        more = "".join(f"; thirdbody {name} answers this study" for name in others)
         raise InvalidValue(
             "the study has no table [film]: it says what is lubricated, e.g. [film] "
             'load = "20 N", speed = "0.5 m/s", conjunction = { shape = "point", R = "9.5 mm" }, '
-            'oil = { eta = "20 mPa s", alpha = "20 / GPa" }'
+            f'oil = {{ eta = "20 mPa s", alpha = "20 / GPa" }}{more}'
         )
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)

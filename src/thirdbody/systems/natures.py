@@ -93,9 +93,11 @@ def natures(contact: Contact) -> tuple[Nature, ...]:
 
 def _nature(contact: Contact, dust: Particles, i: int) -> Nature:
     law = contact.law_of(dust)
-    one: Any = law.one(surfaces=contact.surfaces, particle=dust.material)
+    one: Any = None
+    if law.knows_each:  # else it knows all particles together alone
+        one = law.one(surfaces=contact.surfaces, particle=dust.material)
     sinks = _sinks(one)
-    since = _breaks_from(dust, one) if law.breakable else None
+    since = _breaks_from(dust, one) if law.knows_each and law.breakable else None
     return Nature(
         name=dust.name or dust.material.name or f"particles {i + 1}",
         material=dust.material.name,
