@@ -32,7 +32,7 @@ BARE = [
         ),
         ("outputs.thermal_conductance={}", "thermal_conductivity of the particles: particles.mat"),
         ("outputs.flash_temperature={v=1, A_n=1e-6}", "density of surface 2: surfaces.second = {"),
-        ("outputs.crushing={}", 'particles.strength = "material"'),
+        ("outputs.crushing={}", 'strength = "material" in [particles]'),
         ('particles.strength="material"', "particles.strength"),
         ('particle_law={name="series", law="coated"}', ""),
     ],
