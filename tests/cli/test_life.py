@@ -169,7 +169,7 @@ MISTAKES = [
     (['life.filters.0.capacity="50 um"'], "a length, but a mass"),
     (['life.oil.start="13/16/18"'], "impossible"),
     (['life.oil.material="unobtainium"'], "is not a material"),
-    (['life.oil.material="WS2"'], "density is missing"),
+    (['life.oil.material="SiO2"'], "density is missing"),
     (['life.oil.ingress={ test_dust = "A9", rate = "1 mg/h" }'], "must be one of"),
     (['life.oil.ingress={ test_dust = "A3" }'], "needs rate beside test_dust"),
     (['life.oil.ingress={ rate = "1 mg/h" }'], "says not how many particles"),
