@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..quantities.say import join_words, number, percent, value_of
-from ..systems.life.contact_history import ContactHistory, SteadyContact
+from ..systems.life.contact_history import ContactHistory, DryHistory, SteadyContact
 from ..systems.life.sizing import least_flow
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def _largest_flows(history: LifeHistory) -> str:
     return f"Most of the dirt: {join_words(shown)}."
 
 
-def events(history: LifeHistory) -> list[str]:
+def events(history: LifeHistory | DryHistory) -> list[str]:
     """What happened, a sentence each; of many alike the first and the last."""
     out = [f"After {duration_of(each.time)}: {each.sentence}." for each in history.events]
     if len(out) <= 6:

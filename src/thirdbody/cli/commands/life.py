@@ -1,9 +1,10 @@
-"""``thirdbody life``: how dirty an oil becomes over time, and what reports of it say."""
+"""``thirdbody life``: an oil or a dry contact over time, and what reports of an oil say."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
@@ -18,7 +19,8 @@ class Options:
     """What the command is told."""
 
     study: Path = argument(
-        "A study file with a table [life]; `thirdbody new oil-circuit` writes one.", "STUDY.toml"
+        "A study file with a table [life]; `thirdbody new` oil-circuit or dry-contact writes one.",
+        "STUDY.toml",
     )
     reports: Path | None = option(
         "--reports",
@@ -38,7 +40,7 @@ class Options:
 
 
 def command(options: Options) -> None:
-    """How dirty an oil becomes over time, and where its dirt goes."""
+    """How dirty an oil or a dry contact becomes over time, and where its dirt goes."""
     if options.reports is None:
         _tell_history(options)
     else:
@@ -46,15 +48,20 @@ def command(options: Options) -> None:
 
 
 def _tell_history(options: Options) -> None:
-    """The history of the oil."""
+    """The history of the oil, or of the dry contact."""
+    from ...errors import InvalidValue
     from ...populations.measured.cleanliness import read_iso4406
-    from ...study.run_life import load_life, run_life
-    from ...views.life_words import HEADS, MEANS, answer, last_words, least_flow_words, rows
+    from ...study.life_dry import AskedDry
+    from ...study.run_dry import DryResult
+    from ...study.run_life import LifeResult, load_life, run_life
+    from ...views import life_dry_words, life_words
 
     if options.flow_for is not None:
         read_iso4406(options.flow_for)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     asked = read_question(load_life, options.study, options.settings, files, force=options.force)
+    if options.flow_for is not None and isinstance(asked, AskedDry):
+        raise InvalidValue("--flow-for sizes the filters of an oil; [life.dry] has none")
     if options.figure is not None:
         figure_format(options.figure)
         files.need(options.figure, force=options.force)
@@ -65,15 +72,18 @@ def _tell_history(options: Options) -> None:
         from ...views.plot.life import life
 
         drawn = life(found.history)
-    sized = [] if options.flow_for is None else least_flow_words(found, options.flow_for)
+    words: Any = life_dry_words if isinstance(found, DryResult) else life_words
+    sized = []
+    if options.flow_for is not None and isinstance(found, LifeResult):
+        sized = life_words.least_flow_words(found, options.flow_for)
     give_answer(
         found,
         files,
-        answer=[*answer(found), *sized],
-        heads=HEADS,
-        rows=rows(found),
-        means=MEANS,
-        last=last_words(found),
+        answer=[*words.answer(found), *sized],
+        heads=words.HEADS,
+        rows=words.rows(found),
+        means=words.MEANS,
+        last=words.last_words(found),
     )
     if options.figure is not None and drawn is not None:
         write_figure(options.figure, drawn)
