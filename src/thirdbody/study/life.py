@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
@@ -19,6 +19,7 @@ from ..systems.life.reports import oil_reports
 from ..systems.oil_filter import Filter
 from .described import BareNumber, Described
 from .life_contact import CONTACT_KEYS, LifeContact, contact_of
+from .life_design import AskedDesign, design_key, design_of
 from .life_dirt import CLEAN, CODE, DIRT, INGRESS, dirts_of, sized_numbers
 from .life_dry import DRY, AskedDry, dry_of
 from .reader import (
@@ -80,6 +81,8 @@ class AskedLife:
         What is known of the numbers of the circuit.
     contact : LifeContact, optional
         The contacts that the oil goes through.
+    design : AskedDesign, optional
+        What is to be chosen.
     notes : tuple of str
         What is allowed but looks like a slip.
     assumed : tuple of str
@@ -92,6 +95,7 @@ class AskedLife:
     until: tuple[until.Until, ...] = ()
     uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
     contact: LifeContact | None = None
+    design: AskedDesign | None = None
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
 
@@ -143,12 +147,12 @@ def _oil(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- filters
-def _filter(reader: Reader, path: str, data: Any) -> Any:
+def _filter(reader: Reader, path: str, data: Any, *, with_flow: bool = True) -> Any:
     """One filter."""
     own = keys_of(Filter)
     beta = sized_numbers(BETA, '{ "5 um" = 2, "10 um" = 75 }')
     keys = {name: key for name, key in own.items() if name not in ("sizes", "betas")}
-    keys["flow"] = keys["flow"]._replace(required=True)
+    keys["flow"] = keys["flow"]._replace(required=with_flow)
     keys["beta"] = beta._replace(required=True, about="β ratios of the data sheet " + beta.about)
 
     def build(values: dict[str, Any]) -> Filter:
@@ -262,6 +266,7 @@ def _keys() -> dict[str, Key]:
             'factor), "filters.0.service" = { low = 0.5, high = 1 }',
             schema={"type": "object"},
         ),
+        "design": design_key(partial(_filter, with_flow=False)),
         "until": Key(
             None, False, 'what ends it earlier, e.g. iso4406 = "21/19/16"', NOTHING, _until
         ),
@@ -331,6 +336,9 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
             "and [life.contact] do not go together: bands are those of the oil alone; leave one out"
         )
         raise InvalidValue(Problem("life.uncertainty", rule))
+    design = None
+    if "design" in given:
+        design = design_of(reader, given["design"], circuit, given.get("until", ()), _about)
     return AskedLife(
         title=values.get("title", ""),
         circuit=circuit,
@@ -338,6 +346,7 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         until=given.get("until", ()),
         uncertainty=known,
         contact=contact,
+        design=design,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
     )

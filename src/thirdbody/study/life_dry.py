@@ -166,7 +166,7 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
     given = values["life"]
     problems = [
         Problem(f"life.{name}", "does not go with [life.dry]: one is in an oil, the other is not")
-        for name in ("oil", "filters", "contact", "uncertainty")
+        for name in ("oil", "filters", "contact", "uncertainty", "design")
         if name in given
     ]
     if missing := [f"[{name}]" for name in NEEDED if name not in values]:

@@ -25,7 +25,16 @@ from .run_dry import DryResult, run_dry
 from .toml import read
 from .whole import load_tables, read_tables
 
-__all__ = ["LifeResult", "ReportsResult", "load_circuit", "load_life", "reports_of", "run_life"]
+__all__ = [
+    "LifeResult",
+    "ReportsResult",
+    "history_of",
+    "load_circuit",
+    "load_life",
+    "load_oil",
+    "reports_of",
+    "run_life",
+]
 
 NEEDED = frozenset({"life"})
 CITATIONS = (
@@ -50,6 +59,19 @@ def load_life(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> As
         Every mistake of the file.
     """
     return load_tables(path, overrides, life_of, NEEDED)
+
+
+def load_oil(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
+    """The life of an oil that a study file asks for; as `load_life`, no dry contact.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file with tables [life] and [life.oil].
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+    """
+    return load_tables(path, overrides, oil_of, NEEDED)
 
 
 def load_circuit(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
@@ -207,14 +229,17 @@ class LifeResult(QuestionResult):
         )
 
 
-def _history(asked: AskedLife) -> LifeHistory:
+def history_of(asked: AskedLife) -> LifeHistory:
     """The history of the oil, with the contacts that it goes through where there are some."""
     shared: dict[str, Any] = {
         "oil": asked.circuit, "duration": asked.duration, "until": asked.until
     }  # fmt: skip
-    if (of := asked.contact) is None:
-        return life(**shared)
-    return life(of.contact, debris=of.debris, running_in=of.running_in, **of.conditions, **shared)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
+        if (of := asked.contact) is None:
+            return life(**shared)
+        parts = {"debris": of.debris, "running_in": of.running_in}
+        return life(of.contact, **parts, **of.conditions, **shared)
 
 
 @overload
@@ -239,9 +264,7 @@ def run_life(asked: AskedLife | AskedDry) -> LifeResult | DryResult:
     """
     if isinstance(asked, AskedDry):
         return run_dry(asked)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
-        history = _history(asked)
+    history = history_of(asked)
     bands = None
     if asked.uncertainty:
         bands = propagate_life(
