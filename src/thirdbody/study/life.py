@@ -11,17 +11,17 @@ from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
-from ..quantities.units import say
 from ..quantities.value import Value, quantity
 from ..systems.life import contact_until, until
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.reports import oil_reports
 from ..systems.oil_filter import Filter
 from .described import BareNumber, Described
-from .life_contact import CONTACT_KEYS, LifeContact, contact_of
+from .life_contact import CONTACT_KEYS, HARDNESS, LifeContact, contact_of
+from .life_contact import QUANTITIES as OF_CONTACT
 from .life_design import AskedDesign, design_key, design_of
 from .life_dirt import CLEAN, CODE, DIRT, INGRESS, dirts_of, sized_numbers
-from .life_dry import DRY, AskedDry, dry_of
+from .life_dry import BANDS_HARDNESS, DRY, AskedDry, dry_of
 from .reader import (
     NOTHING,
     Key,
@@ -36,7 +36,7 @@ from .reader import (
     wrong,
 )
 from .surfaces import MATERIAL
-from .uncertainty import read_uncertain
+from .uncertainty import read_bands
 
 __all__ = ["CLEAN", "LIFE", "AskedDry", "AskedLife", "life_of"]
 
@@ -78,7 +78,7 @@ class AskedLife:
     until : tuple of Until
         What is waited for.
     uncertainty : dict of str to Uncertain
-        What is known of the numbers of the circuit.
+        What is known of the numbers of the circuit and of its contacts.
     contact : LifeContact, optional
         The contacts that the oil goes through.
     design : AskedDesign, optional
@@ -234,20 +234,22 @@ def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
 
 
 def _uncertainty(
-    reader: Reader, given: Mapping[str, Any], circuit: OilCircuit
+    reader: Reader, given: Mapping[str, Any], circuit: OilCircuit, contact: LifeContact | None
 ) -> dict[str, Uncertain]:
-    """What is known of the numbers of a circuit, by their names in it."""
+    """What is known of the numbers of a circuit and of its contacts, by their names in them."""
+    more = {} if contact is None else {f"contact.{name}": q for name, q in OF_CONTACT.items()}
+    if contact is not None and contact.debris is not None:
+        more[BANDS_HARDNESS] = HARDNESS
+    some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
+    some += "".join(f', "{name}"' for name in more)
 
-    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, Uncertain]:
-        label, entry = pair
+    def about(label: str) -> tuple[str, dict[str, Any] | None]:
+        if label in more:
+            return label.removeprefix("contact."), more[label]
         name = label.removeprefix("oil.")
-        if (about := _about(circuit, name)) is None:
-            some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
-            raise InvalidValue(Problem(where, f"is not a number of the circuit; it has {some}"))
-        return name, read_uncertain(reader, where, about, entry)
+        return name, _about(circuit, name)
 
-    pairs = {f"life.uncertainty.{say(name)}": (name, entry) for name, entry in given.items()}
-    return dict(reader.read_each(pairs, one))
+    return read_bands(reader, given, about, f"is not a number of the circuit; it has {some}")
 
 
 @cache
@@ -329,13 +331,8 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     for path, entry in reported:
         circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
-    known = _uncertainty(reader, given.get("uncertainty", {}), circuit)
     contact = contact_of(reader, values)
-    if known and contact is not None:
-        rule = (
-            "and [life.contact] do not go together: bands are those of the oil alone; leave one out"
-        )
-        raise InvalidValue(Problem("life.uncertainty", rule))
+    known = _uncertainty(reader, given.get("uncertainty", {}), circuit, contact)
     design = None
     if "design" in given:
         design = design_of(reader, given["design"], circuit, given.get("until", ()), _about)

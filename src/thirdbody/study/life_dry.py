@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
+from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.contact import Contact
 from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
@@ -16,12 +17,14 @@ from ..systems.life.ingress import Ingress
 from ..systems.life.surfaces import RunningIn
 from ..systems.life.until import CodeReached, FilterFull, Until
 from .described import BareNumber, Described
+from .life_contact import HARDNESS
 from .life_dirt import ARRIVALS, dirts_of
 from .reader import NOTHING, Key, Reader, get, quantity_key, read_numbers, word, wrong
 from .surfaces import MATERIAL
+from .uncertainty import read_bands
 from .vocabulary import LOADS
 
-__all__ = ["DRY", "AskedDry", "dry_of"]
+__all__ = ["BANDS_HARDNESS", "DRY", "AskedDry", "dry_of"]
 
 SIDES = ("first", "second")
 NEEDED = ("surfaces", "roughness", "outputs", "load")
@@ -43,6 +46,8 @@ LOSS = (
     "; nobody can predict it: 1 where all is swept away, near 0 in a closed track; try both with "
     "--set life.dry.loss=..."
 )
+FACTOR = quantity("f", "1", "factor on all that arrives", gt=0).metadata["quantity"]
+BANDS_HARDNESS = "debris.hardness"
 WORN = quantity("A_w", "m^2", "area that is worn in turn", gt=0).metadata["quantity"]
 
 
@@ -66,6 +71,8 @@ class AskedDry:
         What wear leaves behind.
     running_in : RunningIn, optional
         How roughness falls with wear.
+    uncertainty : dict of str to Uncertain
+        What is known of its numbers.
     notes : tuple of str
         What is allowed but looks like a slip.
     assumed : tuple of str
@@ -79,6 +86,7 @@ class AskedDry:
     conditions: Mapping[str, Any] = field(default_factory=dict)
     debris: Debris | None = None
     running_in: RunningIn | None = None
+    uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
 
@@ -161,12 +169,29 @@ def _pressure(values: Mapping[str, Any], contact: Contact) -> float:
     return float(loads[0]) * (1.0 if name == "pressure" else contact.E_ss)
 
 
+def _uncertainty(
+    reader: Reader, given: Mapping[str, Any], debris: Debris | None
+) -> dict[str, Uncertain]:
+    """What is known of the numbers of a dry contact, by their names as arguments."""
+    known = {f"dry.{name}": (name, about) for name, about in QUANTITIES.items()}
+    known |= {"arrivals": ("arrivals", FACTOR), "load.pressure": ("pressure", LOADS["pressure"])}
+    if debris is not None:
+        known[BANDS_HARDNESS] = (BANDS_HARDNESS, HARDNESS)
+    some = ", ".join(f'"{name}"' for name in known)
+
+    def about(label: str) -> tuple[str, dict[str, Any] | None]:
+        return known.get(label, (label, None))
+
+    unknown = f"is not a number of the dry contact; it has {some}"
+    return read_bands(reader, given, about, unknown)
+
+
 def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
     """The dry contact that a study asks for, from the objects that its tables stand for."""
     given = values["life"]
     problems = [
         Problem(f"life.{name}", "does not go with [life.dry]: one is in an oil, the other is not")
-        for name in ("oil", "filters", "contact", "uncertainty", "design")
+        for name in ("oil", "filters", "contact", "design")
         if name in given
     ]
     if missing := [f"[{name}]" for name in NEEDED if name not in values]:
@@ -200,6 +225,7 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
         conditions=conditions,
         debris=given.get("debris"),
         running_in=given.get("running_in"),
+        uncertainty=_uncertainty(reader, given.get("uncertainty", {}), given.get("debris")),
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,9 +16,10 @@ from ..quantities.plain_data import plain_data
 from ..systems.life.contact_history import DryHistory
 from ..systems.life.run import life
 from .asked_result import QuestionResult
+from .life_bands import LifeBands, propagate_dry
 from .life_dry import AskedDry
 
-__all__ = ["DryResult", "run_dry"]
+__all__ = ["DryResult", "bands_of_dry", "run_dry"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -28,10 +30,13 @@ class DryResult(QuestionResult):
     ----------
     asked : AskedDry
     history : DryHistory
+    bands : LifeBands, optional
+        Where the study says what is known of its numbers.
     """
 
     asked: AskedDry
     history: DryHistory
+    bands: LifeBands | None = None
 
     title_without = "Life of a dry contact"
 
@@ -90,26 +95,54 @@ class DryResult(QuestionResult):
             **{name: v for name, v in history.to_dict().items() if name != "warnings"},
             steady=[plain_data(each._asdict()) for each in history.steady()],
             flows=[{"from": start, "to": end, "kg": mass} for start, end, mass in history.flows()],
+            bands=None if self.bands is None else self.bands.to_dict(),
         )
 
 
-def run_dry(asked: AskedDry) -> DryResult:
+def _arguments(asked: AskedDry) -> dict[str, Any]:
+    """Arguments of `thirdbody.life` beside contact, duration and events."""
+    return {**asked.conditions, "debris": asked.debris, "running_in": asked.running_in}
+
+
+def bands_of_dry(
+    asked: AskedDry, *, progress: bool = False, keep: Path | None = None
+) -> LifeBands | None:
+    """Bands of a dry contact; None where the study says nothing of what is known.
+
+    Parameters
+    ----------
+    asked : AskedDry
+    progress, keep
+        As in `thirdbody.study.life_bands.propagate_life`.
+    """
+    if not asked.uncertainty:
+        return None
+    return propagate_dry(
+        asked.contact,
+        vary=asked.uncertainty,
+        duration=asked.duration,
+        until=asked.until,
+        conditions=_arguments(asked),
+        progress=progress,
+        keep=keep,
+    )
+
+
+def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None) -> DryResult:
     """The history of a dry contact, as its study asks.
 
     Parameters
     ----------
     asked : AskedDry
         As `thirdbody.study.run_life.load_life` reads it.
+    progress, keep
+        As in `thirdbody.study.life_bands.propagate_life`.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
         history = life(
-            asked.contact,
-            duration=asked.duration,
-            until=asked.until,
-            debris=asked.debris,
-            running_in=asked.running_in,
-            **asked.conditions,
+            asked.contact, duration=asked.duration, until=asked.until, **_arguments(asked)
         )
     assert isinstance(history, DryHistory)
-    return DryResult(asked=asked, history=history)
+    bands = bands_of_dry(asked, progress=progress, keep=keep)
+    return DryResult(asked=asked, history=history, bands=bands)

@@ -21,7 +21,7 @@ from .life import AskedDry, AskedLife, life_of, oil_of
 from .life_bands import LifeBands, propagate_life
 from .life_dirt import CLEAN
 from .overrides import override
-from .run_dry import DryResult, run_dry
+from .run_dry import DryResult, bands_of_dry, run_dry
 from .toml import read
 from .whole import load_tables, read_tables
 
@@ -236,23 +236,61 @@ def history_of(asked: AskedLife) -> LifeHistory:
     }  # fmt: skip
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
-        if (of := asked.contact) is None:
-            return life(**shared)
-        parts = {"debris": of.debris, "running_in": of.running_in}
-        return life(of.contact, **parts, **of.conditions, **shared)
+        return life(**(_arguments(asked) or {}), **shared)
+
+
+def _arguments(asked: AskedLife) -> dict[str, Any] | None:
+    """Arguments of `thirdbody.life` for the contacts; None where there are none."""
+    if (of := asked.contact) is None:
+        return None
+    parts = {"contact": of.contact, "debris": of.debris, "running_in": of.running_in}
+    return {**parts, **of.conditions}
+
+
+def bands_of(
+    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+) -> LifeBands | None:
+    """Bands of an oil or of a dry contact; None where the study says nothing of what is known.
+
+    Parameters
+    ----------
+    asked : AskedLife or AskedDry
+        As `load_life` reads it.
+    progress : bool, optional
+        Shows on standard error how many histories are done.
+    keep : Path, optional
+        A file that keeps the end of every history; the same call goes on with it.
+    """
+    if isinstance(asked, AskedDry):
+        return bands_of_dry(asked, progress=progress, keep=keep)
+    if not asked.uncertainty:
+        return None
+    return propagate_life(
+        asked.circuit,
+        vary=asked.uncertainty,
+        duration=asked.duration,
+        until=asked.until,
+        contact=_arguments(asked),
+        progress=progress,
+        keep=keep,
+    )
 
 
 @overload
-def run_life(asked: AskedLife) -> LifeResult: ...
+def run_life(asked: AskedLife, *, progress: bool = ..., keep: Path | None = ...) -> LifeResult: ...
 @overload
-def run_life(asked: AskedDry) -> DryResult: ...
-def run_life(asked: AskedLife | AskedDry) -> LifeResult | DryResult:
+def run_life(asked: AskedDry, *, progress: bool = ..., keep: Path | None = ...) -> DryResult: ...
+def run_life(
+    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+) -> LifeResult | DryResult:
     """The history of an oil, or of a dry contact, as its study asks.
 
     Parameters
     ----------
     asked : AskedLife or AskedDry
         As `load_life` reads it.
+    progress, keep
+        As in `bands_of`.
 
     Examples
     --------
@@ -263,11 +301,8 @@ def run_life(asked: AskedLife | AskedDry) -> LifeResult | DryResult:
     ('20/18/15', True)
     """
     if isinstance(asked, AskedDry):
-        return run_dry(asked)
+        return run_dry(asked, progress=progress, keep=keep)
     history = history_of(asked)
-    bands = None
-    if asked.uncertainty:
-        bands = propagate_life(
-            asked.circuit, vary=asked.uncertainty, duration=asked.duration, until=asked.until
-        )
-    return LifeResult(asked=asked, history=history, bands=bands)
+    return LifeResult(
+        asked=asked, history=history, bands=bands_of(asked, progress=progress, keep=keep)
+    )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..quantities.say import join_words, number, percent, value_of
-from .life_words import duration_of, events, mass_of
+from .life_words import band_words, duration_of, events, mass_of
 
 if TYPE_CHECKING:
     from ..study.run_dry import DryResult
@@ -109,7 +109,7 @@ def last_words(found: DryResult) -> list[str]:
     some = [row for row in history.flows() if row[2] > 0][:3]
     shown = [f"{mass_of(mass)} from {start} to {end}" for start, end, mass in some]
     out = [f"Most of the particles: {join_words(shown)}."] if shown else []
-    out += events(history)
+    out += [*band_words(found), *events(history)]
     scales = [
         f"{name} {duration_of(time)}"
         for name, time in history.time_scales.items()

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
-from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, argument, option
+from ..interrupt import resumable
+from ..options import Force, JsonFile, KeepFile, ParquetFile, Settings, XlsxFile, argument, option
 from ..streams import TableFiles, figure_format, warn_of, write_figure
 
 __all__ = ["command", "warn_of"]
@@ -35,6 +37,7 @@ class Options:
     xlsx: XlsxFile = None
     parquet: ParquetFile = None
     figure: Path | None = option("--figure", "Draw codes, masses and flows of dirt.", "FILE")
+    keep: KeepFile = None
     force: Force = False
     settings: Settings = None
 
@@ -65,8 +68,11 @@ def _tell_history(options: Options) -> None:
     if options.figure is not None:
         figure_format(options.figure)
         files.need(options.figure, force=options.force)
-    with heartbeat("life"):
-        found = run_life(asked)
+    bands = bool(asked.uncertainty)
+    if options.keep is not None and not bands:
+        raise InvalidValue("--keep keeps the histories of [life.uncertainty]; the study has none")
+    with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep):
+        found = run_life(asked, progress=bands, keep=options.keep)
     drawn = None
     if options.figure is not None:
         from ...views.plot.life import life
