@@ -127,7 +127,7 @@ MISTAKES = [
     ('life.until.iso4406="18/16/13"', "waits for what only an oil has"),
     ('load.pressure=["1 MPa", "2 MPa"]', "a history has one"),
     ('life.filters=[{ flow = "1 L/min", beta = { "4 um" = 2 } }]', "one is in an oil"),
-    ('life.uncertainty={ ingress = { low = 1, high = 2 } }', "one is in an oil"),
+    ('life.uncertainty={ ingress = { low = 1, high = 2 } }', "is not a number of the dry"),
     ('life.dry.speed="1 m/s"', "is not a known key"),
 ]  # fmt: skip
 

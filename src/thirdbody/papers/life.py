@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 import thirdbody as tb
 
 from ..errors import InvalidValue
-from ..systems.life.contact_until import roughness_below
 from ..systems.life.debris import Debris
 from ..systems.life.oil_history import run_oil_history
 from ..systems.life.surfaces import RunningIn
+from ..systems.life.until import roughness_below
 from . import engine
 from .engine import Progress
 from .measurements import page

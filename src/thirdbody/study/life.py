@@ -12,7 +12,7 @@ from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
 from ..quantities.value import Value, quantity
-from ..systems.life import contact_until, until
+from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.reports import oil_reports
 from ..systems.oil_filter import Filter
@@ -56,9 +56,9 @@ OF_CONTACT_UNTIL = {
     }.items()
 }
 CONTACT_WAITS: Mapping[str, Callable[[float], until.Until]] = {
-    "wear_depth": contact_until.wear_depth,
-    "roughness": contact_until.roughness_below,
-    "particle_share": contact_until.particle_share,
+    "wear_depth": until.wear_depth,
+    "roughness": until.roughness_below,
+    "particle_share": until.particle_share,
 }
 """What is waited for in a contact."""
 

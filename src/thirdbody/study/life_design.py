@@ -15,9 +15,8 @@ from ..errors import InvalidValue, Problem
 from ..quantities.plain_data import plain_data
 from ..quantities.units import say
 from ..systems.life.circuit import OilCircuit
-from ..systems.life.contact_until import ContactUntil
 from ..systems.life.sizing import filter_for_code, least_flow, longest_time
-from ..systems.life.until import Until
+from ..systems.life.until import ContactUntil, Until
 from ..systems.oil_filter import Filter
 from .asked_result import QuestionResult
 from .life_dirt import CODE

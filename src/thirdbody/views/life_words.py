@@ -10,13 +10,14 @@ import numpy as np
 
 from ..quantities.say import join_words, number, percent, value_of
 from ..systems.life.contact_history import ContactHistory, DryHistory, SteadyContact
+from ..systems.life.history import LifeHistory
 from ..systems.life.sizing import least_flow
 
 if TYPE_CHECKING:
     from ..study.life_bands import LifeBands
     from ..study.run_dry import DryResult
     from ..study.run_life import LifeResult
-    from ..systems.life.history import LifeHistory, SteadyOil
+    from ..systems.life.history import SteadyOil
     from ..systems.life.reports import OilReports
 
 __all__ = [
@@ -106,7 +107,7 @@ def _tends(history: LifeHistory) -> str:
     """What the oil comes to, and how soon."""
     steady: Sequence[SteadyOil | SteadyContact] = history.steady()
     if isinstance(history, ContactHistory):
-        steady = history.steady_with_contact() or history.steady()
+        steady = steady or LifeHistory.steady(history)  # what grows for ever stands there
     if not steady:
         return "It comes to no state in which it no longer changes."
     if "-" not in steady[0].code:
