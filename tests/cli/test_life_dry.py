@@ -4,6 +4,7 @@ import csv
 import json
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +14,9 @@ import thirdbody as tb
 from thirdbody import cli
 from thirdbody.study.run_life import load_life, run_life
 from thirdbody.systems.life.debris import Debris
+from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_dry_words import answer
+from thirdbody.views.report.tables import life_section
 
 HOUR = 3600.0
 SHORT = ("--set", 'life.duration="1 h"')
@@ -117,6 +120,15 @@ def test_the_figure_is_drawn():
     done = run("life", "dry-contact.toml", "--set", 'life.duration="20 s"', "--figure", "a.png")
     assert done.exit_code == 0, done.stderr
     assert Path("a.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_the_report_has_a_part_on_the_contact():
+    found = run_life(load_life("dry-contact.toml", ['life.duration="20 s"']))
+    (part,) = life_section(SimpleNamespace(life=found))
+    assert "The contact over time" in part
+    assert words_in_html(answer(found)[0]) in part
+    assert "<svg" in part
+    assert "Wear and particles over time" in part
 
 
 MISTAKES = [

@@ -27,7 +27,7 @@ def rows(found: LifeAssessment) -> list[list[str]]:
     bands = found.bands
     unit = "1/m^3" if bands.swings_of == "count from 6 µm" else "m"
 
-    def said(value: float) -> str:
+    def amount(value: float) -> str:
         if unit == "m":
             return value_of(value, "m", 3) if value else "0"
         return f"{number(value / 1e6, 3)} per mL"
@@ -35,8 +35,8 @@ def rows(found: LifeAssessment) -> list[list[str]]:
     return [
         [
             each.name,
-            said(each.low),
-            said(each.high),
+            amount(each.low),
+            amount(each.high),
             number(each.factor, 3) if math.isfinite(each.factor) else "no end",
         ]
         for each in bands.swings
