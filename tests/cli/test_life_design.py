@@ -9,8 +9,8 @@ from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody import cli
-from thirdbody.study.life_design import design_life
 from thirdbody.study.run_life import load_oil, run_life
+from thirdbody.study.run_life_design import design_life
 from thirdbody.systems.life.oil_history import run_oil_history
 
 FILTERS = """

@@ -108,9 +108,10 @@ def test_an_event_ends_the_history():
     assert "a surface is worn by 1 µm: wear has taken" in told
 
 
+@pytest.mark.slow
 def test_what_never_leaves_is_told():
     """A soft second surface holds the grains, and the first one alone moves."""
-    keys = ("--set", 'surfaces.second="CuSn8"', "--set", 'life.duration="20 s"')
+    keys = ("--set", 'surfaces.second="CuSn8"', "--set", 'life.duration="1 s"')
     told = said(run("life", "dry-contact.toml", *keys))
     assert "comes to no steady state: it holds" in told
     assert "and some of them never leave it" in told
@@ -127,8 +128,7 @@ def test_the_report_has_a_part_on_the_contact():
     (part,) = life_section(SimpleNamespace(life=found))
     assert "The contact over time" in part
     assert words_in_html(answer(found)[0]) in part
-    assert "<svg" in part
-    assert "Wear and particles over time" in part
+    assert "<figcaption>Wear and particles over time" in part
 
 
 MISTAKES = [

@@ -11,7 +11,7 @@ from ..quantities.say import join_words, number
 from .life_words import duration_of
 
 if TYPE_CHECKING:
-    from ..study.life_design import LifeDesign
+    from ..study.run_life_design import LifeDesign
 
 __all__ = ["MEANS", "answer", "heads", "last_words", "rows"]
 

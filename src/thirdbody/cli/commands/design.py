@@ -42,7 +42,7 @@ class Options:
 def command(options: Options) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
     from ...study.analyses import design_study
-    from ...study.life_design import asks_for_design
+    from ...study.run_life_design import asks_for_design
 
     if asks_for_design(options.study, options.settings or ()):
         _choose_for_oil(options)
@@ -75,8 +75,8 @@ def command(options: Options) -> None:
 
 def _choose_for_oil(options: Options) -> None:
     """The smallest filter for a code, or the choice with the longest time to an event."""
-    from ...study.life_design import design_life
     from ...study.run_life import load_oil
+    from ...study.run_life_design import design_life
     from ...views import life_design_words as words
     from ..answers import give_answer, read_question
 
