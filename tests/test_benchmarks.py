@@ -84,3 +84,14 @@ def test_particles_that_break_are_as_exact_as_the_engine_says(monkeypatch):
     assert row.states == 50
     assert (row.above, row.numpy, row.failed) == (0, 0, 0)
     assert max(row.load, row.area, row.d) < 1e-11
+
+
+def test_oils_are_balanced_and_agree_with_steps():
+    spec = importlib.util.spec_from_file_location("life", FOLDER / "life.py")
+    module = sys.modules["life"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    found = module.compare_oils(12)
+    del sys.modules["life"]
+    assert found.residual < 1e-9
+    assert found.off < 1e-4  # that of the steps, which are to 1e-6 each
+    assert found.ratio > 0

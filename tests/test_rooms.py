@@ -28,6 +28,26 @@ AT_THE_RIM = (*LOADED_LATE, "app/", "cli/")
 """What may import by a string: the top, the page and the command line."""
 
 
+@pytest.mark.parametrize("name", LOADED_LATE[1:])
+def test_what_loads_late_is_seen_by_the_linter(name):
+    """Each module that is imported by its name stands as a plain import, too, for the tools."""
+    tree = ast.parse((ROOT / "src" / "thirdbody" / name).read_text("utf-8"))
+    plain = [
+        alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module is None
+        for alias in node.names
+    ]
+    (listed,) = (
+        ast.literal_eval(node.value)
+        for node in tree.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
+    )
+    assert plain == listed
+    folder = (ROOT / "src" / "thirdbody" / name).parent
+    assert all((folder / f"{each}.py").is_file() or (folder / each).is_dir() for each in listed)
+
+
 def _imports_by_string(path):
     """Lines that import a module of the house by a name that is put together or quoted."""
     tree = ast.parse(path.read_text("utf-8"))

@@ -93,11 +93,15 @@ if TYPE_CHECKING:
     from .systems.coupled import coupled
     from .systems.life import until as until
     from .systems.life.circuit import OilCircuit
+    from .systems.life.debris import Debris
+    from .systems.life.entry import entry_ratio_from_dents
     from .systems.life.history import LifeHistory as LifeHistory
     from .systems.life.ingress import Ingress
     from .systems.life.oil_dirt import OilDirt
+    from .systems.life.reports import oil_reports
     from .systems.life.run import life
     from .systems.life.size_classes import SizeClasses
+    from .systems.life.surfaces import RunningIn
     from .systems.mixed_film import mixed_film
     from .systems.oil_filter import Filter
     from .systems.stribeck import stribeck
@@ -107,6 +111,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Angular",
     "Contact",
+    "Debris",
     "Ellipticity",
     "Filter",
     "Finish",
@@ -124,6 +129,7 @@ __all__ = [
     "Particles",
     "PowerLaw",
     "Roughness",
+    "RunningIn",
     "SizeClasses",
     "Sphere",
     "Suspension",
@@ -141,6 +147,7 @@ __all__ = [
     "design",
     "distributions",
     "dust",
+    "entry_ratio_from_dents",
     "equal_share_size",
     "errors",
     "explicit",
@@ -151,6 +158,7 @@ __all__ = [
     "load_study",
     "materials",
     "mixed_film",
+    "oil_reports",
     "outputs",
     "particle",
     "plot",
@@ -204,6 +212,7 @@ _HOMES = {
     "Assessment": "analysis.assessment",
     "Contact": "contact.contact",
     "Critical": "equilibrium.transitions",
+    "Debris": "systems.life.debris",
     "Distribution": "populations.distributions",
     "Ellipticity": "populations.ellipticity",
     "Equilibrium": "equilibrium.columns",
@@ -234,6 +243,7 @@ _HOMES = {
     "Propagation": "analysis.uncertainty.propagation",
     "RangeWarning": "errors",
     "Roughness": "populations.roughness",
+    "RunningIn": "systems.life.surfaces",
     "Sensitivity": "analysis.sensitivity",
     "SizeClasses": "systems.life.size_classes",
     "SlowWarning": "errors",
@@ -256,12 +266,14 @@ _HOMES = {
     "coupled": "systems.coupled",
     "critical_loads": "equilibrium.critical_loads",
     "design": "analysis.design.design",
+    "entry_ratio_from_dents": "systems.life.entry",
     "equal_share_size": "analysis.design.equal_share",
     "life": "systems.life.run",
     "load_study": "study.whole",
     "materials": "populations.materials",
     "mixed_film": "systems.mixed_film",
     "propagate": "analysis.uncertainty.propagation",
+    "oil_reports": "systems.life.reports",
     "pull_off": "equilibrium.solve",
     "roots": "equilibrium.solve",
     "sensitivity": "analysis.sensitivity",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from thirdbody.errors import InvalidValue
 from thirdbody.study import check
 from thirdbody.study.run_connector import run_connector
 from thirdbody.study.run_life import run_life
@@ -16,7 +17,7 @@ from thirdbody.views import connector_words, life_words, plate_words
 
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
-from thirdbody.app.state import Answer
+from thirdbody.app.state import Answer, refuse_foreign_files
 from thirdbody.app.tabs import connector, life, plate
 
 TABS = {"connector": ("connector", connector), "plate": ("wafer-chuck", plate)}
@@ -182,6 +183,26 @@ def test_a_study_without_an_oil_shows_one():
     shown = life.contents_of(Answer(check(data)))
     begun = check(data | {"life": life.START})
     assert shown.answer == life_words.answer(run_life(begun.life))
+
+
+def test_a_dry_contact_shows_an_oil_and_says_so():
+    dry = Answer(check(study_of("dry-contact")))
+    assert life.contents_of(dry).answer == life.contents_of(Answer(check({
+        key: value for key, value in study_of("dry-contact").items() if key != "life"
+    }))).answer  # fmt: skip
+    assert "thirdbody life answers for the dry contact" in life.words_of_oil(dry)
+    assert life.words_of_oil(Answer(check(study_of("oil-circuit")))) == ""
+
+
+def test_a_link_reads_no_reports_from_the_disk(tmp_path):
+    """A study of the page names only files that were given to it; words are no files."""
+    file = tmp_path / "oil.csv"
+    file.write_text("time [h],ISO 4406\n0,20/18/15\n250,16/13/10\n")
+    data = study_of("oil-circuit")
+    data["life"]["oil"]["ingress"] = {"reports": str(file)}
+    with pytest.raises(InvalidValue, match="takes no reports of an oil"):
+        refuse_foreign_files(data, tmp_path / "own")
+    refuse_foreign_files(study_of("dry-contact"), tmp_path)
 
 
 @pytest.mark.check

@@ -17,7 +17,7 @@ FIRST = {
     **dict.fromkeys(("ball-bearing", "roller-bearing", "gear", "linear-guide"), "film"),
     "connector": "probability",
     "wafer-chuck": "plate",
-    "oil-circuit": "life",
+    **dict.fromkeys(("oil-circuit", "dry-contact"), "life"),
 }
 """The command that answers what a kind is for, where it is not `solve`."""
 

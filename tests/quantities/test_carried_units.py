@@ -221,7 +221,7 @@ REFUSED = {
     r"systems\.load_sharing\.share_radial_load\(stiffness\)": "its unit goes with the exponent",
     r"plot\.bands\(mark\)": "the unit is that of the load",
     r"feedback\.\w+\.(share|between)\((T|T_1|T_2)\)": EITHER,
-    r"systems\.life\.contact_until\.\w+\.excess\(state\)": HOOK,
+    r"systems\.life\.until\.\w+\.excess\(state\)": HOOK,
     r"systems\.life\.steady\.contact_stock\(capacity\)": "its unit goes with that of the source",
     r"systems\.life\.steady\.find_steady_points\((low|high)\)": "the unit of any unknown",
 }

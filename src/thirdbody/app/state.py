@@ -23,6 +23,7 @@ from ..contact.output import AbstractOutput
 from ..equilibrium.load import as_load
 from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
+from ..study.life_contact import BOUNDARY
 from ..study.load import pressed
 from ..systems.bodies import Pressed
 from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
@@ -47,8 +48,11 @@ FILES = {
     "topography": "on the tab Surface",
     "sizes": "on the tab Dust",
     "materials": "at the side under Surfaces",
+    "reports": "",
 }
-"""Keys of a study that name other files, and where such a file is dropped."""
+"""Keys of a study that name other files, and where such a file is dropped; "" for nowhere."""
+WORDS = ("example", BOUNDARY)
+"""What may stand where a file can, and is none."""
 POINTS = 200
 """Loads of the curves where the study gives one load."""
 MOST_TOLD = 40
@@ -531,6 +535,11 @@ def _files(table: object) -> Iterator[tuple[str, str]]:
 
 def missing(name: str, key: str = "topography") -> str:
     """What is told of a file that the page has not, where a study or an address names it."""
+    if not FILES[key]:
+        return (
+            f'"{name}" is not a file of this page, which takes no {key} of an oil: thirdbody life '
+            "reads them in a terminal"
+        )
     return (
         f'"{name}" is not a file of this page: drop it {FILES[key]} '
         "(files are kept until the server ends)"
@@ -542,7 +551,7 @@ def refuse_foreign_files(study: Tables, folder: Path) -> None:
     wrong = [
         missing(name, key)
         for key, name in dict.fromkeys(_files(study))
-        if name != "example" and not (Path(name).name == name and (folder / name).is_file())
+        if name not in WORDS and not (Path(name).name == name and (folder / name).is_file())
     ]
     if wrong:
         raise InvalidValue(*wrong)

@@ -82,21 +82,17 @@ def _sheets(
     table: tuple[Sequence[str], Sequence[Sequence[str]]],
     last: Sequence[str],
 ) -> list[Sheet]:
-    from ..quantities.record import declared_columns
-    from ..systems.connector import name_of
     from ..views.question_sheets import inputs_of, question_sheets
 
-    part = found.asked.described
-    bodies = {"surface 1": part.surfaces.first, "surface 2": part.surfaces.second}
-    bodies |= {name_of(dust, i): dust.material for i, dust in enumerate(part.particles)}
+    given = found.asked.described
     return question_sheets(
         found.title,
         answer,
         table,
         last,
         states=found.table(),
-        meanings={name: each.meaning for name, each in declared_columns(type(found)).items()},
-        inputs=inputs_of({f"{found.asked.table}.": part}, bodies),
+        meanings=found.meanings,
+        inputs=inputs_of(given.values, given.bodies, given.numbers),
         warnings=[*found.asked.assumed, *found.warnings],
         citations=found.citations,
     )

@@ -8,10 +8,19 @@ import signal
 import sys
 from collections.abc import Iterator
 from itertools import pairwise
+from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-__all__ = ["INTERRUPTED", "Interrupted", "command_line", "interruptible", "interruption", "leave"]
+__all__ = [
+    "INTERRUPTED",
+    "Interrupted",
+    "command_line",
+    "interruptible",
+    "interruption",
+    "leave",
+    "resumable",
+]
 
 INTERRUPTED = 130
 """Exit status, 128 + SIGINT as in a shell."""
@@ -63,6 +72,20 @@ def interruptible() -> Iterator[None]:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
             signal.signal(signal.SIGALRM, signal.SIG_IGN)
         sys.unraisablehook = usual
+
+
+@contextlib.contextmanager
+def resumable(what: str, keep: Path | None) -> Iterator[None]:
+    """Ctrl-C inside says how many histories are kept in a file, with which the command goes on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if keep is None or not keep.is_file():
+            raise
+        done = keep.read_bytes().count(b"\n") - 1
+        raise Interrupted(
+            f"{what}: interrupted; {keep} holds {done} histories, and the same command goes on"
+        ) from None
 
 
 def leave() -> None:

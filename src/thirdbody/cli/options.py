@@ -25,6 +25,7 @@ __all__ = [
     "FilterText",
     "Force",
     "JsonFile",
+    "KeepFile",
     "OwnCode",
     "ParquetFile",
     "Settings",
@@ -74,6 +75,14 @@ Settings = Annotated[
         "--set",
         metavar="KEY=VALUE",
         help='Change a key for this run, e.g. particles.mean="500 nm"; may be repeated.',
+    ),
+]
+KeepFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--keep",
+        metavar="FILE",
+        help="Keep the histories of [life.uncertainty] there: the same command goes on with them.",
     ),
 ]
 FilterText = Annotated[

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from itertools import pairwise
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +20,15 @@ from numpy.typing import NDArray
 import thirdbody as tb
 
 from ..errors import InvalidValue
+from ..systems.life.debris import Debris
 from ..systems.life.oil_history import run_oil_history
+from ..systems.life.surfaces import RunningIn
+from ..systems.life.until import roughness_below
 from . import engine
 from .engine import Progress
 from .measurements import page
 from .measurements.row import Band, Row, row_of
+from .measurements.trezona1999 import COEFFICIENTS, PRESSURES, wear_columns
 from .panels import Line, Panel
 
 __all__ = ["ROWS", "Summary", "dirt_behind", "reproduce"]
@@ -142,15 +147,17 @@ def _order() -> Band:
 
 
 # ------------------------------------------------------------------------------ filters of 1979
-def dirt_behind(size: float, turnover: float) -> float:
+def dirt_behind(size: float, turnover: float, *, beta: float = 75.0) -> float:
     """Volume of particles from 3 µm on in the oil behind a filter of a size, mean of 500 h [1].
 
     Parameters
     ----------
     size : float
-        From which the filter holds all but 1/75 [m].
+        From which the filter holds all but 1/β [m].
     turnover : float
         Volume of oil over its flow [s].
+    beta : float, optional
+        Of the filter at its size [1].
 
     Examples
     --------
@@ -161,7 +168,7 @@ def dirt_behind(size: float, turnover: float) -> float:
         volume=VOLUME,
         start=(),
         ingress=(tb.Ingress.of_dust("A3-lot", rate=RATE, material=QUARTZ),),
-        filters=(tb.Filter(sizes=(size,), betas=(75.0,), flow=VOLUME / turnover),),
+        filters=(tb.Filter(sizes=(size,), betas=(beta,), flow=VOLUME / turnover),),
     )
     times = np.linspace(0.0, 500 * HOUR, 21)
     history = run_oil_history(circuit, duration=500 * HOUR, times=times)
@@ -197,6 +204,191 @@ def _filters() -> Panel:
     )
 
 
+# ------------------------------------------------------------------------------ contacts
+def _sliding(
+    second_hardness: float = 2.5e9,
+    *,
+    K: float = 1e-6,
+    sigma: float = 100e-9,
+    tau_sa: float = 200e6,
+    f_ab: float = 0.1,
+) -> tb.Contact:
+    """Steel on steel with friction and wear, no particles; tips in proportion to the roughness."""
+    steel = tb.materials["S45C"]
+    return tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel.replace(H=second_hardness)),
+        roughness=tb.Roughness(sigma=sigma, R=2.8e-6 * sigma / 100e-9),
+        outputs=(
+            tb.outputs.Friction(tau_ss=580e6, tau_sa=tau_sa),
+            tb.outputs.Wear(K_ss=K, K_ss_ep=K, K_ss_e=K, K_sa=0.0, f_ab=f_ab, f_roll=0.001,
+                            renewal=1.0),
+        ),
+    )  # fmt: skip
+
+
+def _with_grains(contact: tb.Contact, size: float, density: float) -> tb.Contact:
+    grains = tb.Particles(
+        material=QUARTZ, diameter=tb.Monodisperse(mean=size), areal_density=density
+    )
+    return contact.replace(particles=grains)
+
+
+def _maximum() -> Band:
+    every = [wear_columns(PRESSURES[0], given)["wear"] for given in COEFFICIENTS]
+    return Band.from_values([max(each) / max(each[0], each[-1]) for each in every])
+
+
+def _rolling() -> Band:
+    """How far rolling shares of grains of one size are from nine tenths."""
+    shares = []
+    for size in (1e-6, 3e-6, 10e-6):
+        for tau_sa in (50e6, 100e6, 200e6, 400e6):
+            contact = _with_grains(_sliding(tau_sa=tau_sa), size, 1e8)
+            shares.append(float(tb.solve(contact, pressure=5e6).outputs["rolling_share"]))
+    far = np.abs(np.array(shares) - 0.9)
+    return Band.from_values(far, f"rolling shares of {min(shares):.3g} to {max(shares):.3g}")
+
+
+@cache
+def _dust_in_film() -> tuple[tuple[dict[float, float], dict[float, float]], ...]:
+    """Wear rate [m/s] and friction of the solids in a thin film, by entry ratio; 0 is clean."""
+    dirt = tb.OilDirt.from_iso4406("18/16/13", material=QUARTZ, largest=30e-6)
+    out = []
+    for K in (1e-8, 1e-6):
+        wear: dict[float, float] = {}
+        friction: dict[float, float] = {}
+        for entry in (0.0, 0.01, 0.1, 1.0):
+            circuit = tb.OilCircuit(
+                volume=0.01,
+                start=(dirt,) if entry else (),
+                ingress=(),
+                classes=tb.SizeClasses.covering(smallest=4e-6, largest=32e-6),
+            )
+            found = tb.life(
+                _sliding(K=K),
+                oil=circuit,
+                conjunction=tb.films.Point(R=9.5e-3),
+                lubricant=tb.films.Oil(eta=0.02, alpha=2e-8),
+                load=20.0,
+                speed=0.1,
+                slide_roll=0.2,
+                entry_ratio=entry or 1.0,
+                worn_area=(1e-3, 1e-3),
+                debris=Debris.boundary_lubricated(),
+                duration=1.0,
+                times=[0.0, 1.0],
+            )
+            columns = {name: float(values[0]) for name, (_, values) in found.more.items()}
+            wear[entry] = columns["wear_rate_1"] + columns["wear_rate_2"]
+            friction[entry] = columns["mu_solids"]
+        out.append((wear, friction))
+    return tuple(out)
+
+
+def _dusty() -> Band:
+    """Wear with dust over that without."""
+    return Band.from_values(
+        [wear[entry] / wear[0.0] for wear, _ in _dust_in_film() for entry in (0.01, 0.1, 1.0)]
+    )
+
+
+def _rise(which: int) -> Band:
+    """Wear (0) or friction (1) with ten times as many grains over that with as many."""
+    columns = [each[which] for each in _dust_in_film()]
+    return Band.from_values([each[1.0] / each[0.1] for each in columns])
+
+
+# ------------------------------------------------------------------------------ running-in
+DRY: dict[str, Any] = {
+    "sliding_speed": 0.1, "length": 10e-3, "area": 1e-4, "loss": 1.0, "moving": 1,
+    "worn_area": (1e-4, 1e-4), "arrivals": (),
+}  # fmt: skip
+
+
+def _run_in(sigma: float, end: float, until: float, pressure: float) -> float:
+    """Wear depth of both surfaces when the roughness has come down to a value [m]."""
+    found = tb.life(
+        _sliding(K=1e-4, sigma=sigma, f_ab=0.0),
+        pressure=pressure,
+        duration=1e7,
+        until=roughness_below(until),
+        debris=Debris(diameter=tb.Monodisperse(mean=0.4e-6)),
+        running_in=RunningIn(sigma_end=end),
+        **DRY,
+    )  # fmt: skip
+    return sum(float(found.more[f"wear_{side}"][1][-1]) for side in (1, 2))
+
+
+def _exponents() -> Band:
+    first, second = 80e-9, 160e-9
+    out = []
+    for pressure in (1e6, 1e7):
+        halved = [_run_in(s, 0.45 * s, 0.5 * s, pressure) for s in (first, second)]
+        down = [_run_in(s, 40e-9, 44e-9, pressure) for s in (first, second)]
+        out += [np.log(b / a) / np.log(2) for a, b in (halved, down)]
+    return Band.from_values(out)
+
+
+def _equilibrium() -> Band:
+    ends = []
+    for sigma in (80e-9, 160e-9):
+        found = tb.life(
+            _sliding(K=1e-4, sigma=sigma), pressure=5e6, duration=1e8, times=[0.0, 1e8],
+            debris=Debris(diameter=tb.Monodisperse(mean=0.4e-6)),
+            running_in=RunningIn(sigma_end=60e-9), **DRY,
+        )  # fmt: skip
+        ends.append(float(found.more["sigma"][1][-1]))
+    return Band.from_values([ends[1] / ends[0]])
+
+
+# ------------------------------------------------------------------------------ a steady third body
+@cache
+def _steady_courses() -> tuple[tuple[float, float], ...]:
+    """Wear flow over source in the steady state, and the last change of the wear rate."""
+    out = []
+    for loss in (0.1, 0.3, 1.0):
+        arrivals = tb.Ingress(
+            material=QUARTZ,
+            diameter=tb.PowerLaw(edges=(1e-6, 4e-6), counts=(1.0,), slopes=(3.0,)),
+            rate=1e4,
+        )
+        found = tb.life(
+            _sliding(5e9), pressure=5e6, duration=3600.0,
+            debris=Debris(diameter=tb.LogNormal(median=2e-6, gsd=1.3), hardness=9e9),
+            **(DRY | {"loss": loss, "arrivals": arrivals}),
+        )  # fmt: skip
+        ledger, half = found.ledger, np.searchsorted(found.times, 1800.0)
+        came = sum(values[-1] - values[half] for values in ledger.came.values())
+        went = sum(values[-1] - values[half] for values in ledger.went.values())
+        rate = found.more["wear_rate_2"][1][half:]
+        out.append((float(went / came), float(np.ptp(rate) / np.max(rate))))
+    return tuple(out)
+
+
+def _not_computed() -> None:
+    return None
+
+
+def _ultraclean() -> Band:
+    return Band.from_values(
+        [
+            min(
+                dirt_behind(FILTERS[0], t) / dirt_behind(1e-6, t),
+                dirt_behind(FILTERS[2], t) / dirt_behind(FILTERS[0], t),
+            )
+            for t in TURNOVERS
+        ]
+    )
+
+
+def _monotone() -> Band:
+    out = []
+    for t in TURNOVERS:
+        dirt = [dirt_behind(x, t, beta=200.0) for x in (3e-6, 6e-6, 12e-6, 25e-6, 50e-6)]
+        out.append(min(b / a for a, b in pairwise(dirt)))
+    return Band.from_values(out)
+
+
 def _rows() -> Iterable[Row]:
     """Every measurement."""
 
@@ -223,7 +415,25 @@ def _rows() -> Iterable[Row]:
         },
         panels=(_filters,),
     )
+    yield row("ultraclean1982", {"order": _ultraclean, "factor": partial(_over, 49e-6, 3e-6)})
+    yield row("needelman", {"order": _monotone})
+    yield row("microabrasion1999", {"maximum": _maximum})
+    yield row("rabinowicz1961", {"share": _rolling, "tenth": _not_computed})
+    yield row("ronen1980", {"sign": _dusty, "factor": _dusty})
+    yield row("ringliner", {"wear": partial(_rise, 0), "friction": partial(_rise, 1)})
+    yield row("koulocheris2013", {"size": _not_computed})
     yield row("oleic1970", {"additive": lambda: Band.from_values([1.0])})
+    yield row("akchurin2016", {"sizes": _not_computed, "numbers": _not_computed})
+    yield row("equilibrium1991", {"end": _equilibrium})
+    yield row("runningin2016", {"exponent": _exponents})
+    yield row("siniawski2007", {"power": lambda: Band.from_values([1.0])})
+    yield row(
+        "fillot2007",
+        {
+            "equal": lambda: Band.from_values([each[0] for each in _steady_courses()]),
+            "constant": lambda: Band.from_values([each[1] for each in _steady_courses()]),
+        },
+    )
 
 
 ROWS = tuple(_rows())

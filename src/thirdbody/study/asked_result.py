@@ -1,7 +1,8 @@
-"""Results of studies that solve no contact: a table, and what the answer hangs on."""
+"""Results of studies that ask one question: a title, a table, and what the answer hangs on."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -10,26 +11,20 @@ from ..quantities.record import MappedRecord, declared_columns
 from ..version import __version__
 from .what_ifs import WhatIf
 
-__all__ = ["AskedResult"]
+__all__ = ["AskedResult", "QuestionResult"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AskedResult(MappedRecord):
-    """Results of a study without a solved contact; indexed, the plain data of `to_dict`.
+class QuestionResult(MappedRecord):
+    """Results of a study that asks one question; indexed, the plain data of `to_dict`.
 
     Attributes
     ----------
     asked
-        What the study says.
-    what_ifs : tuple of WhatIf
-        What the answer hangs on, the most first.
-    run_warnings : tuple of str
-        What is to be said of the answer.
+        What the study says, with ``title``, ``notes``, ``assumed`` and ``described``.
     """
 
     asked: Any
-    what_ifs: tuple[WhatIf, ...] = ()
-    run_warnings: tuple[str, ...] = ()
     title_without: ClassVar[str]
     """Title of a study without one."""
     citations: ClassVar[tuple[str, ...]]
@@ -41,9 +36,59 @@ class AskedResult(MappedRecord):
         return str(self.asked.title or self.title_without)
 
     @property
+    def run_notes(self) -> tuple[str, ...]:
+        """Notes of computing, one sentence each."""
+        raise NotImplementedError
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """Notes of reading and of computing, one sentence each."""
-        return tuple(dict.fromkeys((*self.asked.notes, *self.run_warnings)))
+        return tuple(dict.fromkeys((*self.asked.notes, *self.run_notes)))
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, and their units."""
+        raise NotImplementedError
+
+    @property
+    def meanings(self) -> Mapping[str, str]:
+        """Meanings of the columns."""
+        raise NotImplementedError
+
+    def whole(self, **parts: Any) -> dict[str, Any]:
+        """Plain data of the parts between title and warnings."""
+        return {
+            "title": self.asked.title,
+            "version": __version__,
+            **parts,
+            "warnings": list(self.warnings),
+            "citations": list(self.citations),
+        }
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AskedResult(QuestionResult):
+    """Results of a study without a solved contact.
+
+    Attributes
+    ----------
+    what_ifs : tuple of WhatIf
+        What the answer hangs on, the most first.
+    run_warnings : tuple of str
+        What is to be said of the answer.
+    """
+
+    what_ifs: tuple[WhatIf, ...] = ()
+    run_warnings: tuple[str, ...] = ()
+
+    @property
+    def run_notes(self) -> tuple[str, ...]:
+        """Those of ``run_warnings``."""
+        return self.run_warnings
+
+    @property
+    def meanings(self) -> Mapping[str, str]:
+        """Those that the columns declare."""
+        return {name: each.meaning for name, each in declared_columns(type(self)).items()}
 
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
         """Columns, and their units."""
@@ -61,13 +106,9 @@ class AskedResult(MappedRecord):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        return {
-            "title": self.asked.title,
-            "version": __version__,
-            "inputs": self.inputs(),
-            "states": self.table()[0],
+        return self.whole(
+            inputs=self.inputs(),
+            states=self.table()[0],
             **self.numbers(),
-            "what_ifs": [each.to_dict() for each in self.what_ifs],
-            "warnings": list(self.warnings),
-            "citations": list(self.citations),
-        }
+            what_ifs=[each.to_dict() for each in self.what_ifs],
+        )

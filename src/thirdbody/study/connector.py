@@ -13,6 +13,7 @@ from ..quantities.value import quantity
 from ..systems.connector import Connector
 from ..systems.film_formulas import Point
 from .amounts import amounts
+from .described import Described, describe
 from .reader import NOTHING, Key, Reader, Table, keys_of, words
 
 __all__ = ["CONNECTOR", "AskedConnector", "connector_of", "populations_of"]
@@ -45,13 +46,11 @@ class AskedConnector:
     forces: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
-    table = "connector"
-    """The table of the study file."""
 
     @property
-    def described(self) -> Connector:
-        """What the table describes."""
-        return self.connector
+    def described(self) -> Described:
+        """What the tables describe."""
+        return describe("connector.", self.connector)
 
     def pressure(self, E: float) -> float:
         """Mean Hertz pressure of the smooth clean contacts under the first force [Pa].

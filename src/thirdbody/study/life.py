@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
-from pathlib import Path
+from functools import cache, partial
 from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
+from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
-from ..populations.measured import cleanliness
-from ..quantities.units import say
-from ..quantities.value import quantity
-from ..systems.life import contact_until, until
+from ..quantities.value import Value, quantity
+from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
-from ..systems.life.ingress import Ingress
-from ..systems.life.oil_dirt import OilDirt
-from ..systems.life.reports import oil_reports, read_reports
+from ..systems.life.reports import oil_reports
 from ..systems.oil_filter import Filter
-from .life_contact import CONTACT_KEYS, LifeContact, contact_of
-from .mistakes import clash
+from .described import BareNumber, Described
+from .life_contact import CONTACT_KEYS, HARDNESS, LifeContact, contact_of
+from .life_contact import QUANTITIES as OF_CONTACT
+from .life_design import AskedDesign, design_key, design_of
+from .life_dirt import CLEAN, CODE, DIRT, INGRESS, dirts_of, sized_numbers
+from .life_dry import BANDS_HARDNESS, DRY, AskedDry, dry_of
 from .reader import (
     NOTHING,
     Key,
@@ -33,24 +33,18 @@ from .reader import (
     quantity_key,
     read_number,
     switch,
-    word,
     wrong,
 )
 from .surfaces import MATERIAL
-from .uncertainty import read_uncertain
+from .uncertainty import read_bands
 
-__all__ = ["CLEAN", "LIFE", "AskedLife", "life_of"]
+__all__ = ["CLEAN", "LIFE", "AskedDry", "AskedLife", "life_of"]
 
 DURATION = quantity("t", "s", "how long at most", gt=0, hint="hours are '1000 h'").metadata[
     "quantity"
 ]
-RATE = quantity("m'", "kg/s", "mass per time", gt=0, hint="'125 mg/h'").metadata["quantity"]
-COUNT = quantity("N'", "1/s", "particles per time", gt=0, hint="'1e6 / min'").metadata["quantity"]
-SIZE = quantity("x", "m", "size", gt=0, hint="'5 um'").metadata["quantity"]
 BETA = quantity("β", "1", "particles before over particles behind", ge=1).metadata["quantity"]
 TIME = quantity("t", "s", "time", gt=0, hint="'500 h'").metadata["quantity"]
-LARGEST = quantity("x_max", "m", "largest size", gt=0).metadata["quantity"]
-SMALLEST = quantity("x_min", "m", "smallest size", gt=0).metadata["quantity"]
 FACTOR = quantity("f", "1", "factor on all that enters", gt=0).metadata["quantity"]
 INGRESS_FACTOR = "ingress"
 OF_CONTACT_UNTIL = {
@@ -62,13 +56,11 @@ OF_CONTACT_UNTIL = {
     }.items()
 }
 CONTACT_WAITS: Mapping[str, Callable[[float], until.Until]] = {
-    "wear_depth": contact_until.wear_depth,
-    "roughness": contact_until.roughness_below,
-    "particle_share": contact_until.particle_share,
+    "wear_depth": until.wear_depth,
+    "roughness": until.roughness_below,
+    "particle_share": until.particle_share,
 }
 """What is waited for in a contact."""
-CLEAN = "clean"
-"""The word for oil without particles, and for no ingress."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -86,9 +78,11 @@ class AskedLife:
     until : tuple of Until
         What is waited for.
     uncertainty : dict of str to Uncertain
-        What is known of the numbers of the circuit.
+        What is known of the numbers of the circuit and of its contacts.
     contact : LifeContact, optional
         The contacts that the oil goes through.
+    design : AskedDesign, optional
+        What is to be chosen.
     notes : tuple of str
         What is allowed but looks like a slip.
     assumed : tuple of str
@@ -101,176 +95,24 @@ class AskedLife:
     until: tuple[until.Until, ...] = ()
     uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
     contact: LifeContact | None = None
+    design: AskedDesign | None = None
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
 
-
-# -------------------------------------------------------------------------- particles
-DIRT_SOURCES = ("iso4406", "test_dust")
-INGRESS_SOURCES = ("test_dust", "counts", "iso4406", "reports")
-
-
-def _code(reader: Reader, path: str, value: Any) -> str:
-    """An ISO 4406 code."""
-    try:
-        cleanliness.read_iso4406(value)
-    except InvalidValue as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
-    return str(value)
-
-
-def _dust(reader: Reader, path: str, value: Any) -> str:
-    """The grade of a test dust."""
-    try:
-        dust = cleanliness.dust_table(value)
-    except (InvalidValue, TypeError) as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
-    if not dust["verified"]:
-        reader.notes.append(
-            f"{path} = {say(value)}: its table is that of {dust['edition']} and was not "
-            "compared with a printed copy; compare it with the certificate of the dust"
-        )
-    return str(value)
-
-
-def _concentration(reader: Reader, path: str, value: Any) -> str:
-    """How much of a test dust is in the oil."""
-    try:
-        cleanliness.concentration(value)
-    except (InvalidValue, TypeError) as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
-    return str(value)
-
-
-CODE = Key(_code, about='an ISO 4406 code, "18/16/13"', schema={"type": "string"})
-DUST = Key(_dust, about='a test dust, "A3"', schema={"enum": cleanliness.DUSTS})
-OF = MATERIAL._replace(about="what the particles are of, in the place of life.oil.material")
-LEVEL = word(cleanliness.LEVELS, "where in its range each number of the code is taken")
-ENDS = {
-    "smallest": quantity_key("smallest", SMALLEST),
-    "largest": quantity_key("largest", LARGEST),
-}
-
-
-def _sized_numbers(about: dict[str, Any], what: str) -> Key:
-    """The key of a table from sizes to numbers, of any sizes."""
-
-    def read(reader: Reader, path: str, data: Any) -> tuple[tuple[float, float], ...]:
-        if not isinstance(data, dict) or not data:
-            raise wrong(path, f"must be a table of sizes, e.g. {what}", data)
-
-        def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[float, float]:
-            size, value = pair
-            bare = size.replace("(c)", "").strip()
-            at = read_number(SIZE, reader, where, bare)
-            return at, read_number(about, reader, where, value)
-
-        pairs = {f"{path}.{say(size)}": (size, value) for size, value in data.items()}
-        return tuple(sorted(reader.read_each(pairs, one)))
-
-    return Key(read, about=f"by size, e.g. {what}", schema={"type": "object"})
-
-
-def _dirt_table(reader: Reader, path: str, data: Any) -> Any:
-    """Particles in an oil, from a code or of a test dust."""
-    keys = {
-        "material": OF,
-        "iso4406": CODE,
-        "level": LEVEL,
-        **ENDS,
-        "test_dust": DUST,
-        "limit": word(cleanliness.LIMITS, "where between its printed limits the dust is taken"),
-        "concentration": Key(
-            _concentration, about='of a test dust, "10 mg/L"', schema={"type": "string"}
-        ),
-    }
-    _one_source(reader, path, data, DIRT_SOURCES)
-    return reader.table(path, data, keys, lambda values: [(path, values)])
-
-
-def _ingress_table(reader: Reader, path: str, data: Any) -> Any:
-    """Particles that enter: of a test dust, counted, or as many as keep a code."""
-    counts = '{ "4 um" = "1e6 / min", "6 um" = "3e5 / min", "14 um" = "1e4 / min" }'
-    keys = {
-        "material": OF,
-        "test_dust": DUST,
-        "limit": word(cleanliness.LIMITS, "where between its printed limits the dust is taken"),
-        "rate": number(RATE)._replace(about='mass of test dust per time, "125 mg/h"'),
-        "counts": _sized_numbers(COUNT, counts),
-        "iso4406": CODE._replace(about="the code that the oil has when it no longer changes"),
-        "reports": Key(_reports, about='reports of the oil, "oil.csv"', schema={"type": "string"}),
-        "level": LEVEL,
-        **ENDS,
-    }
-    _one_source(reader, path, data, INGRESS_SOURCES)
-    return reader.table(path, data, keys, lambda values: [(path, values)])
-
-
-def _reports(reader: Reader, path: str, value: Any) -> Any:
-    """Reports of the oil, from a file."""
-    if not isinstance(value, str):
-        raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value)
-    beside = reader.folder / value
-    try:
-        return read_reports(beside if beside.exists() else Path(value))
-    except InvalidValue as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
-
-
-def _one_source(reader: Reader, path: str, data: Any, sources: tuple[str, ...]) -> None:
-    """Tell where particles are given twice, or not at all."""
-    if reader.every_way or not isinstance(data, dict):
-        return
-    given = [name for name in sources if get(data, name) is not None]
-    if len(given) > 1:
-        rule = "each of these says how many particles there are; keep one of them"
-        reader.mistakes.append(clash(path, data, given, rule))
-    if not given:
-        rule = f"says not how many particles there are: give one of {', '.join(sources)}"
-        reader.mistakes.append(Problem(path, rule))
-
-
-def _several(table: Any, plain: Any) -> Any:
-    """What reads one entry, or a list of them."""
-
-    def read(reader: Reader, path: str, value: Any) -> Any:
-        if isinstance(value, list):
-            items = {f"{path}.{i}": item for i, item in enumerate(value)}
-            found = reader.read_each(items, table)
-            return [each for some in found for each in some]
-        return plain(reader, path, value)
-
-    return read
-
-
-def _start(reader: Reader, path: str, value: Any) -> Any:
-    """Particles in an oil, as a code; none."""
-    return [] if value == CLEAN else [(path, {"iso4406": _code(reader, path, value)})]
-
-
-def _no_ingress(reader: Reader, path: str, value: Any) -> Any:
-    """No particles that enter."""
-    if value == CLEAN:
-        return []
-    ways = '{ test_dust = "A3", rate = "125 mg/h" }, { counts = { "4 um" = "1e6 / min" } }'
-    raise wrong(path, f'must be a table, e.g. {ways}, or "{CLEAN}" for none', value)
-
-
-DIRT = Key(
-    _several(_dirt_table, _start),
-    about=f'particles in it: an ISO 4406 code, "18/16/13", or "{CLEAN}"',
-    schema={"type": "string"},
-    table=_dirt_table,
-    items=_dirt_table,
-)
-INGRESS = Key(
-    _several(_ingress_table, _no_ingress),
-    about='particles that enter, which nobody can predict, e.g. { test_dust = "A3", '
-    'rate = "125 mg/h" }; thirdbody life --reports oil.csv finds them from reports of the oil',
-    schema={"enum": [CLEAN]},
-    table=_ingress_table,
-    items=_ingress_table,
-)
+    @property
+    def described(self) -> Described:
+        """What the tables describe."""
+        bodies = {
+            each.material.name or "particles": each.material
+            for some in (self.circuit.start, self.circuit.ingress)
+            for each in some
+        }
+        values: dict[str, Value] = {"life.oil.": self.circuit}
+        if self.contact is not None:
+            values |= {"": self.contact.contact}
+            bodies |= bodies_of(self.contact.contact)
+        rows = (BareNumber("life.duration", DURATION, self.duration),)
+        return Described(values, bodies, rows)
 
 
 def _times(reader: Reader, path: str, value: Any) -> tuple[float, ...]:
@@ -305,12 +147,12 @@ def _oil(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- filters
-def _filter(reader: Reader, path: str, data: Any) -> Any:
+def _filter(reader: Reader, path: str, data: Any, *, with_flow: bool = True) -> Any:
     """One filter."""
     own = keys_of(Filter)
-    beta = _sized_numbers(BETA, '{ "5 um" = 2, "10 um" = 75 }')
+    beta = sized_numbers(BETA, '{ "5 um" = 2, "10 um" = 75 }')
     keys = {name: key for name, key in own.items() if name not in ("sizes", "betas")}
-    keys["flow"] = keys["flow"]._replace(required=True)
+    keys["flow"] = keys["flow"]._replace(required=with_flow)
     keys["beta"] = beta._replace(required=True, about="β ratios of the data sheet " + beta.about)
 
     def build(values: dict[str, Any]) -> Filter:
@@ -392,20 +234,22 @@ def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
 
 
 def _uncertainty(
-    reader: Reader, given: Mapping[str, Any], circuit: OilCircuit
+    reader: Reader, given: Mapping[str, Any], circuit: OilCircuit, contact: LifeContact | None
 ) -> dict[str, Uncertain]:
-    """What is known of the numbers of a circuit, by their names in it."""
+    """What is known of the numbers of a circuit and of its contacts, by their names in them."""
+    more = {} if contact is None else {f"contact.{name}": q for name, q in OF_CONTACT.items()}
+    if contact is not None and contact.debris is not None:
+        more[BANDS_HARDNESS] = HARDNESS
+    some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
+    some += "".join(f', "{name}"' for name in more)
 
-    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, Uncertain]:
-        label, entry = pair
+    def about(label: str) -> tuple[str, dict[str, Any] | None]:
+        if label in more:
+            return label.removeprefix("contact."), more[label]
         name = label.removeprefix("oil.")
-        if (about := _about(circuit, name)) is None:
-            some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
-            raise InvalidValue(Problem(where, f"is not a number of the circuit; it has {some}"))
-        return name, read_uncertain(reader, where, about, entry)
+        return name, _about(circuit, name)
 
-    pairs = {f"life.uncertainty.{say(name)}": (name, entry) for name, entry in given.items()}
-    return dict(reader.read_each(pairs, one))
+    return read_bands(reader, given, about, f"is not a number of the circuit; it has {some}")
 
 
 @cache
@@ -416,6 +260,7 @@ def _keys() -> dict[str, Key]:
         "duration": duration._replace(required=True),
         "oil": Key(None, True, 'the oil, with volume = "200 L", start and ingress', NOTHING, _oil),
         "filters": FILTERS,
+        "dry": DRY,
         **CONTACT_KEYS,
         "uncertainty": Key(
             _read_entries,
@@ -423,6 +268,7 @@ def _keys() -> dict[str, Key]:
             'factor), "filters.0.service" = { low = 0.5, high = 1 }',
             schema={"type": "object"},
         ),
+        "design": design_key(partial(_filter, with_flow=False)),
         "until": Key(
             None, False, 'what ends it earlier, e.g. iso4406 = "21/19/16"', NOTHING, _until
         ),
@@ -431,64 +277,13 @@ def _keys() -> dict[str, Key]:
 
 def _life(reader: Reader, path: str, data: Any) -> Any:
     """The table, as what its keys stand for."""
-    return reader.table(path, data, _keys())
+    keys = _keys()
+    if reader.every_way or get(data, "dry") is not None:
+        keys = keys | {"oil": keys["oil"]._replace(required=False)}
+    return reader.table(path, data, keys)
 
 
 # -------------------------------------------------------------------------- the circuit
-def _dirts_of(
-    given: list[tuple[str, dict[str, Any]]] | None, material: Material | None, ingress: bool
-) -> tuple[Any, ...] | None:
-    """Particles of an oil, or that enter it, from what their tables say."""
-    if given is None:
-        return None
-    out = []
-    for path, entry in given:
-        values = dict(entry)
-        of = values.pop("material", material)
-        if of is None:
-            rule = 'is missing: what the particles are of, e.g. material = "quartz"'
-            raise InvalidValue(Problem("life.oil.material", rule))
-        try:
-            out.append((_ingress_from if ingress else _dirt_from)(values, of))
-        except InvalidValue as error:
-            raise error.under(path) from None
-        except TypeError:
-            raise InvalidValue(Problem(path, _misfit(entry))) from None
-    return tuple(out)
-
-
-OPTIONS: Mapping[str, tuple[str, ...]] = {
-    "iso4406": ("level", "smallest", "largest"),
-    "test_dust": ("limit", "rate", "concentration"),
-    "counts": ("largest",),
-    "reports": (),
-}
-"""What goes with each way of saying how many particles there are."""
-
-
-def _misfit(values: Mapping[str, Any]) -> str:
-    """Which keys do not go with each other."""
-    source = next(name for name in OPTIONS if name in values)
-    idle = [name for name in values if name not in (source, *OPTIONS[source])]
-    if idle:
-        return f"has {idle[0]}, which has no effect with {source}"
-    need = "rate" if "rate" not in values else "concentration"
-    return f"needs {need} beside {source}"
-
-
-def _dirt_from(values: dict[str, Any], material: Material) -> OilDirt:
-    if "iso4406" in values:
-        return OilDirt.from_iso4406(values.pop("iso4406"), material=material, **values)
-    return OilDirt.of_dust(values.pop("test_dust"), material=material, **values)
-
-
-def _ingress_from(values: dict[str, Any], material: Material) -> Ingress:
-    if "test_dust" in values:
-        return Ingress.of_dust(values.pop("test_dust"), material=material, **values)
-    if "counts" in values:
-        sizes, counts = zip(*values.pop("counts"), strict=True)
-        return Ingress.from_counts(sizes=sizes, counts=counts, material=material, **values)
-    return Ingress.keeping_iso4406(values.pop("iso4406"), material=material, **values)
 
 
 def _with_reports(
@@ -509,9 +304,18 @@ def _with_reports(
     return circuit.replace(ingress=(found.ingress,))
 
 
-def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
+def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife | AskedDry:
     """The life that a study asks for, from the objects that its tables stand for."""
     given = values["life"]
+    return dry_of(reader, values) if "dry" in given else oil_of(reader, values)
+
+
+def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
+    """The oil of a study, from the objects that its tables stand for."""
+    given = values["life"]
+    if "oil" not in given:
+        rule = "is a dry contact, and this asks for an oil, [life.oil]"
+        raise InvalidValue(Problem("life.dry", rule))
     oil = dict(given["oil"])
     material = oil.pop("material", None)
     reported = [each for each in oil["ingress"] if "reports" in each[1]]
@@ -521,19 +325,17 @@ def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     oil["ingress"] = [] if reported else oil["ingress"]
     for name in ("start", "ingress", "fresh_oil"):
         if name in oil:
-            oil[name] = _dirts_of(oil[name], material, name == "ingress")
+            oil[name] = dirts_of(oil[name], material, ingress=name == "ingress")
     oil["filters"] = given.get("filters", ())
     circuit = reader.make(OilCircuit, "life.oil", oil)
     for path, entry in reported:
         circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
-    known = _uncertainty(reader, given.get("uncertainty", {}), circuit)
     contact = contact_of(reader, values)
-    if known and contact is not None:
-        rule = (
-            "and [life.contact] do not go together: bands are those of the oil alone; leave one out"
-        )
-        raise InvalidValue(Problem("life.uncertainty", rule))
+    known = _uncertainty(reader, given.get("uncertainty", {}), circuit, contact)
+    design = None
+    if "design" in given:
+        design = design_of(reader, given["design"], circuit, given.get("until", ()), _about)
     return AskedLife(
         title=values.get("title", ""),
         circuit=circuit,
@@ -541,6 +343,7 @@ def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         until=given.get("until", ()),
         uncertainty=known,
         contact=contact,
+        design=design,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
     )
@@ -549,8 +352,8 @@ def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
 LIFE = Table(
     name="life",
     key=Key(
-        about="an oil over time, with [life.oil] and [[life.filters]]; thirdbody new oil-circuit "
-        "writes a whole study",
+        about="an oil over time, with [life.oil] and [[life.filters]], or a contact without oil, "
+        "with [life.dry]; thirdbody new oil-circuit or dry-contact writes a whole study",
         schema=NOTHING,
         table=_life,
     ),

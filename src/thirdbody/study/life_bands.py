@@ -1,34 +1,78 @@
-"""An oil over time of which some numbers are uncertain: bands of codes and of times."""
+"""An oil or a dry contact over time whose numbers are uncertain: bands of many histories."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..analysis.uncertainty.inputs import Uncertain
-from ..errors import InvalidValue, Problem
+from ..contact.contact import Contact
+from ..errors import InvalidValue, Problem, RangeWarning
 from ..numerics.sampling import sobol
 from ..populations.measured.cleanliness import iso4406_of_counts
 from ..quantities.carried import takes_units
+from ..quantities.progress import Report, reporting
 from ..quantities.record import Record
 from ..systems.life.circuit import OilCircuit
+from ..systems.life.contact_history import DryHistory
+from ..systems.life.debris import Debris
+from ..systems.life.history import LifeHistory
+from ..systems.life.ingress import Ingress
 from ..systems.life.oil_history import run_oil_history
+from ..systems.life.run import life
 from ..systems.life.until import Until
+from .life_kept import KeptEnds
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-__all__ = ["LifeBands", "Swing", "propagate_life"]
+__all__ = ["End", "LifeBands", "Swing", "propagate_dry", "propagate_life"]
 
 INGRESS = "ingress"
-"""The name of a factor on all that enters [1]."""
+"""The name of a factor on all that enters an oil [1]."""
+ARRIVALS = "arrivals"
+"""The name of a factor on all that arrives in a dry contact [1]."""
+HARDNESS = "debris.hardness"
+"""The name of the hardness of the debris [Pa]; each needs tables of its own, some seconds."""
+OF_CONTACT = (
+    "entry_ratio",
+    "load",
+    "speed",
+    "slide_roll",
+    "contacts",
+    "particle_friction",
+    "stays",
+)
+"""Conditions of a contact in an oil that may be uncertain."""
+OF_DRY = ("pressure", "sliding_speed", "length", "area", "loss", "stays")
+"""Conditions of a dry contact that may be uncertain."""
 PROBABILITIES = (0.05, 0.5, 0.95)
+SAMPLES, SAMPLES_OF_CONTACT = 256, 64
+"""Histories, of an oil alone and with a contact, where nobody says how many."""
+JAM = "jam"
+COUNT, WEAR = "count from 6 µm", "wear depth"
+"""What the swings are of."""
+
+
+class End(NamedTuple):
+    """What one history ends with."""
+
+    counts: tuple[float, ...]
+    """From 4, 6 and 14 µm(c) [1/m³]; empty of a dry contact."""
+    wear: float
+    """Depth of the surface that is worn deeper [m]; NaN of an oil alone."""
+    R0: float
+    """Particles bred by one [1]; NaN where it is not known."""
+    times: dict[str, float]
+    """When each event came [s]; only of those that came."""
 
 
 class Swing(NamedTuple):
@@ -37,9 +81,9 @@ class Swing(NamedTuple):
     name: str
     """Of the input."""
     low: float
-    """Count from 6 µm(c) at the end with the input at its lowest probability [1/m³]."""
+    """Count from 6 µm(c) [1/m³], or wear depth [m], with the input at its lowest probability."""
     high: float
-    """The same at its highest [1/m³]."""
+    """The same at its highest."""
 
     @property
     def factor(self) -> float:
@@ -50,7 +94,7 @@ class Swing(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LifeBands(Record):
-    """Bands of an oil over time; made by `propagate_life`.
+    """Bands over many histories; made by `propagate_life` and `propagate_dry`.
 
     Attributes
     ----------
@@ -58,8 +102,10 @@ class LifeBands(Record):
         Of the quantiles [1].
     samples : int
         Sets of inputs.
+    duration : float
+        [s].
     counts : array (Q, 3)
-        Quantiles of the counts at the end from 4, 6 and 14 µm(c) [1/m³].
+        Quantiles of the counts at the end from 4, 6 and 14 µm(c) [1/m³]; (Q, 0) of a dry contact.
     codes : tuple of str
         Their codes: each number is a quantile of its own.
     times : dict of str to array (Q,)
@@ -69,15 +115,36 @@ class LifeBands(Record):
         In which part of the sets it came [1].
     swings : tuple of Swing
         What each input moves alone, the most first.
+    swings_of : str
+        What they are of: "count from 6 µm" or "wear depth".
+    wear : array (Q,)
+        Quantiles of the depth of the surface that is worn deeper [m]; NaN of an oil alone.
+    R0 : array (Q,)
+        Quantiles of the particles bred by one [1]; NaN of an oil alone, and where too few are
+        known.
     """
 
     probabilities: tuple[float, ...]
     samples: int
+    duration: float
     counts: Array
     codes: tuple[str, ...]
     times: Mapping[str, Array]
     reached: Mapping[str, float]
     swings: tuple[Swing, ...]
+    swings_of: str
+    wear: Array
+    R0: Array
+
+    def missed(self, name: str) -> int:
+        """Sets in which an event did not come.
+
+        Parameters
+        ----------
+        name : str
+            Of the event.
+        """
+        return round(self.samples * (1 - self.reached[name]))
 
 
 def _changed(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
@@ -99,10 +166,15 @@ def _changed(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
     return circuit.replace(**changes) if changes else circuit
 
 
-def _check(circuit: OilCircuit, vary: Mapping[str, Uncertain]) -> None:
-    """Refuse what is no number of the circuit."""
-    problems = []
+def _check(
+    circuit: OilCircuit, vary: Mapping[str, Uncertain], contact: Mapping[str, Any] | None
+) -> None:
+    """Refuse what is no number of the circuit or of its contacts."""
+    problems = [] if vary else [Problem("vary", "must name a number that is uncertain")]
     for name, known in vary.items():
+        if name in (*OF_CONTACT, HARDNESS) and contact is not None:
+            problems += _problems_of_condition(name, known, contact)
+            continue
         if not isinstance(known, Uncertain):
             problems.append(Problem(name, "must be Uncertain", repr(known)))
             continue
@@ -123,6 +195,41 @@ def _check(circuit: OilCircuit, vary: Mapping[str, Uncertain]) -> None:
         raise InvalidValue(*problems)
 
 
+def _problems_of_condition(name: str, known: Any, given: Mapping[str, Any]) -> list[Problem]:
+    """Why a condition of a contact cannot be varied so."""
+    if not isinstance(known, Uncertain):
+        return [Problem(name, "must be Uncertain", repr(known))]
+    if name == HARDNESS and given.get("debris") is None:
+        return [Problem(name, "needs debris")]
+    ends = known.quantile(1e-9), known.quantile(1 - 1e-9)
+    low, high = float(ends[0]), float(ends[1])
+    if low < 0 or (low == 0 and name not in ("loss", "stays", "slide_roll")):
+        return [Problem(name, "must be above 0 throughout")]
+    if name in ("loss", "stays") and high > 1:
+        return [Problem(name, "must be at most 1 throughout [1]")]
+    return []
+
+
+def _with_hardness(given: Mapping[str, Any], values: dict[str, float]) -> dict[str, Any]:
+    """Arguments of a contact with some of its numbers changed."""
+    out = dict(given)
+    if HARDNESS in values:
+        debris = given["debris"]
+        assert isinstance(debris, Debris)
+        out["debris"] = debris.replace(hardness=values.pop(HARDNESS))
+    return out | values
+
+
+def _end_of(history: LifeHistory | DryHistory) -> End:
+    counts = history.counts[-1].tolist() if isinstance(history, LifeHistory) else ()
+    depths = [history.more[n][1][-1] for n in ("wear_1", "wear_2") if n in history.more]
+    times: dict[str, float] = {}
+    for each in history.events:
+        times.setdefault(each.name, each.time)
+    wear = float(max(depths)) if depths else math.nan
+    return End(tuple(counts), wear, float(history.R0) if depths else math.nan, times)
+
+
 @takes_units
 def propagate_life(
     circuit: OilCircuit,
@@ -130,9 +237,12 @@ def propagate_life(
     vary: Mapping[str, Uncertain],
     duration: float,
     until: Sequence[Until] = (),
-    samples: int = 256,
+    contact: Mapping[str, Any] | None = None,
+    samples: int | None = None,
     seed: int = 0,
     probabilities: Sequence[float] = PROBABILITIES,
+    progress: bool | Report = False,
+    keep: Path | str | None = None,
 ) -> LifeBands:
     """Bands of an oil over time, from what is known of its numbers.
 
@@ -141,17 +251,24 @@ def propagate_life(
     circuit : OilCircuit
     vary : mapping of str to Uncertain
         Numbers of the circuit, "volume", "filters.0.service", and "ingress", a factor on all that
-        enters.
+        enters. With a contact "entry_ratio", "load", "speed", "slide_roll", "contacts",
+        "particle_friction", "stays" and "debris.hardness", too.
     duration : float
         How long [s].
     until : sequence of Until, optional
         Events whose times are asked; none of them ends a history.
+    contact : mapping, optional
+        Arguments of `thirdbody.life` for contacts in the oil: "contact", "conjunction", "load" ...
     samples : int, optional
-        Sets of inputs, the same for all times [1].
+        Sets of inputs, the same for all times [1]: 256, with a contact 64, where it is not given.
     seed : int, optional
         Of the drawing.
     probabilities : sequence of float, optional
         Of the quantiles [1].
+    progress : bool or callable, optional
+        True shows on standard error how many histories are done; a callable gets the number.
+    keep : path-like, optional
+        A file that keeps the end of every history; the same call goes on with it.
 
     Returns
     -------
@@ -165,7 +282,8 @@ def propagate_life(
     Notes
     -----
     An event that does not come is censored: its time is beyond the duration, nobody knows by how
-    much. Quantiles bear that; a mean does not, and none is given.
+    much. Quantiles bear that; a mean does not, and none is given. A history that ends in a jam
+    keeps its wear from there on, too small.
 
     Examples
     --------
@@ -180,45 +298,170 @@ def propagate_life(
     >>> [code.split("/")[0] for code in found.codes]
     ['16', '17', '19']
     """
-    _check(circuit, vary)
-    if not vary:
-        raise InvalidValue(Problem("vary", "must name a number that is uncertain"))
-    names = list(vary)
-    points = sobol(samples, len(names), seed, 0, samples)
+    _check(circuit, vary, contact)
     waits = tuple(each.replace(stops=False) for each in until)
-    events = {each.name for each in waits}
-    counts, times = [], {name: [] for name in sorted(events)}  # type: ignore[var-annotated]
+    shared: dict[str, Any] = {"duration": duration, "until": waits, "times": [0.0, duration]}
 
-    def end(values: Mapping[str, float]) -> Any:
-        return run_oil_history(
-            _changed(circuit, values), duration=duration, until=waits, times=[0.0, duration]
-        )
+    def end(values: Mapping[str, float]) -> End:
+        if contact is None:
+            return _end_of(run_oil_history(_changed(circuit, values), **shared))
+        own = {name: v for name, v in values.items() if name in (*OF_CONTACT, HARDNESS)}
+        oil = _changed(circuit, {name: v for name, v in values.items() if name not in own})
+        return _end_of(life(**_with_hardness(contact, own), oil=oil, **shared))
 
-    for point in points:
-        found = end(
-            {name: vary[name].quantile(float(u)) for name, u in zip(names, point, strict=True)}
-        )
-        counts.append(found.counts[-1])
-        for name, some in times.items():
-            came = [each.time for each in found.events if each.name == name]
-            some.append(came[0] if came else math.inf)
-    quantiles = np.quantile(np.array(counts), probabilities, axis=0, method="hazen")
+    return _bands(
+        end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
+        samples=samples or (SAMPLES if contact is None else SAMPLES_OF_CONTACT),
+        swings_of=COUNT, progress=progress, keep=keep,
+        inputs={"oil": circuit.to_dict(), "contact": _plain(contact or {})},
+    )  # fmt: skip
+
+
+@takes_units
+def propagate_dry(
+    contact: Contact,
+    *,
+    vary: Mapping[str, Uncertain],
+    duration: float,
+    conditions: Mapping[str, Any],
+    until: Sequence[Until] = (),
+    samples: int | None = None,
+    seed: int = 0,
+    probabilities: Sequence[float] = PROBABILITIES,
+    progress: bool | Report = False,
+    keep: Path | str | None = None,
+) -> LifeBands:
+    """Bands of a dry contact over time, from what is known of its numbers.
+
+    Parameters
+    ----------
+    contact : Contact
+    vary : mapping of str to Uncertain
+        "arrivals", a factor on all that arrives, "loss", "stays", "pressure", "sliding_speed",
+        "length", "area", "debris.hardness".
+    duration : float
+        How long [s].
+    conditions : mapping
+        Arguments of `thirdbody.life` for a dry contact, debris and running-in with them.
+    until, samples, seed, probabilities, progress, keep
+        As in `propagate_life`.
+
+    Returns
+    -------
+    LifeBands
+
+    Raises
+    ------
+    InvalidValue
+        What is no number of the contact, or a range beyond what it may be.
+    """
+    known = (ARRIVALS, *OF_DRY, HARDNESS)
+    problems = [] if vary else [Problem("vary", "must name a number that is uncertain")]
+    for name, each in vary.items():
+        if name not in known:
+            problems.append(Problem(name, f"must be one of {', '.join(known)}"))
+        else:
+            problems += _problems_of_condition(name, each, conditions)
+    if problems:
+        raise InvalidValue(*problems)
+    waits = tuple(each.replace(stops=False) for each in until)
+
+    def end(values: Mapping[str, float]) -> End:
+        changes = dict(values)
+        factor = changes.pop(ARRIVALS, 1.0)
+        given = _with_hardness(conditions, changes)
+        some = given.get(ARRIVALS, ())
+        some = (some,) if isinstance(some, Ingress) else tuple(some)
+        given[ARRIVALS] = tuple(each.replace(rate=factor * each.rate) for each in some)
+        shared: dict[str, Any] = {"duration": duration, "until": waits, "times": [0.0, duration]}
+        return _end_of(life(contact, **given, **shared))
+
+    return _bands(
+        end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
+        samples=samples or SAMPLES_OF_CONTACT, swings_of=WEAR, progress=progress, keep=keep,
+        inputs={"contact": contact.to_dict(), "conditions": _plain(conditions)},
+    )  # fmt: skip
+
+
+def _plain(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments as what tells one set of them from another."""
+    return {k: v.to_dict() if hasattr(v, "to_dict") else repr(v) for k, v in given.items()}
+
+
+def _bands(
+    end: Callable[[Mapping[str, float]], End],
+    vary: Mapping[str, Uncertain],
+    waits: Sequence[Until],
+    *,
+    duration: float,
+    samples: int,
+    seed: int,
+    probabilities: tuple[float, ...],
+    swings_of: str,
+    progress: bool | Report,
+    keep: Path | str | None,
+    inputs: Mapping[str, Any],
+) -> LifeBands:
+    """Ends of all sets of inputs, and of each input alone at its ends."""
+    names = list(vary)
     low, high = min(probabilities), max(probabilities)
-    swings = [
-        Swing(
-            name, *(float(end({name: vary[name].quantile(p)}).counts[-1][1]) for p in (low, high))
-        )
-        for name in names
+    points = sobol(samples, len(names), seed, 0, samples)
+    sets = [
+        {name: float(vary[name].quantile(float(u))) for name, u in zip(names, point, strict=True)}
+        for point in points
     ]
+    sets += [{name: float(vary[name].quantile(p))} for name in names for p in (low, high)]
+    asked = dict(inputs) | {
+        "vary": {name: repr(each) for name, each in vary.items()},
+        "until": [each.to_dict() for each in waits],
+        "numbers": [duration, samples, seed, *probabilities],
+    }
+    kept = KeptEnds(None if keep is None else Path(keep), asked)
+    ends = []
+    with (
+        warnings.catch_warnings(),
+        reporting("life", len(sets), kept.count, progress, "histories") as report,
+    ):
+        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history of the study
+        for i, values in enumerate(sets):
+            if (found := kept.get(i)) is None:
+                found = kept.add(i, end(values)._asdict())
+            ends.append(End(**found))
+            report(i + 1)
+    drawn = ends[:samples]
+    swung = [_measured(each, swings_of) for each in ends[samples:]]
+    swings = [Swing(name, *swung[2 * i : 2 * i + 2]) for i, name in enumerate(names)]
+    counts = np.quantile(
+        np.array([each.counts for each in drawn]).reshape(samples, -1), probabilities, axis=0,
+        method="hazen",
+    )  # fmt: skip
+    events = sorted({each.name for each in waits})
+    events += [JAM] if any(JAM in each.times for each in drawn) else []
+    times = {name: [each.times.get(name, math.inf) for each in drawn] for name in events}
     return LifeBands(
-        probabilities=tuple(probabilities),
+        probabilities=probabilities,
         samples=samples,
-        counts=quantiles,
-        codes=tuple(iso4406_of_counts(each) for each in quantiles),
+        duration=duration,
+        counts=counts,
+        codes=tuple(iso4406_of_counts(each) for each in counts if len(each)),
         times={
             name: np.quantile(np.array(some), probabilities, method="inverted_cdf")
             for name, some in times.items()
         },
         reached={name: float(np.mean(np.isfinite(some))) for name, some in times.items()},
         swings=tuple(sorted(swings, key=lambda each: -each.factor)),
+        swings_of=swings_of,
+        wear=_quantiles([each.wear for each in drawn], probabilities),
+        R0=_quantiles([each.R0 for each in drawn], probabilities),
     )
+
+
+def _measured(end: End, of: str) -> float:
+    return end.wear if of == WEAR else end.counts[1]
+
+
+def _quantiles(values: Sequence[float], probabilities: Sequence[float]) -> Array:
+    """Quantiles; NaN where one of the values is not known."""
+    if any(math.isnan(each) for each in values):
+        return np.full(len(probabilities), math.nan)
+    return np.quantile(np.array(values), probabilities, method="hazen")

@@ -15,7 +15,7 @@ from ..systems.life.surfaces import RunningIn
 from .reader import NOTHING, Key, Reader, get, quantity_key, read_number, table_of, word, wrong
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["CONTACT_KEYS", "LifeContact", "contact_of"]
+__all__ = ["BOUNDARY", "CONTACT_KEYS", "LifeContact", "contact_of"]
 
 BOUNDARY, AS_SURFACE = "boundary-lubricated", "as surface"
 OF_CONTACT = ("surfaces", "roughness", "asperity_law", "particle_law", "outputs")

@@ -13,6 +13,7 @@ from ..quantities.value import quantity
 from ..systems.chuck import Chuck
 from .amounts import amounts
 from .connector import populations_of
+from .described import Described, describe
 from .reader import NOTHING, Key, Reader, Table, keys_of
 
 __all__ = ["PLATE", "AskedPlate", "plate_of"]
@@ -45,13 +46,11 @@ class AskedPlate:
     grains: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
-    table = "plate"
-    """The table of the study file."""
 
     @property
-    def described(self) -> Chuck:
-        """What the table describes."""
-        return self.chuck
+    def described(self) -> Described:
+        """What the tables describe."""
+        return describe("plate.", self.chuck)
 
 
 def _plate(reader: Reader, path: str, data: Any) -> Any:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,10 +16,8 @@ from ..quantities.say import number, percent
 from ..systems.connector import Connector
 from .asked_result import AskedResult
 from .connector import AskedConnector, connector_of
-from .overrides import override
-from .toml import read
 from .what_ifs import HARDNESS, WhatIf
-from .whole import read_tables
+from .whole import load_tables
 
 __all__ = ["ConnectorResult", "load_connector", "run_connector"]
 
@@ -48,8 +45,7 @@ def load_connector(path: str | os.PathLike[str], overrides: Iterable[str] = ()) 
     InvalidValue
         Every mistake of the file.
     """
-    data = override(read(Path(path)), list(overrides))
-    return read_tables(data, Path(path).parent, connector_of, lambda t: t.name in NEEDED)
+    return load_tables(path, overrides, connector_of, NEEDED)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -4,27 +4,37 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, overload
 
 import numpy as np
 
 from ..errors import RangeWarning
 from ..quantities.plain_data import plain_data
-from ..quantities.record import Record
 from ..systems.life.history import LifeHistory
 from ..systems.life.reports import OilReports, oil_reports, read_reports
 from ..systems.life.run import life
-from ..version import __version__
-from .life import CLEAN, AskedLife, life_of
+from .asked_result import QuestionResult
+from .life import AskedDry, AskedLife, life_of, oil_of
 from .life_bands import LifeBands, propagate_life
+from .life_dirt import CLEAN
 from .overrides import override
+from .run_dry import DryResult, bands_of_dry, run_dry
 from .toml import read
-from .whole import read_tables
+from .whole import load_tables, read_tables
 
-__all__ = ["LifeResult", "ReportsResult", "load_circuit", "load_life", "reports_of", "run_life"]
+__all__ = [
+    "LifeResult",
+    "ReportsResult",
+    "history_of",
+    "load_circuit",
+    "load_life",
+    "load_oil",
+    "reports_of",
+    "run_life",
+]
 
 NEEDED = frozenset({"life"})
 CITATIONS = (
@@ -33,8 +43,8 @@ CITATIONS = (
 )
 
 
-def load_life(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
-    """The life that a study file asks for.
+def load_life(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife | AskedDry:
+    """The life of an oil, or of a dry contact, that a study file asks for.
 
     Parameters
     ----------
@@ -48,8 +58,20 @@ def load_life(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> As
     InvalidValue
         Every mistake of the file.
     """
-    data = override(read(Path(path)), list(overrides))
-    return read_tables(data, Path(path).parent, life_of, lambda t: t.name in NEEDED)
+    return load_tables(path, overrides, life_of, NEEDED)
+
+
+def load_oil(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
+    """The life of an oil that a study file asks for; as `load_life`, no dry contact.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file with tables [life] and [life.oil].
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+    """
+    return load_tables(path, overrides, oil_of, NEEDED)
 
 
 def load_circuit(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedLife:
@@ -71,12 +93,12 @@ def load_circuit(path: str | os.PathLike[str], overrides: Iterable[str] = ()) ->
     given = data.get("life")
     if isinstance(given, dict) and isinstance(given.get("oil"), dict):
         given["oil"]["ingress"] = CLEAN
-    return read_tables(data, Path(path).parent, life_of, lambda t: t.name in NEEDED)
+    return read_tables(data, Path(path).parent, oil_of, lambda t: t.name in NEEDED)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ReportsResult(Record, Mapping[str, Any]):
-    """What `reports_of` finds; indexed, it is the plain data of `to_dict`.
+class ReportsResult(QuestionResult):
+    """Results of `reports_of`; indexed, they are the plain data of `to_dict`.
 
     Attributes
     ----------
@@ -87,15 +109,19 @@ class ReportsResult(Record, Mapping[str, Any]):
     asked: AskedLife
     reports: OilReports
 
-    @property
-    def title(self) -> str:
-        """Of the study, where it has none "Reports of an oil"."""
-        return self.asked.title or "Reports of an oil"
+    title_without = "Reports of an oil"
+    citations = CITATIONS
+    meanings: ClassVar[Mapping[str, str]] = {
+        "size": "size from which is counted",
+        "rate": "particles that enter from this size on, per time",
+        "low": "lower end of the band in which the rate lies nine times of ten",
+        "high": "upper end of that band",
+    }
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What reading and computing warn of, one sentence each."""
-        return tuple(dict.fromkeys((*self.asked.notes, *self.asked.circuit.notes())))
+    def run_notes(self) -> tuple[str, ...]:
+        """Those of the circuit."""
+        return tuple(self.asked.circuit.notes())
 
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
         """Columns, a row a size, and their units."""
@@ -106,24 +132,11 @@ class ReportsResult(Record, Mapping[str, Any]):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        return {
-            "title": self.asked.title,
-            "version": __version__,
-            "inputs": {"oil": self.asked.circuit.to_dict()},
+        return self.whole(
+            inputs={"oil": self.asked.circuit.to_dict()},
             **self.reports.to_dict(),
-            "is_constant": self.reports.is_constant,
-            "warnings": list(self.warnings),
-            "citations": list(CITATIONS),
-        }
-
-    def __getitem__(self, key: str) -> Any:
-        return self.to_dict()[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.to_dict())
-
-    def __len__(self) -> int:
-        return len(self.to_dict())
+            is_constant=self.reports.is_constant,
+        )
 
 
 def reports_of(asked: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
@@ -142,8 +155,8 @@ def reports_of(asked: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class LifeResult(Record, Mapping[str, Any]):
-    """What `run_life` finds; indexed, it is the plain data of `to_dict`.
+class LifeResult(QuestionResult):
+    """Results of `run_life`; indexed, they are the plain data of `to_dict`.
 
     Attributes
     ----------
@@ -157,15 +170,31 @@ class LifeResult(Record, Mapping[str, Any]):
     history: LifeHistory
     bands: LifeBands | None = None
 
-    @property
-    def title(self) -> str:
-        """Of the study, where it has none "Life of an oil"."""
-        return self.asked.title or "Life of an oil"
+    title_without = "Life of an oil"
+    citations = CITATIONS
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What reading and computing warn of, one sentence each."""
-        return tuple(dict.fromkeys((*self.asked.notes, *self.history.warnings)))
+    def run_notes(self) -> tuple[str, ...]:
+        """Those of the history."""
+        return self.history.warnings
+
+    @property
+    def meanings(self) -> Mapping[str, str]:
+        """Meanings of the columns."""
+        counts = {f"n_{size}": f"particles per volume from {size} µm(c)" for size in (4, 6, 14)}
+        masses = {
+            name: f"mass of particles {name}" if name.startswith("in ") else f"mass, {name}"
+            for name in self.history.ledger.over_time()
+        }
+        of_contact = {name: about.meaning for name, (about, _) in self.history.more.items()}
+        return {
+            "time": "since the beginning",
+            "code": "ISO 4406",
+            **counts,
+            "volume": "of the oil",
+            **masses,
+            **of_contact,
+        }
 
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
         """Columns, a row a time, and their units."""
@@ -186,50 +215,82 @@ class LifeResult(Record, Mapping[str, Any]):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        return {
-            "title": self.asked.title,
-            "version": __version__,
-            "inputs": {
+        return self.whole(
+            inputs={
                 "oil": self.asked.circuit.to_dict(),
                 "duration": self.asked.duration,
                 "until": [each.to_dict() for each in self.asked.until],
             },
-            **self.history.to_dict(),
-            "flows": [
+            **{name: v for name, v in self.history.to_dict().items() if name != "warnings"},
+            flows=[
                 {"from": start, "to": end, "kg": mass} for start, end, mass in self.history.flows()
             ],
-            "bands": None if self.bands is None else self.bands.to_dict(),
-            "warnings": list(self.warnings),
-            "citations": list(CITATIONS),
-        }
-
-    def __getitem__(self, key: str) -> Any:
-        return self.to_dict()[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.to_dict())
-
-    def __len__(self) -> int:
-        return len(self.to_dict())
+            bands=None if self.bands is None else self.bands.to_dict(),
+        )
 
 
-def _history(asked: AskedLife) -> LifeHistory:
+def history_of(asked: AskedLife) -> LifeHistory:
     """The history of the oil, with the contacts that it goes through where there are some."""
     shared: dict[str, Any] = {
         "oil": asked.circuit, "duration": asked.duration, "until": asked.until
     }  # fmt: skip
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
+        return life(**(_arguments(asked) or {}), **shared)
+
+
+def _arguments(asked: AskedLife) -> dict[str, Any] | None:
+    """Arguments of `thirdbody.life` for the contacts; None where there are none."""
     if (of := asked.contact) is None:
-        return life(**shared)
-    return life(of.contact, debris=of.debris, running_in=of.running_in, **of.conditions, **shared)
+        return None
+    parts = {"contact": of.contact, "debris": of.debris, "running_in": of.running_in}
+    return {**parts, **of.conditions}
 
 
-def run_life(asked: AskedLife) -> LifeResult:
-    """The history of an oil, as its study asks.
+def bands_of(
+    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+) -> LifeBands | None:
+    """Bands of an oil or of a dry contact; None where the study says nothing of what is known.
 
     Parameters
     ----------
-    asked : AskedLife
+    asked : AskedLife or AskedDry
         As `load_life` reads it.
+    progress : bool, optional
+        Shows on standard error how many histories are done.
+    keep : Path, optional
+        A file that keeps the end of every history; the same call goes on with it.
+    """
+    if isinstance(asked, AskedDry):
+        return bands_of_dry(asked, progress=progress, keep=keep)
+    if not asked.uncertainty:
+        return None
+    return propagate_life(
+        asked.circuit,
+        vary=asked.uncertainty,
+        duration=asked.duration,
+        until=asked.until,
+        contact=_arguments(asked),
+        progress=progress,
+        keep=keep,
+    )
+
+
+@overload
+def run_life(asked: AskedLife, *, progress: bool = ..., keep: Path | None = ...) -> LifeResult: ...
+@overload
+def run_life(asked: AskedDry, *, progress: bool = ..., keep: Path | None = ...) -> DryResult: ...
+def run_life(
+    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+) -> LifeResult | DryResult:
+    """The history of an oil, or of a dry contact, as its study asks.
+
+    Parameters
+    ----------
+    asked : AskedLife or AskedDry
+        As `load_life` reads it.
+    progress, keep
+        As in `bands_of`.
 
     Examples
     --------
@@ -239,12 +300,9 @@ def run_life(asked: AskedLife) -> LifeResult:
     >>> found.history.codes[0], found.history.ledger.residual < 1e-9
     ('20/18/15', True)
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
-        history = _history(asked)
-    bands = None
-    if asked.uncertainty:
-        bands = propagate_life(
-            asked.circuit, vary=asked.uncertainty, duration=asked.duration, until=asked.until
-        )
-    return LifeResult(asked=asked, history=history, bands=bands)
+    if isinstance(asked, AskedDry):
+        return run_dry(asked, progress=progress, keep=keep)
+    history = history_of(asked)
+    return LifeResult(
+        asked=asked, history=history, bands=bands_of(asked, progress=progress, keep=keep)
+    )

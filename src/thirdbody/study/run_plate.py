@@ -6,7 +6,6 @@ import math
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,11 +18,9 @@ from ..systems.chuck import Chuck
 from ..systems.connector import name_of
 from ..systems.plate_over_particle import THIN, Bump
 from .asked_result import AskedResult
-from .overrides import override
 from .plate import AskedPlate, plate_of
-from .toml import read
 from .what_ifs import HARDNESS, WhatIf
-from .whole import read_tables
+from .whole import load_tables
 
 __all__ = ["PlateResult", "load_plate", "run_plate"]
 
@@ -48,8 +45,7 @@ def load_plate(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> A
     InvalidValue
         Every mistake of the file.
     """
-    data = override(read(Path(path)), list(overrides))
-    return read_tables(data, Path(path).parent, plate_of, lambda t: t.name in NEEDED)
+    return load_tables(path, overrides, plate_of, NEEDED)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

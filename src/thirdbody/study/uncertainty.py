@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
@@ -12,7 +13,7 @@ from .inputs import Input, inputs_of
 from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
 from .vocabulary import LOADS
 
-__all__ = ["UNCERTAINTY", "field_of_input", "read_uncertain"]
+__all__ = ["UNCERTAINTY", "field_of_input", "read_bands", "read_uncertain"]
 
 
 def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
@@ -102,6 +103,25 @@ def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any
         return Uncertain(kind=kind, first=first, second=second)
     except InvalidValue as error:
         raise InvalidValue(*(Problem(where, f": {text}") for text in error.problems)) from None
+
+
+def read_bands(
+    reader: Reader,
+    given: Mapping[str, Any],
+    about: Callable[[str], tuple[str, dict[str, Any] | None]],
+    unknown: str,
+) -> dict[str, Uncertain]:
+    """What [life.uncertainty] says of numbers, by the names that ``about`` gives them."""
+
+    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, Uncertain]:
+        label, entry = pair
+        name, quantity = about(label)
+        if quantity is None:
+            raise InvalidValue(Problem(where, unknown))
+        return name, read_uncertain(reader, where, quantity, entry)
+
+    pairs = {f"life.uncertainty.{say(name)}": (name, entry) for name, entry in given.items()}
+    return dict(reader.read_each(pairs, one))
 
 
 def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +24,7 @@ from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from .connector import AskedConnector, connector_of
 from .film import on_body
-from .life import AskedLife, life_of
+from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
 from .overrides import override
@@ -37,7 +37,7 @@ from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
 from .toml import read
 
-__all__ = ["Study", "check", "load_study", "read_tables"]
+__all__ = ["Study", "check", "load_study", "load_tables", "read_tables"]
 
 Asked = TypeVar("Asked")
 
@@ -71,8 +71,8 @@ class Study:
         What the table [connector] says of contacts that close on dust.
     plate : AskedPlate, optional
         What the table [plate] says of a plate held on a chuck.
-    life : AskedLife, optional
-        What the table [life] says of an oil over time.
+    life : AskedLife or AskedDry, optional
+        What the table [life] says of an oil, or of a dry contact, over time.
     explicit : dict, optional
         What the table [explicit] says of the surfaces with every particle at its place.
     faces : tuple of Topography, optional
@@ -101,7 +101,7 @@ class Study:
     film: FilmConditions | None = None
     connector: AskedConnector | None = None
     plate: AskedPlate | None = None
-    life: AskedLife | None = None
+    life: AskedLife | AskedDry | None = None
     explicit: dict[str, Any] | None = None
     faces: tuple[Topography, ...] = ()
     own_load: bool = True
@@ -179,6 +179,17 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     return read_tables(data, folder, _study, lambda table: table.is_required(data))
+
+
+def load_tables(
+    path: str | os.PathLike[str],
+    overrides: Iterable[str],
+    build: Callable[[Reader, dict[str, Any]], Asked],
+    needed: Collection[str],
+) -> Asked:
+    """Object that some tables of a file describe; of them these are needed, and no others."""
+    data = override(read(Path(path)), list(overrides))
+    return read_tables(data, Path(path).parent, build, lambda table: table.name in needed)
 
 
 def read_tables(

@@ -49,8 +49,7 @@ class JunctionGrowth(Value):
 
     References
     ----------
-    Tabor 1959, Proc. R. Soc. A 251, 378, doi:10.1098/rspa.1959.0114 (from memory: not confirmed in
-    the source).
+    Tabor 1959, Proc. R. Soc. A 251, 378 (from memory: not confirmed in the source).
 
     Examples
     --------

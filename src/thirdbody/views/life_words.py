@@ -6,19 +6,25 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..quantities.say import join_words, number, percent, value_of
-from ..systems.life.contact_history import ContactHistory, SteadyContact
+from ..systems.life.contact_history import ContactHistory, DryHistory, SteadyContact
+from ..systems.life.history import LifeHistory
 from ..systems.life.sizing import least_flow
 
 if TYPE_CHECKING:
+    from ..study.life_bands import LifeBands
+    from ..study.run_dry import DryResult
     from ..study.run_life import LifeResult
-    from ..systems.life.history import LifeHistory, SteadyOil
+    from ..systems.life.history import SteadyOil
     from ..systems.life.reports import OilReports
 
 __all__ = [
     *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
     *("answer", "band_words", "duration_of", "events", "facts", "flow_of"),
     *("last_words", "least_flow_words", "mass_of", "report_answer", "report_rows", "rows"),
+    "words_of_bands",
 ]
 
 HEADS = ("time", "ISO 4406", "from 4 µm", "from 6 µm", "from 14 µm", "dirt")
@@ -101,7 +107,7 @@ def _tends(history: LifeHistory) -> str:
     """What the oil comes to, and how soon."""
     steady: Sequence[SteadyOil | SteadyContact] = history.steady()
     if isinstance(history, ContactHistory):
-        steady = history.steady_with_contact() or history.steady()
+        steady = steady or LifeHistory.steady(history)  # what grows for ever stands there
     if not steady:
         return "It comes to no state in which it no longer changes."
     if "-" not in steady[0].code:
@@ -125,7 +131,7 @@ def _largest_flows(history: LifeHistory) -> str:
     return f"Most of the dirt: {join_words(shown)}."
 
 
-def events(history: LifeHistory) -> list[str]:
+def events(history: LifeHistory | DryHistory) -> list[str]:
     """What happened, a sentence each; of many alike the first and the last."""
     out = [f"After {duration_of(each.time)}: {each.sentence}." for each in history.events]
     if len(out) <= 6:
@@ -151,32 +157,56 @@ def rows(found: LifeResult) -> list[list[str]]:
     return out
 
 
-def band_words(found: LifeResult) -> list[str]:
-    """Bands of code and times, and what moves the oil most."""
+def band_words(found: LifeResult | DryResult) -> list[str]:
+    """Bands of code, wear and times, and what moves the answer most."""
     bands = found.bands
-    if bands is None:
-        return []
-    low, high = bands.codes[0], bands.codes[-1]
+    return [] if bands is None else words_of_bands(bands)
+
+
+def words_of_bands(bands: LifeBands) -> list[str]:
+    """Bands of code, wear and times, and what moves the answer most.
+
+    Parameters
+    ----------
+    bands : LifeBands
+    """
     part = percent(max(bands.probabilities) - min(bands.probabilities))
-    end = duration_of(found.asked.duration)
-    out = [f"With what is known of its numbers the oil is at {low} to {high} after {end} ({part})."]
+    end = duration_of(bands.duration)
+    out, known = [], "With what is known of its numbers"
+    if bands.codes:
+        low, high = bands.codes[0], bands.codes[-1]
+        out.append(f"{known} the oil is at {low} to {high} after {end} ({part}).")
+    if np.all(np.isfinite(bands.wear)):
+        least, most = (value_of(float(w), "m", 3) for w in (bands.wear[0], bands.wear[-1]))
+        worn = f"the surface that wears more is worn by {least} to {most}"
+        out.append(
+            f"{'By then' if out else known} {worn}" + ("." if out else f" after {end} ({part}).")
+        )
+    if np.all(np.isfinite(bands.R0)) and np.any(bands.R0 > 0):
+        least, most = (number(float(each), 2) for each in (bands.R0[0], bands.R0[-1]))
+        out.append(f"One particle of debris breeds {least} to {most} others.")
     for name, times in bands.times.items():
-        first, last = (_time_or_censored(float(t), found) for t in (times[0], times[-1]))
+        first, last = (_time_or_censored(float(t), bands) for t in (times[0], times[-1]))
         came = percent(bands.reached[name])
-        out.append(f"{name[0].upper()}{name[1:]}: after {first} to {last}; it comes in {came}.")
-    most = bands.swings[0]
+        said = f"{name[0].upper()}{name[1:]}: after {first} to {last}; it comes in {came}"
+        if missed := bands.missed(name):
+            said += f", and in {missed} of {bands.samples} histories not by {end}"
+        out.append(f"{said}.")
+    most_of = bands.swings[0]
     out.append(
-        f"Most uncertain: {most.name}, which alone moves the count from 6 µm by a factor of "
-        f"{number(most.factor, 3)}."
+        f"Most uncertain: {most_of.name}, which alone moves the {bands.swings_of} by a factor of "
+        f"{number(most_of.factor, 3)}."
     )
     return out
 
 
-def _time_or_censored(seconds: float, found: LifeResult) -> str:
+def _time_or_censored(seconds: float, bands: LifeBands) -> str:
     """A time, or how long nobody saw it come."""
-    if math.isfinite(seconds):
-        return duration_of(seconds)
-    return f"more than {duration_of(found.asked.duration)}"
+    return (
+        duration_of(seconds)
+        if math.isfinite(seconds)
+        else f"more than {duration_of(bands.duration)}"
+    )
 
 
 def least_flow_words(found: LifeResult, code: str) -> list[str]:

@@ -17,6 +17,7 @@ from .workbook import Grid, Sheet, sheet_of_table
 if TYPE_CHECKING:
     from ..populations.materials import Material
     from ..quantities.value import Value
+    from ..study.described import BareNumber
 
 __all__ = ["inputs_of", "question_sheets"]
 
@@ -72,9 +73,21 @@ def question_sheets(
     ]
 
 
-def inputs_of(values: Mapping[str, Value], bodies: Mapping[str, Material]) -> list[tuple[Any, ...]]:
-    """A row an input: of values by what their names begin with, "plate.", then of materials."""
-    rows = [row for name, value in values.items() for row in value_rows(value, name)]
+def inputs_of(
+    values: Mapping[str, Value],
+    bodies: Mapping[str, Material],
+    numbers: Iterable[BareNumber] = (),
+) -> list[tuple[Any, ...]]:
+    """A row an input: of values by what their names begin with, "plate.", then of materials.
+
+    Numbers that are no fields of a value stand first.
+    """
+    rows = [
+        Row(each.name, each.about["symbol"], "", each.about["meaning"], False, each.value,
+            each.about["unit"])
+        for each in numbers
+    ]  # fmt: skip
+    rows += [row for name, value in values.items() for row in value_rows(value, name)]
     out: list[tuple[Any, ...]] = [
         (row.meaning, row.symbol, *amount_cells(row), "default" if row.default else "study",
          row.name)

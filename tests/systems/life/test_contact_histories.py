@@ -8,9 +8,9 @@ from contact_cases import CLASSES, DEBRIS, DRY, FILM, NO_WEAR, QUARTZ, SOFT, STE
 from scipy.linalg import expm
 
 import thirdbody as tb
-from thirdbody.systems.life.contact_until import particle_share, roughness_below, wear_depth
 from thirdbody.systems.life.debris import Debris
 from thirdbody.systems.life.surfaces import RunningIn
+from thirdbody.systems.life.until import particle_share, roughness_below, wear_depth
 
 
 def run(*args, **given):
@@ -178,7 +178,7 @@ def test_a_steady_state_is_where_the_history_ends():
 def test_the_oil_with_a_contact_ends_in_its_steady_state():
     circuit = oil(filters=oil().filters[0].replace(capacity=None))
     found = run(contact(), oil=circuit, duration=3.6e6, debris=DEBRIS, **FILM)
-    (state,) = found.steady_with_contact()
+    (state,) = found.steady()
     counts = CLASSES.counted(found.numbers[-1].sum(axis=1))
     steady = CLASSES.counted(state.numbers.sum(axis=1))
     assert state.stable
@@ -235,6 +235,41 @@ def test_a_missing_condition_is_named_with_what_to_do():
     bare = contact(STEEL.replace(density=None))
     with pytest.raises(tb.InvalidValue, match="density of surface 1"):
         run(bare, oil=oil(), duration=3.6e4, debris=DEBRIS, **FILM)
+
+
+@pytest.fixture(scope="module")
+def hard():
+    """Two hard surfaces: all that comes in leaves."""
+    return run(contact(), duration=600.0, debris=DEBRIS, **DRY)
+
+
+def test_one_name_gives_the_steady_states_of_both_kinds(filmed, hard):
+    """With a contact its debris counts: more particles than the same oil has alone."""
+    (oil,) = filmed.steady()
+    alone = tb.LifeHistory.steady(filmed)[0]
+    assert oil.numbers.sum() >= alone.numbers[:, : oil.numbers.shape[1]].sum() * (1 - 1e-9)
+    assert filmed.to_dict()["steady"][0]["code"] == oil.code
+    (rubbed,) = hard.steady()
+    assert type(rubbed) is type(oil)
+    assert rubbed.code == ""
+
+
+def test_the_gain_of_dirt_is_that_of_the_linear_balance(hard):
+    """(𝓛 − 𝒢)⁻¹ s over 𝓛⁻¹ s, by hand."""
+    source = hard.loop.arrivals.reshape(hard.loop.kinds, -1).T.ravel()
+    whole = np.linalg.solve(hard.losses - hard.births, source).sum()
+    assert hard.R0 < 1
+    assert hard.dirt_gain == pytest.approx(whole / np.linalg.solve(hard.losses, source).sum())
+    assert hard.dirt_gain >= 1
+
+
+def test_names_of_the_life_are_at_the_top():
+    assert tb.Debris is Debris
+    assert tb.RunningIn is RunningIn
+    assert tb.until.wear_depth(5e-6) == wear_depth(5e-6)
+    dents = tb.entry_ratio_from_dents
+    assert dents.__module__ == "thirdbody.systems.life.entry"
+    assert tb.oil_reports.__module__ == "thirdbody.systems.life.reports"
 
 
 def test_records_are_handed_out(filmed, dry):

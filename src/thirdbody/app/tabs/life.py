@@ -11,7 +11,7 @@ import numpy as np
 from nicegui import ui
 
 from ...quantities.say import number
-from ...study.life import AskedLife, life_of
+from ...study.life import AskedLife, oil_of
 from ...study.run_life import NEEDED, LifeResult
 from ...study.whole import read_tables
 from ...systems.life.history import LifeHistory
@@ -24,7 +24,7 @@ from ..state import Answer, State
 from ..text import with_micro
 from ..widgets import Facts, Plot, set_attributes
 
-__all__ = ["START", "TITLE", "LifeShown", "build", "contents_of"]
+__all__ = ["START", "TITLE", "LifeShown", "build", "contents_of", "words_of_oil"]
 
 TITLE = "Life"
 START: dict[str, Any] = {
@@ -63,7 +63,7 @@ class LifeShown(NamedTuple):
 @cache
 def _start() -> AskedLife:
     """The oil where the study has none."""
-    return read_tables({"life": START}, Path(), life_of, lambda t: t.name in NEEDED)
+    return read_tables({"life": START}, Path(), oil_of, lambda t: t.name in NEEDED)
 
 
 def _slid(asked: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:
@@ -88,11 +88,17 @@ def _slid(asked: AskedLife, flow: float, service: float, ingress: float) -> Aske
     return AskedLife(title=asked.title, circuit=circuit, duration=asked.duration, until=asked.until)
 
 
+def _oil_of(answer: Answer) -> AskedLife | None:
+    """The oil of a study; None where it has none, or asks for a dry contact."""
+    asked = answer.study.life
+    return asked if isinstance(asked, AskedLife) else None
+
+
 def contents_of(
     answer_of_study: Answer, flow: float = 1.0, service: float = 1.0, ingress: float = 1.0
 ) -> LifeShown:
     """The answer in words, numbers, the course of the code, and the flows of dirt."""
-    asked = _slid(answer_of_study.study.life or _start(), flow, service, ingress)
+    asked = _slid(_oil_of(answer_of_study) or _start(), flow, service, ingress)
     times = np.concatenate([[0.0], np.geomspace(1e-5, 1.0, POINTS) * asked.duration])
     times[-1] = asked.duration
     history = run_oil_history(
@@ -174,6 +180,16 @@ def _flows(history: LifeHistory) -> Figure:
     return made
 
 
+def words_of_oil(answer: Answer) -> str:
+    """Words that say where the oil is not that of the study."""
+    if _oil_of(answer) is not None:
+        return ""
+    shown = "Shown for 200 L of oil with one filter of 60 L/min"
+    if answer.study.life is not None:
+        return f"{shown}: this page shows oils only; thirdbody life answers for the dry contact."
+    return f"{shown}; a table [life] in the study takes its place (thirdbody new oil-circuit)."
+
+
 class LifeTab:
     """The answer, three sliders, two figures."""
 
@@ -219,13 +235,7 @@ class LifeTab:
         if answer is self.answer:
             return
         self.answer = answer
-        own = answer.study.life is not None
-        self.shown_for.set_text(
-            ""
-            if own
-            else "Shown for 200 L of oil with one filter of 60 L/min; a table [life] in the study "
-            "takes its place (thirdbody new oil-circuit)."
-        )
+        self.shown_for.set_text(words_of_oil(answer))
         await self._show()
 
     async def _show(self) -> None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..options import AsJson, Force, Settings, argument, option, read_study
+from ...errors import InvalidValue
+from ..options import AsJson, Force, KeepFile, Settings, argument, option, read_study
 from ..show import terminal
-from ..streams import print_json, tell_written
+from ..streams import STDOUT, TableFiles, print_json, tell_written
 
 __all__ = ["command"]
 
@@ -24,19 +25,28 @@ class Options:
         "--html", "Write the page with figures, one file, e.g. a.html.", "FILE"
     )
     force: Force = False
+    keep: KeepFile = None
     settings: Settings = None
 
 
 def command(options: Options) -> None:
     """How sure the answer of a study is, and what would change it.
 
-    One page: the mode at each operating load, its odds, margins and the inputs that matter.
+    One page: the mode at each operating load, its odds, margins and the inputs that matter; of a
+    study with [life.uncertainty], how sure the answer of `thirdbody life` is.
     """
     from ...quantities.files import write_text
     from ...study.analyses import assess_study
+    from ...study.life_assessment import asks_for_bands
     from ...views.assess_page import page
     from ..own_files import need_places
 
+    if options.keep is not None and not asks_for_bands(options.study, options.settings or ()):
+        raise InvalidValue("--keep keeps the histories of [life.uncertainty]; the study has none")
+
+    if asks_for_bands(options.study, options.settings or ()):
+        _assess_life(options)
+        return
     asked = read_study(options.study, options.settings, writes=[options.html])
     need_places([(options.html, "page")], force=options.force)
     answer = assess_study(asked, progress=True)
@@ -47,3 +57,29 @@ def command(options: Options) -> None:
         print_json(answer.to_dict())
     else:
         terminal().print(answer.page("--json or --html FILE tells all"))
+
+
+def _assess_life(options: Options) -> None:
+    """How sure the answer of an oil, or of a dry contact, over time is."""
+    from ...study.life_assessment import assess_life
+    from ...study.run_life import load_life
+    from ...views import life_bands_words as words
+    from ..answers import give_answer, read_question
+    from ..interrupt import resumable
+
+    if options.html is not None:
+        rule = "--html writes no page on [life.uncertainty]; thirdbody report writes one with it"
+        raise InvalidValue(rule)
+    files = TableFiles(json=STDOUT if options.as_json else None)
+    asked = read_question(load_life, options.study, options.settings, files, force=options.force)
+    with resumable("assess", options.keep):
+        found = assess_life(asked, progress=True, keep=options.keep)
+    give_answer(
+        found,
+        files,
+        answer=words.answer(found),
+        heads=words.HEADS,
+        rows=words.rows(found),
+        means=words.MEANS,
+        last=words.last_words(found),
+    )

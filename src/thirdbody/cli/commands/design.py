@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...errors import InvalidValue
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, join_words, number, percent, value_of
 from ...quantities.tables import Table
@@ -28,7 +29,7 @@ __all__ = ["command"]
 class Options:
     """What the command is told."""
 
-    study: Path = argument("A study file with a table [design].", "STUDY.toml")
+    study: Path = argument("A study file with a table [design], or [life.design].", "STUDY.toml")
     json: JsonFile = None
     csv: Path | None = option(
         "--csv", "Write a table, one row per point tried, e.g. a.csv.", "FILE"
@@ -48,7 +49,11 @@ def command(options: Options) -> None:
     Over a range of loads.
     """
     from ...study.analyses import design_study
+    from ...study.run_life_design import asks_for_design
 
+    if asks_for_design(options.study, options.settings or ()):
+        _choose_for_oil(options)
+        return
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
     files.need(options.figure, force=options.force)
@@ -73,6 +78,30 @@ def command(options: Options) -> None:
         write_figure(options.figure, plot_trials(best))
     if options.json != STDOUT:
         _page(asked, best)
+
+
+def _choose_for_oil(options: Options) -> None:
+    """The smallest filter for a code, or the choice with the longest time to an event."""
+    from ...study.run_life import load_oil
+    from ...study.run_life_design import design_life
+    from ...views import life_design_words as words
+    from ..answers import give_answer, read_question
+
+    if options.figure is not None:
+        raise InvalidValue("--figure draws the points of [design]; [life.design] has none")
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    asked = read_question(load_oil, options.study, options.settings, files, force=options.force)
+    with heartbeat("design"):
+        found = design_life(asked)
+    give_answer(
+        found,
+        files,
+        answer=words.answer(found),
+        heads=words.heads(found),
+        rows=words.rows(found),
+        means=words.MEANS,
+        last=words.last_words(found),
+    )
 
 
 def _sheets(

@@ -1,13 +1,16 @@
-"""``thirdbody life``: how dirty an oil becomes over time, and what reports of it say."""
+"""``thirdbody life``: an oil or a dry contact over time, and what reports of an oil say."""
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
-from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, argument, option
+from ..interrupt import resumable
+from ..options import Force, JsonFile, KeepFile, ParquetFile, Settings, XlsxFile, argument, option
 from ..streams import TableFiles, figure_format, warn_of, write_figure
 
 __all__ = ["command", "warn_of"]
@@ -18,7 +21,8 @@ class Options:
     """What the command is told."""
 
     study: Path = argument(
-        "A study file with a table [life]; `thirdbody new oil-circuit` writes one.", "STUDY.toml"
+        "A study file with a table [life]; `thirdbody new` oil-circuit or dry-contact writes one.",
+        "STUDY.toml",
     )
     reports: Path | None = option(
         "--reports",
@@ -38,12 +42,13 @@ class Options:
     figure: Path | None = option(
         "--figure", "Draw codes, masses and flows of dirt, as .png, .svg or .pdf.", "FILE"
     )
+    keep: KeepFile = None
     force: Force = False
     settings: Settings = None
 
 
 def command(options: Options) -> None:
-    """How dirty an oil becomes over time, and where its dirt goes."""
+    """How dirty an oil or a dry contact becomes over time, and where its dirt goes."""
     if options.reports is None:
         _tell_history(options)
     else:
@@ -51,34 +56,45 @@ def command(options: Options) -> None:
 
 
 def _tell_history(options: Options) -> None:
-    """The history of the oil."""
+    """The history of the oil, or of the dry contact."""
+    from ...errors import InvalidValue
     from ...populations.measured.cleanliness import read_iso4406
-    from ...study.run_life import load_life, run_life
-    from ...views.life_words import HEADS, MEANS, answer, last_words, least_flow_words, rows
+    from ...study.life_dry import AskedDry
+    from ...study.run_dry import DryResult
+    from ...study.run_life import LifeResult, load_life, run_life
+    from ...views import life_dry_words, life_words
 
     if options.flow_for is not None:
         read_iso4406(options.flow_for)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     asked = read_question(load_life, options.study, options.settings, files, force=options.force)
+    if options.flow_for is not None and isinstance(asked, AskedDry):
+        raise InvalidValue("--flow-for sizes the filters of an oil; [life.dry] has none")
     if options.figure is not None:
         figure_format(options.figure)
         files.need(options.figure, force=options.force)
-    with heartbeat("life"):
-        found = run_life(asked)
+    bands = bool(asked.uncertainty)
+    if options.keep is not None and not bands:
+        raise InvalidValue("--keep keeps the histories of [life.uncertainty]; the study has none")
+    with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep):
+        found = run_life(asked, progress=bands, keep=options.keep)
     drawn = None
     if options.figure is not None:
         from ...views.plot.life import life
 
         drawn = life(found.history)
-    sized = [] if options.flow_for is None else least_flow_words(found, options.flow_for)
+    words: Any = life_dry_words if isinstance(found, DryResult) else life_words
+    sized = []
+    if options.flow_for is not None and isinstance(found, LifeResult):
+        sized = life_words.least_flow_words(found, options.flow_for)
     give_answer(
         found,
         files,
-        answer=[*answer(found), *sized],
-        heads=HEADS,
-        rows=rows(found),
-        means=MEANS,
-        last=last_words(found),
+        answer=[*words.answer(found), *sized],
+        heads=words.HEADS,
+        rows=words.rows(found),
+        means=words.MEANS,
+        last=words.last_words(found),
     )
     if options.figure is not None and drawn is not None:
         write_figure(options.figure, drawn)

@@ -28,6 +28,7 @@ KINDS = (
     "connector",
     "wafer-chuck",
     "oil-circuit",
+    "dry-contact",
     "two-body",
     "measured-surface",
 )

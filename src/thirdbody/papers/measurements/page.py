@@ -17,14 +17,16 @@ from ..engine import Picture, Progress, ignore_ranges
 from ..page import document
 from ..panels import Panel, picture_of
 from .listed import rows
-from .row import STANDINGS, WORDS, Row, Verdict, word_of
+from .row import CONSTRUCTED, STANDINGS, WORDS, Row, Verdict, count_words, word_of
 
 __all__ = ["Summary", "find", "reproduce"]
 
 Ledger = Mapping[str, Mapping[str, Verdict]]
 
-SIGNS = {"lost": "✗ lost", "undecided": "? undecided", "met": "✓ met"}
-KINDS = {"lost": "fail", "undecided": "none", "met": "pass"}
+SIGNS = {
+    "lost": "✗ lost", "undecided": "? undecided", "met": "✓ met", CONSTRUCTED: "= by construction",
+}  # fmt: skip
+KINDS = {"lost": "fail", "undecided": "none", "met": "pass", CONSTRUCTED: "none"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +43,7 @@ class Summary(engine.Summary):
     def counts(self) -> dict[str, int]:
         """How many measurements were lost, undecided, met."""
         words = [word_of(dict(self.ledger[row.name])) for row in self.rows]
-        return {word: words.count(word) for word in WORDS}
+        return count_words(words)
 
     def score(self) -> str:
         """How many measurements, and how many computations beside, were lost, undecided, met."""
@@ -52,7 +54,7 @@ class Summary(engine.Summary):
                 for row in self.rows
                 if row.computed == computed
             ]
-            found = ", ".join(f"{words.count(word)} {word}" for word in WORDS)
+            found = ", ".join(f"{count} {word}" for word, count in count_words(words).items())
             parts.append(f"{len(words)} {kind}: {found}")
         return "; ".join(parts)
 
@@ -177,7 +179,8 @@ def _page(summary: Summary, figures: str) -> str:
             f"<p>{summary.score()}. Nothing is fitted: what a source does not give is a range, "
             "chosen here, and a prediction is the band over such ranges. A statement is met where "
             "the whole band lies within the limits, lost where none of it does. A row is undecided "
-            "where any of its statements is and none is lost. How well each number is known stands "
+            "where any of its statements is and none is lost. By construction holds what no "
+            "number of the model could change: it is no test. How well each number is known stands "
             "beside it: "
             f"{', '.join(STANDINGS)}.</p>",
             "<nav><a href='#ledger'>Ledger</a><a href='#figures'>Figures</a></nav>",

@@ -13,6 +13,7 @@ __all__ = [
     "CAPTION",
     "CHOSEN",
     "COMPUTED",
+    "CONSTRUCTED",
     "REPORTED",
     "STANDINGS",
     "WORDS",
@@ -21,6 +22,7 @@ __all__ = [
     "Row",
     "Statement",
     "Verdict",
+    "count_words",
     "row_of",
     "statement",
 ]
@@ -35,8 +37,17 @@ REPORTED = "reported by others"
 """Standing of what another paper says of the measurement."""
 STANDINGS = (ABSTRACT, CAPTION, REPORTED, COMPUTED, CHOSEN)
 
-WORDS = ("lost", "undecided", "met")
+CONSTRUCTED = "by construction"
+"""Verdict where the model holds whatever its numbers are: no measurement of it."""
+WORDS = ("lost", "undecided", "met", CONSTRUCTED)
 """Every verdict there is, in the order in which a page shows them."""
+
+
+def count_words(words: list[str]) -> dict[str, int]:
+    """How often each verdict was reached; what holds by construction only where it occurs."""
+    return {
+        word: words.count(word) for word in WORDS if word != CONSTRUCTED or CONSTRUCTED in words
+    }
 
 
 @dataclass(frozen=True)
@@ -91,16 +102,20 @@ class Verdict:
 class Statement:
     """One measured statement, how well it is known, and the model's prediction.
 
-    ``undecided`` is the reason why even a number within the limits would decide nothing.
+    ``undecided`` is the reason why even a number within the limits would decide nothing;
+    ``by_construction`` why no other number could come out.
     """
 
     claim: Claim
     predict: Callable[[], Band | None]
     undecided: str = ""
+    by_construction: str = ""
 
     def judge(self) -> Verdict:
         """Met: the whole band lies within the limits. Lost: none of it does."""
         band = self.predict()
+        if self.by_construction:
+            return Verdict(CONSTRUCTED, self.by_construction, band)
         if self.undecided or band is None:
             return Verdict("undecided", self.undecided or "no prediction", band)
         low, high = self.claim.interval()
@@ -165,8 +180,9 @@ def row_of(
     data = data_of(paper)[name]
     stated: list[Statement] = []
     for entry in data.get("statements", ()):
-        claim = Claim(**{key: value for key, value in entry.items() if key != "undecided"})
-        stated.append(Statement(claim, predictions[claim.id], entry.get("undecided", "")))
+        reasons = {key: entry[key] for key in ("undecided", "by_construction") if key in entry}
+        claim = Claim(**{key: value for key, value in entry.items() if key not in reasons})
+        stated.append(Statement(claim, predictions[claim.id], **reasons))
     return Row(
         name,
         data["title"],

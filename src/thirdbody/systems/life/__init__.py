@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from . import circuit as circuit
-    from . import contact_until as contact_until
     from . import debris as debris
     from . import entry as entry
     from . import fatigue as fatigue
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "circuit",
-    "contact_until",
     "debris",
     "entry",
     "fatigue",

@@ -62,7 +62,7 @@ def settling_speed(
 
     References
     ----------
-    Stokes 1851, Trans. Cambridge Phil. Soc. 9, 8; doi:10.1017/CBO9780511702266.002 (reprint).
+    Stokes 1851, Trans. Cambridge Phil. Soc. 9, 8; Mathematical and Physical Papers 3, 1.
 
     Examples
     --------

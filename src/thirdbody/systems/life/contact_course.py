@@ -12,11 +12,10 @@ from scipy.integrate import solve_ivp
 from ...errors import InvalidValue, NoEquilibrium, Problem
 from ...quantities.say import number, value_of
 from .circuit import OilCircuit
-from .contact_until import ContactUntil
 from .film_loop import FilmLoop
 from .history import LifeEvent
 from .loop import Loop
-from .until import CodeReached, FilterFull, Until
+from .until import CodeReached, ContactUntil, FilterFull, Until
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -17,7 +17,7 @@ from .dry_loop import DryLoop
 from .film_loop import FilmLoop
 from .history import SETTLES_TO, LifeEvent, LifeHistory
 from .ledger import IN_OIL, Ledger
-from .linear_flow import generations, reproduction
+from .linear_flow import dirt_gain, generations, reproduction
 from .loop import SURFACES, Loop
 from .steady import describe_reproduction
 
@@ -255,10 +255,17 @@ class ContactHistory(LifeHistory):
         """What R_0 means, in words."""
         return describe_reproduction(self.R0)
 
-    def steady_with_contact(self) -> tuple[SteadyContact, ...]:
-        """Every state in which the oil no longer changes, debris counted; w and σ as at the end."""
+    @cached_property
+    def _steady(self) -> tuple[SteadyContact, ...]:
         self.loop.now = float(self.times[-1])
         return steady_states(self.loop, self.last_state)
+
+    def steady(self) -> tuple[SteadyContact, ...]:  # type: ignore[override]
+        """Every state in which the oil no longer changes, debris counted; w and σ as at the end.
+
+        None where particles grow for ever.
+        """
+        return self._steady
 
     @property
     def time_scales(self) -> dict[str, float]:
@@ -339,6 +346,19 @@ class DryHistory(Record):
         """Next-generation matrix: daughters of row i of a particle of column j [1], (J, J)."""
         return generations(self.losses, births=self.births)
 
+    @property
+    def dirt_gain(self) -> float:
+        """Particles in the steady state over those without debris [1], with 𝒢 and 𝓛 of the end.
+
+        Infinite where one breeds more than one; NaN where nothing arrives, or R_0 is not known.
+        """
+        source = self.loop.shaped(self.loop.arrivals).T.ravel()
+        if math.isnan(self.R0) or not np.any(source > 0):
+            return math.nan
+        return (
+            dirt_gain(self.losses, births=self.births, source=source) if self.R0 < 1 else math.inf
+        )
+
     def flows(self, *, rates: bool = False) -> list[tuple[str, str, float]]:
         """The flow table: from where, to where, and how much [kg].
 
@@ -354,9 +374,13 @@ class DryHistory(Record):
             for start, end, mass in self.ledger.rows()
         ]
 
+    @cached_property
+    def _steady(self) -> tuple[SteadyContact, ...]:
+        return steady_states(self.loop, self.last_state)
+
     def steady(self) -> tuple[SteadyContact, ...]:
         """Every state in which the numbers no longer change; wear and σ as at the end."""
-        return steady_states(self.loop, self.last_state)
+        return self._steady
 
     @property
     def time_scales(self) -> dict[str, float]:
@@ -405,6 +429,7 @@ class DryHistory(Record):
             "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
             "time_scales": plain_data(self.time_scales),
             "R0": plain_data(self.R0),
+            "dirt_gain": plain_data(self.dirt_gain),
             "reproduction": self.reproduction,
             "warnings": list(self.warnings),
         }

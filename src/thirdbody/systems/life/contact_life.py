@@ -34,7 +34,7 @@ from .loop import FINER, Loop, Setting
 from .oil_history import run_oil_history, usual_times
 from .size_classes import SizeClasses, sizes_of
 from .surfaces import RunningIn
-from .until import Until
+from .until import ContactUntil, Until
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -175,7 +175,7 @@ def _notes(
         out.append(Note(what, code="life.single", effect=0.0))
     if entry_ratio == 1:
         what = "entry ratio 1 is not known to be right: surfaces that lasted show far fewer dents"
-        action = "count dents, and take life.entry_ratio_from_dents"
+        action = "count dents, and take entry_ratio_from_dents"
         out.append(Note(what, code="life.entry", action=action))
     if worn_area is None:
         what = "wear depths are those of the contact area alone, as if no other place came into it"
@@ -311,8 +311,6 @@ def run_film_history(
 
 
 def _of_oil(until: Sequence[Until]) -> tuple[Until, ...]:
-    from .contact_until import ContactUntil
-
     return tuple(each for each in until if not isinstance(each, ContactUntil))
 
 

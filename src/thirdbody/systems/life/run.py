@@ -44,7 +44,7 @@ MEANINGS = {
     "load": "of one contact [N]",
     "speed": "of entrainment [m/s]",
     "entry_ratio": "particles that enter over those in the oil that passes [1]; nobody can predict "
-    "it: count dents (life.entry_ratio_from_dents), or try it from 1e-3 to 1",
+    "it: count dents (entry_ratio_from_dents), or try it from 1e-3 to 1",
     "pressure": "[Pa]",
     "sliding_speed": "[m/s]",
     "length": "of the contact along the motion [m]",

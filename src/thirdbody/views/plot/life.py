@@ -1,4 +1,4 @@
-"""Figures of an oil over time: codes and masses, and where the dirt goes."""
+"""Figures of an oil or a dry contact over time: dirt, masses, and where the dirt goes."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from matplotlib.patches import FancyBboxPatch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
+from ...systems.life.history import LifeHistory
 from .style import OKABE_ITO
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ...systems.life.history import LifeHistory
+    from ...systems.life.contact_history import DryHistory
+
+    Histories = LifeHistory | DryHistory
 
 __all__ = ["draw_flows", "draw_history", "flows", "histories", "life"]
 
@@ -56,7 +59,36 @@ def draw_history(axes: Axes, history: LifeHistory) -> None:
     axes.legend(frameon=False)
 
 
-def _hours(history: LifeHistory) -> Any:
+def draw_contact(axes: Axes, history: DryHistory) -> None:
+    """Draw wear depths over time, and the particles in the contact behind them.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    history : DryHistory
+    """
+    hours = _hours(history)
+    for side, colour in ((1, "blue"), (2, "vermilion")):
+        depth = 1e6 * history.more[f"wear_{side}"][1]
+        axes.plot(
+            hours, np.where(depth > 0, depth, np.nan), DASHES[side - 1], color=OKABE_ITO[colour],
+            label=f"surface {side}",
+        )  # fmt: skip
+    for event in history.events:
+        axes.axvline(max(event.time / HOUR, hours[0]), color="0.8", lw=0.8, zorder=0)
+    axes.set(xlabel="Time [h]", ylabel="Wear depth [µm]", xscale="log", yscale="log")
+    particles = axes.twinx()
+    per_area = history.numbers.sum(axis=(1, 2)) / 1e6
+    particles.plot(
+        hours, np.where(per_area > 0, per_area, np.nan), color="0.4", lw=1.2, label="particles"
+    )
+    particles.set(yscale="log", ylabel="Particles per mm²")
+    axes.margins(x=0)
+    handles = [*axes.get_lines()[:2], *particles.get_lines()]
+    axes.legend(handles=handles, frameon=False, loc="lower right")
+
+
+def _hours(history: Histories) -> Any:
     """Times [h]; the first, which no logarithm has, where the second one is in the logarithm."""
     hours = history.times / HOUR
     if len(hours) > 2 and hours[0] == 0:
@@ -68,27 +100,34 @@ def _code_number(part: str) -> float:
     return float(part.removeprefix(">")) if part != "-" else np.nan
 
 
-def draw_masses(axes: Axes, history: LifeHistory) -> None:
+def draw_masses(axes: Axes, history: Histories) -> None:
     """Draw what came and where it went over time.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    history : LifeHistory
+    history : LifeHistory or DryHistory
     """
     hours = _hours(history)
     colours = [
         OKABE_ITO[name] for name in ("vermilion", "orange", "blue", "green", "purple", "sky")
     ]
-    columns = {**history.ledger.came, **history.ledger.went, "in the oil": history.ledger.in_oil}
-    for i, (name, values) in enumerate(columns.items()):
-        dash = "-" if name in history.ledger.came else ":" if name == "in the oil" else "--"
+    inside = f"in the {_pool(history)}"
+    columns = {**history.ledger.came, **history.ledger.went, inside: history.ledger.in_oil}
+    moved = {name: values for name, values in columns.items() if np.any(values > 0)}
+    for i, (name, values) in enumerate(moved.items()):
+        dash = "-" if name in history.ledger.came else ":" if name == inside else "--"
         axes.plot(hours, 1e3 * values, dash, color=colours[i % len(colours)], label=name, lw=1.6)
     axes.set(xlabel="Time [h]", ylabel="Mass since the beginning [g]", xscale="log", yscale="log")
     axes.margins(x=0)
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, 1e-6 * high), high)
     axes.legend(frameon=False)
+
+
+def _pool(history: Histories) -> str:
+    """What holds the particles."""
+    return "oil" if isinstance(history, LifeHistory) else "contact"
 
 
 def histories(history: LifeHistory) -> Figure:
@@ -132,7 +171,7 @@ def _band(start: tuple[float, float], end: tuple[float, float], width: float) ->
     return PathPatch(Path([*upper, *lower], curve + back), lw=0)
 
 
-def draw_flows(axes: Axes, history: LifeHistory) -> None:
+def draw_flows(axes: Axes, history: Histories) -> None:
     """Draw where the dirt came from and where it went; widths are masses.
 
     Parameters
@@ -142,12 +181,12 @@ def draw_flows(axes: Axes, history: LifeHistory) -> None:
     """
     from ..life_words import mass_of
 
-    ledger = history.ledger
-    came = {"in the oil before": float(ledger.in_oil[0])} | {
+    ledger, pool = history.ledger, _pool(history)
+    came = {f"in the {pool} before": float(ledger.in_oil[0])} | {
         name: float(values[-1]) for name, values in ledger.came.items()
     }
     went = {name: float(values[-1]) for name, values in ledger.went.items()} | {
-        "in the oil now": float(ledger.in_oil[-1])
+        f"in the {pool} now": float(ledger.in_oil[-1])
     }
     whole = max(sum(came.values()), sum(went.values()))
     axes.set_axis_off()
@@ -163,7 +202,7 @@ def draw_flows(axes: Axes, history: LifeHistory) -> None:
             fc=OKABE_ITO["yellow"], ec="0.3", lw=0.8, zorder=3,
         )
     )  # fmt: skip
-    axes.text(0.5, middle + high + 0.02, "oil", ha="center", va="bottom")
+    axes.text(0.5, middle + high + 0.02, pool, ha="center", va="bottom")
     colours = [OKABE_ITO[name] for name in ("sky", "vermilion", "orange", "purple", "black")]
     others = [OKABE_ITO[name] for name in ("blue", "green", "purple", "orange", "sky", "black")]
     for masses, left, palette in ((came, True, colours), (went, False, others)):
@@ -186,7 +225,7 @@ def draw_flows(axes: Axes, history: LifeHistory) -> None:
             outside -= apart
 
 
-def flows(history: LifeHistory) -> Figure:
+def flows(history: Histories) -> Figure:
     """Where the dirt came from and where it went over a history; widths are masses.
 
     Parameters
@@ -212,12 +251,12 @@ def flows(history: LifeHistory) -> Figure:
     return figure
 
 
-def life(history: LifeHistory) -> Figure:
-    """Counts, codes and masses over time, and the flows of dirt.
+def life(history: Histories) -> Figure:
+    """Codes, or the wear and particles of a dry contact, masses over time, and flows of dirt.
 
     Parameters
     ----------
-    history : LifeHistory
+    history : LifeHistory or DryHistory
 
     Returns
     -------
@@ -235,7 +274,10 @@ def life(history: LifeHistory) -> Figure:
     """
     figure = Figure(figsize=(6.4, 9.6), layout="constrained")
     above, below, last = figure.subplots(3, 1, height_ratios=(1, 1, 1))
-    draw_history(above, history)
+    if isinstance(history, LifeHistory):
+        draw_history(above, history)
+    else:
+        draw_contact(above, history)
     draw_masses(below, history)
     draw_flows(last, history)
     above.set_xlabel("")

@@ -15,6 +15,7 @@ from ...populations.materials import Material
 from ...study import FilmResult, Study, StudyResult
 from ...study.dirty_oil import DirtyOil
 from ...study.one_surface import OneSurface
+from ...study.run_dry import DryResult
 from ...study.run_life import LifeResult
 
 
@@ -33,7 +34,7 @@ class Found:
     pressed: OneSurface | str | None = field(repr=False, default=None)
     oil: DirtyOil | None = field(repr=False, default=None)
     oil_filtered: DirtyOil | None = field(repr=False, default=None)
-    life: LifeResult | None = field(repr=False, default=None)
+    life: LifeResult | DryResult | None = field(repr=False, default=None)
 
     @property
     def contact(self) -> Contact:

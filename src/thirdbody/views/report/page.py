@@ -87,8 +87,8 @@ class Report(Found):
         it could not be.
     oil, oil_filtered : DirtyOil or None
         What the particles of the oil do, before and after a filter.
-    life : LifeResult or None
-        The oil over time.
+    life : LifeResult, DryResult or None
+        The oil, or the dry contact, over time.
     """
 
     def sentences(self) -> tuple[str, ...]:

@@ -153,6 +153,8 @@ def sources_of(body: Material) -> tuple[list[str], str]:
 def alike(bodies: dict[str, Material]) -> list[tuple[str, Material]]:
     """Bodies by label; two surfaces of one material share a row."""
     out = dict(bodies)
+    if "surface 1" not in out:
+        return list(out.items())
     first, second = (out[f"surface {i}"] for i in (1, 2))
     if dataclasses.asdict(first) == dataclasses.asdict(second):
         out = {"both surfaces": first} | {k: v for k, v in out.items() if "surface" not in k}

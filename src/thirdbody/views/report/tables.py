@@ -138,23 +138,27 @@ def oil_section(report: Found) -> list[str]:
 
 
 def life_section(report: Found) -> list[str]:
-    """The oil over time: what it comes to, at a few times, where its dirt goes, what happened."""
-    from .. import life_words
+    """The oil or dry contact over time: what it comes to, a few times, flows, what happened."""
+    from ...study.run_dry import DryResult
+    from .. import life_dry_words, life_words
     from ..plot.life import life
 
     found = report.life
     if found is None:
         return []
-    every = life_words.rows(found)
+    dry = isinstance(found, DryResult)
+    told: Any = life_dry_words if dry else life_words
+    of, shown = ("contact", "Wear and particles") if dry else ("oil", "Code and counts")
+    every = told.rows(found)
+    said = [*told.answer(found), *told.last_words(found)]
     rows = [every[i] for i in some_of(len(every), FEW_TIMES)]
-    said = [*life_words.answer(found), *life_words.last_words(found)]
-    caption = "Code and counts over time, masses since the beginning, and where the dirt went."
+    caption = f"{shown} over time, masses since the beginning, and where the dirt went."
     out = [
         *(f"<p>{words(sentence)}</p>" for sentence in said),
-        *_with_legend(life_words.HEADS, rows, life_words.MEANS),
+        *_with_legend(told.HEADS, rows, told.MEANS),
         f"<div class=figures>{figure(svg_of(life(found.history)), caption)}</div>",
     ]
-    return [section("The oil over time", out, name="life")]
+    return [section(f"The {of} over time", out, name="life")]
 
 
 def film_section(report: Found) -> list[str]:

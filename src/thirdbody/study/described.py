@@ -1,0 +1,50 @@
+"""What the tables of a study describe, for the sheet of inputs of a workbook."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from ..populations.materials import Material
+    from ..quantities.value import Value
+
+__all__ = ["BareNumber", "Described", "describe"]
+
+
+class BareNumber(NamedTuple):
+    """A number of a study that is no field of a value."""
+
+    name: str
+    """As the file calls it."""
+    about: Mapping[str, Any]
+    """Symbol, unit and meaning."""
+    value: float
+    """In SI."""
+
+
+class Described(NamedTuple):
+    """Inputs of a study that are values, materials, and bare numbers."""
+
+    values: Mapping[str, Value]
+    """By what their names begin with, "plate."."""
+    bodies: Mapping[str, Material]
+    """Materials by their role."""
+    numbers: tuple[BareNumber, ...] = ()
+
+
+def describe(prefix: str, part: Any) -> Described:
+    """Inputs of a part that has surfaces and particles.
+
+    Parameters
+    ----------
+    prefix : str
+        What the names of its fields begin with.
+    part : Value
+        With ``surfaces`` and ``particles``.
+    """
+    from ..systems.connector import name_of
+
+    bodies = {"surface 1": part.surfaces.first, "surface 2": part.surfaces.second}
+    bodies |= {name_of(dust, i): dust.material for i, dust in enumerate(part.particles)}
+    return Described({prefix: part}, bodies)

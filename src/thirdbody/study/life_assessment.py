@@ -1,0 +1,107 @@
+"""How sure the answer of an oil or a dry contact over time is: bands, and what decides them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import InvalidValue, Problem
+from .asked_result import QuestionResult
+from .life import AskedDry, AskedLife
+from .life_bands import COUNT, LifeBands
+from .overrides import override
+from .reader import get
+from .run_life import bands_of
+from .toml import read
+
+__all__ = ["LifeAssessment", "asks_for_bands", "assess_life"]
+
+
+def asks_for_bands(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> bool:
+    """Whether a study file has a table [life.uncertainty].
+
+    Parameters
+    ----------
+    path : path-like
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+    """
+    given = override(read(Path(path)), list(overrides)).get("life")
+    return get(given, "uncertainty") is not None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LifeAssessment(QuestionResult):
+    """Results of `assess_life`; indexed, they are the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedLife or AskedDry
+    bands : LifeBands
+    """
+
+    asked: AskedLife | AskedDry
+    bands: LifeBands
+
+    title_without = "How sure a life is"
+    citations = ()
+
+    @property
+    def run_notes(self) -> tuple[str, ...]:
+        """None: they are those of `thirdbody life`."""
+        return ()
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row an input, and their units."""
+        swings = self.bands.swings
+        unit = "1/m^3" if self.bands.swings_of == COUNT else "m"
+        columns: dict[str, list[Any]] = {
+            "input": [each.name for each in swings],
+            "at_low": [each.low for each in swings],
+            "at_high": [each.high for each in swings],
+            "factor": [each.factor for each in swings],
+        }
+        return columns, {"input": "", "at_low": unit, "at_high": unit, "factor": "1"}
+
+    @property
+    def meanings(self) -> Mapping[str, str]:
+        """Meanings of the columns."""
+        of = self.bands.swings_of
+        return {
+            "input": "that alone is moved",
+            "at_low": f"{of} at the end, the input at its lowest probability",
+            "at_high": f"{of} at the end, the input at its highest",
+            "factor": "the larger over the smaller",
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        vary = {name: repr(each) for name, each in self.asked.uncertainty.items()}
+        missed = {name: self.bands.missed(name) for name in self.bands.reached}
+        return self.whole(inputs=vary, **self.bands.to_dict(), missed=missed)
+
+
+def assess_life(
+    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+) -> LifeAssessment:
+    """Bands of a life, from its table [life.uncertainty].
+
+    Parameters
+    ----------
+    asked : AskedLife or AskedDry
+        As `thirdbody.study.run_life.load_life` reads it.
+    progress, keep
+        As in `thirdbody.study.run_life.bands_of`.
+
+    Raises
+    ------
+    InvalidValue
+        Nothing is said of what is known.
+    """
+    bands = bands_of(asked, progress=progress, keep=keep)
+    if bands is None:
+        raise InvalidValue(Problem("life.uncertainty", "is missing: what is known of the numbers"))
+    return LifeAssessment(asked=asked, bands=bands)

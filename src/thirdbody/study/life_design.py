@@ -1,0 +1,152 @@
+"""The table [life.design]: the smallest filter for a code, the choice with the longest time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import InvalidValue, Problem
+from ..quantities.units import say
+from ..systems.life.circuit import OilCircuit
+from ..systems.life.until import Until
+from ..systems.oil_filter import Filter
+from .life_dirt import CODE
+from .reader import NOTHING, Key, Reader, read_number, wrong
+
+__all__ = ["AskedDesign", "design_key", "design_of"]
+
+CHOICES = (
+    'e.g. [[life.design.choices]] name = "larger filter", "filters.0.capacity" = "100 g", at '
+    "least two"
+)
+About = Callable[[OilCircuit, str], dict[str, Any] | None]
+"""What says what a number of a circuit is, by its dotted name."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AskedDesign:
+    """What is to be chosen of an oil: a filter for a code, or one of several circuits.
+
+    Parameters
+    ----------
+    code : str
+        ISO 4406 that the oil is to come to; "" where the time to an event is asked.
+    filters : tuple of Filter
+        Data sheets that are tried in the place of the first filter, the smallest first.
+    circuits : dict of str to OilCircuit
+        By the names of the choices.
+    """
+
+    code: str = ""
+    filters: tuple[Filter, ...] = ()
+    circuits: Mapping[str, OilCircuit]
+
+
+# ------------------------------------------------------------------------------ the table
+def design_key(one_filter: Callable[[Reader, str, Any], Any]) -> Key:
+    """The key of the table; ``one_filter`` reads a filter whose flow may be left out."""
+
+    def filters(reader: Reader, path: str, data: Any) -> Any:
+        if not isinstance(data, list):
+            raise wrong(path, "must be a table, headed [[life.design.filters]]", data)
+        return reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, one_filter)
+
+    def read_table(reader: Reader, path: str, data: Any) -> Any:
+        keys = {
+            "code": CODE._replace(about="the code that the oil is to come to"),
+            "filters": Key(
+                filters,
+                about="data sheets to choose from, the smallest first, each headed "
+                "[[life.design.filters]]; each stands in the place of the first filter",
+                schema=NOTHING,
+                table=one_filter,
+                items=one_filter,
+            ),
+            "choices": Key(
+                _choices,
+                about="circuits of which that with the longest time to the event of [life.until] "
+                f"is asked, {CHOICES}",
+                schema=NOTHING,
+                table=_choice,
+                items=_choice,
+            ),
+        }
+        return reader.table(path, data, keys)
+
+    about = (
+        "what thirdbody design chooses: the smallest filter for a code, or of several choices that "
+        "with the longest time to an event"
+    )
+    return Key(None, False, about, NOTHING, read_table)
+
+
+def _choice(reader: Reader, path: str, data: Any) -> Any:
+    """One choice: its name, and numbers that are read once there is a circuit."""
+    if reader.every_way:
+        return {"type": "object"}
+    if not isinstance(data, dict) or not isinstance(data.get("name"), str):
+        raise wrong(path, f"must be a table with a name, {CHOICES}", data)
+    return data
+
+
+def _choices(reader: Reader, path: str, data: Any) -> Any:
+    if not isinstance(data, list) or len(data) < 2:
+        raise wrong(path, f"must be a list of tables, {CHOICES}", data)
+    found = reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, _choice)
+    names = [each["name"] for each in found]
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        raise InvalidValue(Problem(path, f"has two choices that are called {twice}"))
+    return found
+
+
+def _circuit(
+    reader: Reader, path: str, entry: Mapping[str, Any], circuit: OilCircuit, about: About
+) -> OilCircuit:
+    """The circuit with the numbers of a choice."""
+
+    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, float]:
+        label, value = pair
+        name = label.removeprefix("oil.")
+        if (quantity := about(circuit, name)) is None:
+            some = '"oil.volume", "filters.0.flow", "filters.0.capacity"'
+            raise InvalidValue(Problem(where, f"is not a number of the circuit; it has {some}"))
+        return name, read_number(quantity, reader, where, value)
+
+    pairs = {f"{path}.{say(k)}": (k, v) for k, v in entry.items() if k != "name"}
+    numbers = dict(reader.read_each(pairs, one))
+    try:
+        changed = circuit.replace(**numbers)
+        changed.terms()
+    except InvalidValue as error:
+        raise error.under(path) from None
+    return changed
+
+
+def design_of(
+    reader: Reader,
+    given: Mapping[str, Any],
+    circuit: OilCircuit,
+    until: tuple[Until, ...],
+    about: About,
+) -> AskedDesign:
+    """What is to be chosen, checked against the circuit and what is waited for."""
+    path = "life.design"
+    if ("code" in given) == ("choices" in given):
+        rule = "needs code, or choices and [life.until], one of them"
+        raise InvalidValue(Problem(path, rule))
+    if "choices" not in given:
+        if not circuit.filters:
+            raise InvalidValue(Problem(path, "chooses the first of [[life.filters]]: add one"))
+        return AskedDesign(code=given["code"], filters=given.get("filters", ()), circuits={})
+    if "filters" in given:
+        rule = "go with code; a choice changes numbers of the circuit"
+        raise InvalidValue(Problem(f"{path}.filters", rule))
+    if len(until) != 1:
+        rule = f"needs one event in [life.until], e.g. filter_full = true; it has {len(until)}"
+        raise InvalidValue(Problem(f"{path}.choices", rule))
+    circuits = {
+        entry["name"]: _circuit(reader, f"{path}.choices[{i}]", entry, circuit, about)
+        for i, entry in enumerate(given["choices"])
+    }
+    return AskedDesign(circuits=circuits)

@@ -1,0 +1,231 @@
+"""The table [life.dry]: a dry or greased contact over time, and how long its particles stay."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+from ..analysis.uncertainty.inputs import Uncertain
+from ..contact.contact import Contact
+from ..contact.evaluation import bodies_of
+from ..errors import InvalidValue, Problem
+from ..quantities.value import quantity
+from ..systems.life.debris import Debris
+from ..systems.life.ingress import Ingress
+from ..systems.life.surfaces import RunningIn
+from ..systems.life.until import CodeReached, FilterFull, Until
+from .described import BareNumber, Described
+from .life_contact import HARDNESS
+from .life_dirt import ARRIVALS, dirts_of
+from .reader import NOTHING, Key, Reader, get, quantity_key, read_numbers, word, wrong
+from .surfaces import MATERIAL
+from .uncertainty import read_bands
+from .vocabulary import LOADS
+
+__all__ = ["BANDS_HARDNESS", "DRY", "AskedDry", "dry_of"]
+
+SIDES = ("first", "second")
+NEEDED = ("surfaces", "roughness", "outputs", "load")
+OF_CONTACT = ("surfaces", "roughness", "asperity_law", "particle_law", "outputs", "particles")
+"""Tables of a study that make its contact."""
+QUANTITIES = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "sliding_speed": quantity("v_s", "m/s", "sliding speed", gt=0),
+        "length": quantity("L", "m", "length of the contact along the motion", gt=0, usual=10),
+        "area": quantity("A_n", "m^2", "nominal area of the contact", gt=0),
+        "loss": quantity(
+            "1-ρ_r", "1", "part of what leaves that does not come round again", ge=0, le=1
+        ),
+        "stays": quantity("s_e", "1", "part of the deeply sunk particles that stays", ge=0, le=1),
+    }.items()
+}
+LOSS = (
+    "; nobody can predict it: 1 where all is swept away, near 0 in a closed track; try both with "
+    "--set life.dry.loss=..."
+)
+FACTOR = quantity("f", "1", "factor on all that arrives", gt=0).metadata["quantity"]
+BANDS_HARDNESS = "debris.hardness"
+WORN = quantity("A_w", "m^2", "area that is worn in turn", gt=0).metadata["quantity"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AskedDry:
+    """What a study says of a dry contact over time.
+
+    Parameters
+    ----------
+    title : str
+        As in the file.
+    contact : Contact
+        Its particles are there when it begins.
+    duration : float
+        How long at most [s].
+    until : tuple of Until
+        What is waited for.
+    conditions : dict
+        Arguments of `thirdbody.life`: pressure, sliding speed, length, area, arrivals, loss.
+    debris : Debris, optional
+        What wear leaves behind.
+    running_in : RunningIn, optional
+        How roughness falls with wear.
+    uncertainty : dict of str to Uncertain
+        What is known of its numbers.
+    notes : tuple of str
+        What is allowed but looks like a slip.
+    assumed : tuple of str
+        What was taken for what the file does not say.
+    """
+
+    title: str
+    contact: Contact
+    duration: float
+    until: tuple[Until, ...] = ()
+    conditions: Mapping[str, Any] = field(default_factory=dict)
+    debris: Debris | None = None
+    running_in: RunningIn | None = None
+    uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()
+
+    @property
+    def described(self) -> Described:
+        """What the tables describe."""
+        abouts = {f"life.dry.{name}": (name, about) for name, about in QUANTITIES.items()}
+        abouts["load.pressure"] = ("pressure", LOADS["pressure"])
+        rows = [
+            BareNumber(label, about, self.conditions[name])
+            for label, (name, about) in abouts.items()
+            if name in self.conditions
+        ]
+        bodies = bodies_of(self.contact)
+        bodies |= {f"arrivals {i}": each.material for i, each in enumerate(self.arrivals, 1)}
+        return Described({"": self.contact}, bodies, tuple(rows))
+
+    @property
+    def arrivals(self) -> tuple[Ingress, ...]:
+        """Particles that arrive in the whole contact."""
+        return tuple(self.conditions["arrivals"])
+
+
+def _worn(reader: Reader, path: str, value: Any) -> tuple[float, float]:
+    """Areas of both surfaces."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise wrong(path, 'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]', value)
+    first, second = read_numbers(WORN, reader, path, value)
+    return first, second
+
+
+@cache
+def _keys() -> dict[str, Key]:
+    """Keys of [life.dry]."""
+    keys = {
+        name: quantity_key(name, about, required=name != "stays")
+        for name, about in QUANTITIES.items()
+    }
+    loss = keys["loss"]
+    one = quantity_key("worn_area", WORN).schema
+    return keys | {
+        "loss": loss._replace(about=loss.about + LOSS),
+        "moving": word(
+            SIDES, "the surface that carries what it holds out of the contact", required=True
+        ),
+        "arrivals": ARRIVALS._replace(required=True),
+        "material": MATERIAL._replace(about="what the particles that arrive are of"),
+        "worn_area": Key(
+            _worn,
+            about='area of each surface that is worn in turn, e.g. ["10 cm^2", "1 cm^2"]: a whole '
+            "track, and a pin",
+            schema={"type": "array", "items": one},
+        ),
+    }
+
+
+def _dry(reader: Reader, path: str, data: Any) -> Any:
+    return reader.table(path, data, _keys())
+
+
+DRY = Key(
+    None,
+    False,
+    "a dry or greased contact in the place of an oil, with sliding_speed, length, area, loss, "
+    "moving and arrivals; thirdbody new dry-contact writes a whole study",
+    NOTHING,
+    _dry,
+)
+
+
+def _pressure(values: Mapping[str, Any], contact: Contact) -> float:
+    """The one nominal pressure of [load] [Pa]."""
+    name, loads = values["load"]
+    if name not in ("pressure", "F_star"):
+        rule = "does not go with [life.dry], which needs pressure or F_star"
+        raise InvalidValue(Problem(f"load.{name}", rule))
+    if len(loads) != 1:
+        rule = f"has {len(loads)} values, and a history has one"
+        raise InvalidValue(Problem(f"load.{name}", rule, hint="--set load.pressure=..."))
+    return float(loads[0]) * (1.0 if name == "pressure" else contact.E_ss)
+
+
+def _uncertainty(
+    reader: Reader, given: Mapping[str, Any], debris: Debris | None
+) -> dict[str, Uncertain]:
+    """What is known of the numbers of a dry contact, by their names as arguments."""
+    known = {f"dry.{name}": (name, about) for name, about in QUANTITIES.items()}
+    known |= {"arrivals": ("arrivals", FACTOR), "load.pressure": ("pressure", LOADS["pressure"])}
+    if debris is not None:
+        known[BANDS_HARDNESS] = (BANDS_HARDNESS, HARDNESS)
+    some = ", ".join(f'"{name}"' for name in known)
+
+    def about(label: str) -> tuple[str, dict[str, Any] | None]:
+        return known.get(label, (label, None))
+
+    unknown = f"is not a number of the dry contact; it has {some}"
+    return read_bands(reader, given, about, unknown)
+
+
+def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
+    """The dry contact that a study asks for, from the objects that its tables stand for."""
+    given = values["life"]
+    problems = [
+        Problem(f"life.{name}", "does not go with [life.dry]: one is in an oil, the other is not")
+        for name in ("oil", "filters", "contact", "design")
+        if name in given
+    ]
+    if missing := [f"[{name}]" for name in NEEDED if name not in values]:
+        problems.append(Problem("life.dry", f"needs {', '.join(missing)}"))
+    if lost := [e for e in given.get("until", ()) if isinstance(e, CodeReached | FilterFull)]:
+        problems.append(Problem("life.until", f"waits for what only an oil has: {lost[0].name}"))
+    if problems:
+        raise InvalidValue(*problems)
+    parts = {name: values[name] for name in OF_CONTACT if name in values}
+    if "particles" not in parts:
+        parts.pop("particle_law", None)
+    contact = reader.make(Contact, "", parts)
+    conditions = dict(given["dry"])
+    arrivals = dirts_of(
+        conditions.pop("arrivals"), conditions.pop("material", None), ingress=True, of="life.dry"
+    )
+    conditions |= {
+        "arrivals": arrivals,
+        "pressure": _pressure(values, contact),
+        "moving": 1 + SIDES.index(conditions["moving"]),
+    }
+    if contact.populations and any(each.law is not None for each in contact.populations):
+        reader.notes.append("a law in [particles] has no effect on [life]: it takes [particle_law]")
+    if get(reader.whole, "film") is not None:
+        reader.notes.append("[film] has no effect on [life.dry], which has no oil")
+    return AskedDry(
+        title=values.get("title", ""),
+        contact=contact,
+        duration=given["duration"],
+        until=given.get("until", ()),
+        conditions=conditions,
+        debris=given.get("debris"),
+        running_in=given.get("running_in"),
+        uncertainty=_uncertainty(reader, given.get("uncertainty", {}), given.get("debris")),
+        notes=tuple(dict.fromkeys(reader.notes)),
+        assumed=tuple(dict.fromkeys(reader.assumed)),
+    )

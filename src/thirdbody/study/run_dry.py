@@ -1,0 +1,148 @@
+"""A study of a dry contact over time: particles that arrive, stay, act and leave."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..contact.citations import cite
+from ..errors import RangeWarning
+from ..quantities.plain_data import plain_data
+from ..systems.life.contact_history import DryHistory
+from ..systems.life.run import life
+from .asked_result import QuestionResult
+from .life_bands import LifeBands, propagate_dry
+from .life_dry import AskedDry
+
+__all__ = ["DryResult", "bands_of_dry", "run_dry"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DryResult(QuestionResult):
+    """Results of `run_dry`; indexed, they are the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedDry
+    history : DryHistory
+    bands : LifeBands, optional
+        Where the study says what is known of its numbers.
+    """
+
+    asked: AskedDry
+    history: DryHistory
+    bands: LifeBands | None = None
+
+    title_without = "Life of a dry contact"
+
+    @property
+    def citations(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The works behind the numbers."""
+        return (
+            "Fillot, Iordanoff, Berthier 2007, Wear 262, 1196, doi:10.1016/j.wear.2006.10.011",
+            *cite(self.asked.contact).splitlines(),
+        )
+
+    @property
+    def run_notes(self) -> tuple[str, ...]:
+        """Those of the history."""
+        return self.history.warnings
+
+    @property
+    def meanings(self) -> Mapping[str, str]:
+        """Meanings of the columns."""
+        out = {"time": "since the beginning", "eta": "particles per area of the contact"}
+        out |= {name: f"mass, {name}" for name in self._masses()}
+        return out | {name: about.meaning for name, (about, _) in self.history.more.items()}
+
+    def _masses(self) -> dict[str, np.ndarray]:
+        columns = self.history.ledger.over_time()
+        return {name.replace("in the oil", "in the contact"): v for name, v in columns.items()}
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row a time, and their units."""
+        history = self.history
+        columns: dict[str, list[Any]] = {
+            "time": plain_data(history.times),
+            "eta": plain_data(history.numbers.sum(axis=(1, 2))),
+        }
+        units = {"time": "s", "eta": "1/m^2"}
+        for name, values in self._masses().items():
+            columns[name], units[name] = plain_data(values), "kg"
+        for name, (about, values) in history.more.items():
+            columns[name], units[name] = plain_data(np.asarray(values)), about.unit
+        return columns, units
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        asked, history = self.asked, self.history
+        conditions = {
+            name: [each.to_dict() for each in value] if name == "arrivals" else plain_data(value)
+            for name, value in asked.conditions.items()
+        }
+        return self.whole(
+            inputs={
+                "contact": asked.contact.to_dict(),
+                "conditions": conditions,
+                "duration": asked.duration,
+                "until": [each.to_dict() for each in asked.until],
+            },
+            **{name: v for name, v in history.to_dict().items() if name != "warnings"},
+            steady=[plain_data(each._asdict()) for each in history.steady()],
+            flows=[{"from": start, "to": end, "kg": mass} for start, end, mass in history.flows()],
+            bands=None if self.bands is None else self.bands.to_dict(),
+        )
+
+
+def _arguments(asked: AskedDry) -> dict[str, Any]:
+    """Arguments of `thirdbody.life` beside contact, duration and events."""
+    return {**asked.conditions, "debris": asked.debris, "running_in": asked.running_in}
+
+
+def bands_of_dry(
+    asked: AskedDry, *, progress: bool = False, keep: Path | None = None
+) -> LifeBands | None:
+    """Bands of a dry contact; None where the study says nothing of what is known.
+
+    Parameters
+    ----------
+    asked : AskedDry
+    progress, keep
+        As in `thirdbody.study.life_bands.propagate_life`.
+    """
+    if not asked.uncertainty:
+        return None
+    return propagate_dry(
+        asked.contact,
+        vary=asked.uncertainty,
+        duration=asked.duration,
+        until=asked.until,
+        conditions=_arguments(asked),
+        progress=progress,
+        keep=keep,
+    )
+
+
+def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None) -> DryResult:
+    """The history of a dry contact, as its study asks.
+
+    Parameters
+    ----------
+    asked : AskedDry
+        As `thirdbody.study.run_life.load_life` reads it.
+    progress, keep
+        As in `thirdbody.study.life_bands.propagate_life`.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
+        history = life(
+            asked.contact, duration=asked.duration, until=asked.until, **_arguments(asked)
+        )
+    assert isinstance(history, DryHistory)
+    bands = bands_of_dry(asked, progress=progress, keep=keep)
+    return DryResult(asked=asked, history=history, bands=bands)

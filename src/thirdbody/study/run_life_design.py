@@ -1,0 +1,166 @@
+"""The filter or the circuit that a study with [life.design] asks for."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..quantities.plain_data import plain_data
+from ..systems.life.circuit import OilCircuit
+from ..systems.life.sizing import filter_for_code, least_flow, longest_time
+from ..systems.life.until import ContactUntil
+from .asked_result import QuestionResult
+from .life import AskedLife
+from .life_design import AskedDesign
+from .overrides import override
+from .reader import get
+from .run_life import history_of
+from .toml import read
+
+__all__ = ["LifeDesign", "asks_for_design", "design_life"]
+
+
+def asks_for_design(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> bool:
+    """Whether a study file has a table [life.design].
+
+    Parameters
+    ----------
+    path : path-like
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+    """
+    return get(override(read(Path(path)), list(overrides)).get("life"), "design") is not None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LifeDesign(QuestionResult):
+    """Results of `design_life`; indexed, they are the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedLife
+    names : tuple of str
+        Of the filters or circuits that were tried.
+    best : str
+        The one to take; "" where none is enough.
+    codes : tuple of str
+        To which the oil comes with each; empty where a time is asked.
+    flows : array (N,)
+        Least flow with which each filter is enough [m³/s]: 0 where none is needed, NaN where no
+        flow is; empty where a time is asked.
+    times : array (N,)
+        When the event comes with each [s]; infinite where it does not come. Empty where a code is
+        asked.
+    """
+
+    asked: AskedLife
+    names: tuple[str, ...]
+    best: str
+    codes: tuple[str, ...] = ()
+    flows: np.ndarray
+    times: np.ndarray
+
+    title_without = "Choice for an oil"
+    citations = ("ISO 16889: multi-pass test of filters (β ratio)", "ISO 4406: code of the oil")
+
+    @property
+    def run_notes(self) -> tuple[str, ...]:
+        """Those of the circuit."""
+        return tuple(self.asked.circuit.notes())
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row a choice, and their units."""
+        columns: dict[str, list[Any]] = {"name": list(self.names)}
+        units = {"name": ""}
+        if self.codes:
+            columns["code"], units["code"] = list(self.codes), ""
+            columns["least_flow"], units["least_flow"] = plain_data(self.flows), "m^3/s"
+        else:
+            columns["time"], units["time"] = plain_data(self.times), "s"
+        return columns, units
+
+    @property
+    def meanings(self) -> Mapping[str, str]:
+        """Meanings of the columns."""
+        return {
+            "name": "of the filter, or of the choice",
+            "code": "ISO 4406 to which the oil comes",
+            "least_flow": "least flow with which the filter is enough; none where no flow is",
+            "time": "until the event; none where it does not come in the duration",
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        design = self.asked.design
+        assert design is not None
+        until = [each.to_dict() for each in self.asked.until]
+        return self.whole(
+            inputs={"oil": self.asked.circuit.to_dict(), "code": design.code, "until": until},
+            best=self.best or None,
+            choices=self.table()[0],
+        )
+
+
+def design_life(asked: AskedLife) -> LifeDesign:
+    """The filter or the circuit that [life.design] asks for.
+
+    Parameters
+    ----------
+    asked : AskedLife
+        As `thirdbody.study.run_life.load_life` reads it, with a design.
+    """
+    design = asked.design
+    assert design is not None
+    return _for_code(asked, design) if design.code else _longest(asked, design)
+
+
+def _for_code(asked: AskedLife, design: AskedDesign) -> LifeDesign:
+    """The first filter with which the oil comes to the code."""
+    circuit = asked.circuit
+    own = circuit.filters[0]
+    tried = [
+        f if f.flow is not None else f.replace(flow=own.flow) for f in design.filters or (own,)
+    ]
+    names = tuple(f.name or f"filter {i}" for i, f in enumerate(tried, 1))
+    with_each = [circuit.replace(filters=(f, *circuit.filters[1:])) for f in tried]
+    best = filter_for_code(circuit, code=design.code, filters=tried)
+    flows = [math.nan if f.line else least_flow(c, code=design.code)
+             for f, c in zip(tried, with_each, strict=True)]  # fmt: skip
+    return LifeDesign(
+        asked=asked,
+        names=names,
+        best="" if best is None else names[tried.index(best)],
+        codes=tuple(each.steady_code() for each in with_each),
+        flows=np.array(flows),
+        times=np.empty(0),
+    )
+
+
+def _longest(asked: AskedLife, design: AskedDesign) -> LifeDesign:
+    """The choice with which the event comes last."""
+    (event,) = asked.until
+    if asked.contact is None and not isinstance(event, ContactUntil):
+        found = longest_time(design.circuits, until=event, duration=asked.duration)
+        best, times = found.name, found.times
+    else:
+        times = {name: _time(asked, circuit) for name, circuit in design.circuits.items()}
+        best = max(times, key=lambda name: times[name])
+    return LifeDesign(
+        asked=asked, names=tuple(times), best=best, flows=np.empty(0),
+        times=np.array(list(times.values())),
+    )  # fmt: skip
+
+
+def _time(asked: AskedLife, circuit: OilCircuit) -> float:
+    """When the event comes in the contacts of an oil [s]; infinite where it does not."""
+    (event,) = asked.until
+    until = (event.replace(stops=True),)
+    history = history_of(replace(asked, circuit=circuit, until=until))
+    came = [each.time for each in history.events if each.name == event.name]
+    return came[0] if came else math.inf

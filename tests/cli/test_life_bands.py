@@ -1,0 +1,252 @@
+"""Bands of a life: ``thirdbody life`` and ``assess`` with [life.uncertainty], kept and resumed."""
+
+import json
+import math
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli
+from thirdbody.study import life_bands
+from thirdbody.study.life_bands import propagate_dry, propagate_life
+from thirdbody.study.life_kept import KeptEnds
+from thirdbody.study.run_life import load_life, load_oil
+
+from .test_life import CONTACT
+
+HOUR = 3600.0
+OIL = """
+[life.until]
+iso4406 = "13/11/7"
+[life.uncertainty]
+ingress = { median = 1, gsd = 2 }
+"oil.volume" = { low = "180 L", high = "220 L" }
+"""
+DRY = """
+[life.until]
+wear_depth = "100 nm"
+[life.uncertainty]
+arrivals = { median = 1, gsd = 3 }
+"dry.loss" = { low = 0.1, high = 1 }
+"""
+SHORT = ["--set", 'life.duration="2 h"', "--set", "life.oil.oil_changes=[]"]
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def said(done):
+    assert done.exit_code == 0, done.stderr
+    return " ".join(done.stdout.split())
+
+
+def study(kind, more):
+    assert run("new", kind, "--out", "bare.toml").exit_code == 0
+    Path("study.toml").write_text(Path("bare.toml").read_text("utf-8") + more, "utf-8")
+    return "study.toml"
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    return tmp_path
+
+
+@pytest.fixture(autouse=True)
+def fewer(monkeypatch):
+    """A quarter of the histories of oils."""
+    monkeypatch.setattr(life_bands, "SAMPLES", 64)
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """Few histories of contacts: each takes a second."""
+    monkeypatch.setattr(life_bands, "SAMPLES_OF_CONTACT", 4)
+
+
+# ------------------------------------------------------------------------------ of an oil
+def test_how_sure_an_oil_is_and_what_decides():
+    file = study("oil-circuit", OIL)
+    done = run("assess", file, *SHORT)
+    told = said(done)
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    data = json.loads(run("assess", file, *SHORT, "--json").stdout)
+    missed = data["missed"]["code 13/11/7"]
+    assert 0 < missed < data["samples"] == 64
+    assert data["reached"]["code 13/11/7"] == 1 - missed / 64
+    assert f"in {missed} of 64 histories not by 2 h" in told
+    assert "Most uncertain: ingress" in told
+    assert data["times"]["code 13/11/7"][-1] is None  # censored
+
+
+def test_censored_quantiles_are_those_of_what_is_known():
+    """One exponential: with a factor on the start, the time to a count has a closed form."""
+    quartz = tb.materials["quartz"]
+    dirt = tb.OilDirt.from_iso4406("18/16/13", material=quartz)
+    oil = tb.OilCircuit(volume=0.2, start=dirt, ingress=(),
+                        filters=tb.Filter(sizes=(4e-6,), betas=(1e9,), flow=1e-3))  # fmt: skip
+    found = propagate_life(
+        oil, vary={"volume": tb.Uncertain.uniform(low=0.1, high=0.3)}, duration=300.0,
+        until=[tb.until.iso4406("15/13/10")], samples=256,
+    )  # fmt: skip
+    one = propagate_life(
+        oil, vary={"volume": tb.Uncertain.uniform(low=0.2, high=0.2000001)}, duration=1e4,
+        until=[tb.until.iso4406("15/13/10")], samples=64,
+    )  # fmt: skip
+    per_volume = one.times["code 15/13/10"][1] / 0.2  # time is proportional to the volume
+    least = found.times["code 15/13/10"][0]
+    assert least == pytest.approx(per_volume * 0.11, rel=0.02)
+    assert math.isinf(found.times["code 15/13/10"][-1])
+    assert found.reached["code 15/13/10"] == pytest.approx(
+        (300.0 / per_volume - 0.1) / 0.2, abs=2 / 256
+    )
+    assert found.missed("code 15/13/10") == 256 - round(256 * found.reached["code 15/13/10"])
+
+
+def test_an_event_that_never_comes_is_censored_throughout():
+    oil = load_oil(study("oil-circuit", "")).circuit
+    found = propagate_life(
+        oil, vary={"ingress": tb.Uncertain.uniform(low=0.9, high=1.1)}, duration=60.0,
+        until=[tb.until.iso4406("28/26/24")], samples=16,
+    )  # fmt: skip
+    assert np.all(np.isinf(found.times["code 28/26/24"]))
+    assert found.missed("code 28/26/24") == 16
+
+
+# ------------------------------------------------------------------------------ of contacts
+@pytest.mark.slow
+def test_contacts_in_an_oil_are_varied_with_it(few):
+    """ε enters as a factor on what stands in a thin film: wear of grooves is proportional to it."""
+    file = study(
+        "oil-circuit",
+        CONTACT.replace("f_roll = 0", "f_roll = 0.1")
+        + 'entry_ratio = 0.01\n[life.uncertainty]\n"contact.entry_ratio" = '
+        '{ low = 0.01, high = 0.04 }\n',
+    )  # fmt: skip
+    told = said(run("life", file, *SHORT))
+    assert "the surface that wears more is worn by" in told
+    assert "Most uncertain: entry_ratio" in told
+    asked = load_oil(file, [SHORT[1], SHORT[3]])
+    given = {"contact": asked.contact.contact, "debris": asked.contact.debris}
+    found = propagate_life(
+        asked.circuit, vary=asked.uncertainty, duration=HOUR,
+        contact=given | dict(asked.contact.conditions), samples=2, probabilities=(0.0, 1.0),
+    )  # fmt: skip
+    (swing,) = found.swings
+    assert swing.name == "entry_ratio"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        alone = [
+            tb.life(
+                oil=asked.circuit, duration=HOUR,
+                **(given | dict(asked.contact.conditions) | {"entry_ratio": ratio}),
+            )
+            for ratio in (0.01, 0.04)
+        ]  # fmt: skip
+    worn = [max(a.more["wear_1"][1][-1], a.more["wear_2"][1][-1]) for a in alone]
+    assert worn[1] / worn[0] == pytest.approx(4, rel=0.02)
+    assert found.wear[0] >= worn[0] * (1 - 1e-3)
+    assert found.wear[-1] <= worn[1] * (1 + 1e-3)
+
+
+@pytest.mark.slow
+def test_a_dry_contact_is_varied(few):
+    file = study("dry-contact", DRY)
+    keys = ["--set", 'life.duration="1 min"']
+    told = said(run("assess", file, *keys))
+    asked = load_life(file, [keys[1]])
+    assert set(asked.uncertainty) == {"arrivals", "loss"}
+    arguments = {**asked.conditions, "debris": asked.debris}
+    found = propagate_dry(
+        asked.contact, vary=asked.uncertainty, duration=60.0, conditions=arguments, samples=4,
+        until=asked.until,
+    )  # fmt: skip
+    low, high = (value * 1e9 for value in (found.wear[0], found.wear[-1]))
+    assert f"{low:.3g} nm to {high:.3g} nm" in " ".join(told.split())
+    missed = found.missed("wear depth")
+    assert (f"in {missed} of 4 histories not by 60 s" in told) is (missed > 0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "words"),
+    [
+        ("dry-contact", DRY.replace('"dry.loss"', '"dry.lost"'), "is not a number of the dry"),
+        ("dry-contact", DRY.replace("high = 1 }", "high = 2 }"), "must be >= 0 and <= 1"),
+        ("oil-circuit", OIL.replace("oil.volume", "contact.entry_ratio"), "is not a number of"),
+    ],
+)
+def test_mistakes_get_one_sentence(kind, more, words):
+    done = run("assess", study(kind, more))
+    assert done.exit_code == 2
+    assert words in " ".join(done.stderr.split())
+    assert "Traceback" not in done.stderr
+
+
+def test_what_does_not_go_together_is_refused():
+    file = study("oil-circuit", OIL)
+    assert "thirdbody report writes one" in " ".join(
+        run("assess", file, "--html", "a.html").stderr.split()
+    )
+    for command in ("life", "assess"):
+        done = run(command, "bare.toml", "--keep", "kept.jsonl")
+        assert done.exit_code == 2
+        assert "the study has none" in done.stderr
+    assert not Path("kept.jsonl").exists()
+
+
+# ------------------------------------------------------------------------------ interrupted
+def test_an_interrupted_run_goes_on_to_the_same_bytes(monkeypatch):
+    file = study("oil-circuit", OIL)
+    whole = run("assess", file, *SHORT, "--json").stdout
+    done, at_once = [], life_bands.run_oil_history
+
+    def breaks(*arguments, **given):
+        if len(done) == 30:
+            raise KeyboardInterrupt
+        done.append(1)
+        return at_once(*arguments, **given)
+
+    monkeypatch.setattr(life_bands, "run_oil_history", breaks)
+    broken = run("assess", file, *SHORT, "--json", "--keep", "kept.jsonl")
+    assert broken.exit_code == 130
+    assert "kept.jsonl holds 30 histories, and the same command goes on" in " ".join(
+        f"{broken.stderr} {broken.exception}".split()
+    )
+    with Path("kept.jsonl").open("a") as out:
+        out.write('{"i": 30, "en')  # the line that was being written
+    done.clear()
+    monkeypatch.setattr(
+        life_bands, "run_oil_history", lambda *a, **k: done.append(1) or at_once(*a, **k)
+    )
+    resumed = run("assess", file, *SHORT, "--json", "--keep", "kept.jsonl")
+    assert resumed.stdout == whole
+    assert len(done) == 68 - 30  # 64 sets, and two ends of two inputs
+
+
+def test_a_file_of_another_study_is_refused():
+    file = study("oil-circuit", OIL)
+    KeptEnds(Path("kept.jsonl"), {"another": 1})
+    before = Path("kept.jsonl").read_bytes()
+    done = run("assess", file, *SHORT, "--keep", "kept.jsonl")
+    assert done.exit_code == 2
+    assert "does not hold histories of this study" in " ".join(done.stderr.split())
+    assert Path("kept.jsonl").read_bytes() == before
+    Path("other.txt").write_text("mine")
+    assert run("assess", file, *SHORT, "--keep", "other.txt").exit_code == 2
+    assert Path("other.txt").read_text() == "mine"
+
+
+def test_progress_says_how_many_histories_are_done():
+    seen = []
+    oil = load_oil(study("oil-circuit", "")).circuit
+    propagate_life(
+        oil, vary={"ingress": tb.Uncertain.uniform(low=0.9, high=1.1)}, duration=60.0, samples=8,
+        progress=seen.append,
+    )  # fmt: skip
+    assert seen == list(range(1, 11))

@@ -1,0 +1,163 @@
+"""``thirdbody design`` of an oil: the smallest filter for a code, the longest time to an event."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli
+from thirdbody.study.run_life import load_oil, run_life
+from thirdbody.study.run_life_design import design_life
+from thirdbody.systems.life.oil_history import run_oil_history
+
+FILTERS = """
+[life.design]
+code = "14/12/8"
+[[life.design.filters]]
+name = "coarse"
+beta = { "4 um" = 1.2, "14 um" = 75 }
+[[life.design.filters]]
+name = "middle"
+beta = { "4 um" = 5, "7 um" = 75 }
+[[life.design.filters]]
+name = "fine"
+beta = { "4 um" = 75, "7 um" = 1000 }
+"""
+CHOICES = """
+[life.until]
+filter_full = true
+[[life.design.choices]]
+name = "as it is"
+[[life.design.choices]]
+name = "a larger filter"
+"filters.0.capacity" = "100 g"
+[[life.design.choices]]
+name = "less oil"
+"oil.volume" = "100 L"
+"""
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def said(done):
+    assert done.exit_code == 0, done.stderr
+    return " ".join(done.stdout.split())
+
+
+def study(more):
+    if not Path("bare.toml").exists():
+        run("new", "oil-circuit", "--out", "bare.toml")
+    Path("study.toml").write_text(Path("bare.toml").read_text("utf-8") + more, "utf-8")
+    return "study.toml"
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    return tmp_path
+
+
+def within(code, most):
+    return all(int(a) <= int(b) for a, b in zip(code.split("/"), most.split("/"), strict=True))
+
+
+def test_the_first_filter_that_is_enough_and_the_least_flow_of_each():
+    file = study(FILTERS)
+    told = said(run("design", file))
+    found = design_life(load_oil(file))
+    enough = [name for name, code in zip(found.names, found.codes, strict=True)
+              if within(code, "14/12/8")]  # fmt: skip
+    assert found.best == enough[0] == "middle"
+    assert f"Middle is the first of 3 enough for 14/12/8: the oil comes to {found.codes[1]}" in told
+    # the flow is the least: a thousandth less is not enough
+    asked = load_oil(file)
+    for sheet, flow in zip(asked.design.filters, found.flows, strict=True):
+        for factor, reached in ((1.001, True), (0.999, False)):
+            circuit = asked.circuit.replace(filters=sheet.replace(flow=factor * float(flow)))
+            assert within(circuit.steady_code(), "14/12/8") is reached
+    data = json.loads(run("design", file, "--json").stdout)
+    assert data["best"] == "middle"
+    assert data["choices"]["code"] == list(found.codes)
+    assert data["choices"]["least_flow"] == pytest.approx(found.flows.tolist())
+
+
+def test_none_is_enough():
+    told = said(run("design", study(FILTERS), "--set", 'life.design.code="8/6/0"'))
+    assert "None of the 3 is enough for 8/6/0; with" in told
+
+
+def test_the_choice_with_the_longest_time_to_an_event():
+    file = study(CHOICES)
+    told = said(run("design", file))
+    assert "With a larger filter it takes longest until a filter is full" in told
+    data = json.loads(run("design", file, "--json").stdout)
+    times = dict(zip(data["choices"]["name"], data["choices"]["time"], strict=True))
+    asked = load_oil(file)
+    for name, changes in {"a larger filter": {"filters.0.capacity": 0.1}, "less oil": {"volume": 0.1},
+                          "as it is": {}}.items():  # fmt: skip
+        history = run_oil_history(
+            asked.circuit.replace(**changes), duration=7.2e6, until=(tb.until.filter_full(),)
+        )
+        assert times[name] == pytest.approx(float(history.times[-1]), rel=1e-9)
+
+
+def test_events_that_do_not_come_are_censored():
+    file = study(CHOICES)
+    told = said(run("design", file, "--set", 'life.duration="500 h"'))
+    assert "With a larger filter it takes more than 500 h until a filter is full" in told
+    assert "more than 500 h" in told.split("choice time")[1]
+    data = json.loads(run("design", file, "--set", 'life.duration="500 h"', "--json").stdout)
+    assert data["choices"]["time"][1] is None
+    told = said(run("design", file, "--set", 'life.duration="10 h"'))
+    assert "a longer life.duration tells them apart" in told
+
+
+@pytest.mark.slow
+def test_the_time_of_a_contact_is_that_of_its_history():
+    """The depth that a history has after an hour is reached after an hour."""
+    from .test_life import CONTACT
+
+    keys = ["life.oil.oil_changes=[]", 'life.duration="2 h"']
+    contact = CONTACT.replace("f_roll = 0", "f_roll = 0.1") + "entry_ratio = 0.1\n"
+    history = run_life(load_oil(study(contact), keys)).history
+    file = study(contact + CHOICES.split("filter_full = true\n")[1])
+    deepest = np.maximum(*(history.more[f"wear_{side}"][1] for side in (1, 2)))
+    depth = float(np.interp(3600.0, history.times, deepest))
+    asked = load_oil(file, [*keys, f'life.until.wear_depth="{depth!r} m"'])
+    found = design_life(asked)
+    assert found.times[0] == pytest.approx(3600.0, rel=1e-3)
+    assert found.names[0] == "as it is"
+
+
+MISTAKES = [
+    (FILTERS.replace('code = "14/12/8"', ""), "needs code, or choices"),
+    (FILTERS.replace("14/12/8", "18"), "must be three numbers"),
+    (FILTERS.replace("4 um", "4 kg"), "life.design.filters"),
+    (CHOICES.replace("filter_full = true", ""), "needs one event in [life.until]"),
+    (CHOICES.replace("filters.0.capacity", "filters.7.capacity"), "is not a number of the circuit"),
+    (CHOICES.replace('"100 g"', '"100 m"'), "a length, but a mass"),
+    (CHOICES.replace('name = "less oil"', 'name = "as it is"'), "two choices that are called"),
+    (CHOICES.split("[[life.design.choices]]\nname = \"a larger")[0], "at least two"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("more", "words"), MISTAKES)
+def test_mistakes_get_one_sentence(more, words):
+    done = run("design", study(more), "--csv", "a.csv")
+    assert done.exit_code == 2, done.stdout
+    assert words in " ".join(done.stderr.split())
+    assert "Traceback" not in done.stderr
+    assert not Path("a.csv").exists()
+
+
+def test_a_dry_contact_has_no_filters_to_choose():
+    run("new", "dry-contact")
+    done = run("design", "dry-contact.toml", "--set", 'life.design.code="14/12/8"')
+    assert done.exit_code == 2
+    assert "life.dry is a dry contact" in done.stderr

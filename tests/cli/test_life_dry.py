@@ -1,0 +1,180 @@
+"""``thirdbody life`` of a dry contact: particles and wear over time from the shell."""
+
+import csv
+import json
+import warnings
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli
+from thirdbody.study.run_life import load_life, run_life
+from thirdbody.systems.life.debris import Debris
+from thirdbody.views.html import words as words_in_html
+from thirdbody.views.life_dry_words import answer
+from thirdbody.views.report.tables import life_section
+
+HOUR = 3600.0
+SHORT = ("--set", 'life.duration="1 h"')
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def said(done):
+    assert done.exit_code == 0, done.stderr
+    return " ".join(done.stdout.split())
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    assert run("new", "dry-contact").stdout == "thirdbody life dry-contact.toml\n"
+    return tmp_path
+
+
+def test_a_study_says_what_python_says():
+    """The file of the template by hand."""
+    asked = load_life("dry-contact.toml", [SHORT[1]])
+    found = run_life(asked)
+    steel, quartz = tb.materials["S45C"], tb.materials["quartz"]
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(
+            material=quartz, diameter=tb.LogNormal(median=2e-6, gsd=1.5), areal_density=1e8
+        ),
+        outputs=(
+            tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6),
+            tb.outputs.Wear(K_ss=1e-6, K_sa=0, f_ab=0.1, f_roll=0.001),
+        ),
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        own = tb.life(
+            contact, pressure=1e6, sliding_speed=0.1, length=0.01, area=1e-4, loss=0.3, moving=1,
+            worn_area=(2e-3, 1e-4), debris=Debris.boundary_lubricated(hardness=9e9),
+            arrivals=tb.Ingress.of_dust("A3-lot", rate="1 mg/h", material=quartz), duration=HOUR,
+        )  # fmt: skip
+    np.testing.assert_allclose(found.history.numbers, own.numbers, rtol=1e-6, atol=1e-3)
+    assert found.history.R0 == pytest.approx(own.R0, rel=1e-9)
+    # in a steady state as much leaves as comes
+    (steady,) = found.history.steady()
+    flows = {(a, b): kg for a, b, kg in found.history.flows()}
+    left = flows["contact", "left"]
+    come = sum(kg for (_, to), kg in flows.items() if to == "contact")
+    assert left == pytest.approx(come, rel=1e-2)
+    assert steady.numbers.sum() == pytest.approx(own.numbers[-1].sum(), rel=1e-4)
+
+
+def test_the_answer_is_two_sentences_and_fits_80_columns():
+    done = run("life", "dry-contact.toml", *SHORT)
+    told = said(done)
+    found = run_life(load_life("dry-contact.toml", [SHORT[1]]))
+    first, second = (" ".join(sentence.split()) for sentence in answer(found))
+    assert told.startswith(f"{found.title} (thirdbody {tb.__version__}) {first} {second} time")
+    assert found.history.reproduction in first
+    assert "The contact comes to" in first
+    assert "After 60 min wear has taken surface 1 by" in second
+    assert "residence of what rolls 0.2 s" in told
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_json_csv_and_workbook_hold_the_same_numbers():
+    openpyxl = pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
+    done = run("life", "dry-contact.toml", *SHORT, "--json", "--csv", "a.csv", "--xlsx", "a.xlsx")
+    data = json.loads(done.stdout)
+    with Path("a.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["time [s]"]) for row in rows] == data["times"]
+    assert [float(row["wear_2 [m]"]) for row in rows] == data["more"]["wear_2"]
+    total = np.sum(data["numbers"], axis=(1, 2))
+    assert [float(row["eta [1/m^2]"]) for row in rows] == pytest.approx(total.tolist(), rel=1e-12)
+    assert data["ledger"]["residual"] < 1e-9
+    assert data["steady"][0]["stable"] is True
+    book = openpyxl.load_workbook("a.xlsx")
+    inputs = [row[5] for row in book["Inputs"].iter_rows(values_only=True)]
+    assert {"life.dry.loss", "load.pressure", "outputs.wear.f_ab"} <= set(inputs)
+
+
+def test_an_event_ends_the_history():
+    told = said(run("life", "dry-contact.toml", *SHORT, "--set", 'life.until.wear_depth="1 um"'))
+    assert "a surface is worn by 1 µm: wear has taken" in told
+
+
+@pytest.mark.slow
+def test_what_never_leaves_is_told():
+    """A soft second surface holds the grains, and the first one alone moves."""
+    keys = ("--set", 'surfaces.second="CuSn8"', "--set", 'life.duration="1 s"')
+    told = said(run("life", "dry-contact.toml", *keys))
+    assert "comes to no steady state: it holds" in told
+    assert "and some of them never leave it" in told
+
+
+def test_the_figure_is_drawn():
+    done = run("life", "dry-contact.toml", "--set", 'life.duration="20 s"', "--figure", "a.png")
+    assert done.exit_code == 0, done.stderr
+    assert Path("a.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_the_report_has_a_part_on_the_contact():
+    found = run_life(load_life("dry-contact.toml", ['life.duration="20 s"']))
+    (part,) = life_section(SimpleNamespace(life=found))
+    assert "The contact over time" in part
+    assert words_in_html(answer(found)[0]) in part
+    assert "<figcaption>Wear and particles over time" in part
+
+
+MISTAKES = [
+    ("life.dry.loss=2", "must be >= 0 and <= 1"),
+    ('life.dry.moving="third"', 'must be one of "first", "second"'),
+    ('life.dry.worn_area="1 cm^2"', "must be two areas"),
+    ('life.dry.arrivals={ iso4406 = "18/16/13" }', "give one of test_dust, counts"),
+    ('life.until.iso4406="18/16/13"', "waits for what only an oil has"),
+    ('load.pressure=["1 MPa", "2 MPa"]', "a history has one"),
+    ('life.filters=[{ flow = "1 L/min", beta = { "4 um" = 2 } }]', "one is in an oil"),
+    ('life.uncertainty={ ingress = { low = 1, high = 2 } }', "is not a number of the dry"),
+    ('life.dry.speed="1 m/s"', "is not a known key"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("key", "words"), MISTAKES)
+def test_mistakes_get_one_sentence_and_nothing_is_written(key, words):
+    before = sorted(Path().iterdir())
+    done = run("life", "dry-contact.toml", "--set", key, "--csv", "a.csv", "--figure", "a.png")
+    assert done.exit_code == 2, done.stdout
+    assert words in " ".join(done.stderr.split())
+    assert "Traceback" not in done.stderr
+    assert sorted(Path().iterdir()) == before
+
+
+@pytest.mark.parametrize("key", ["loss", "arrivals", "moving", "area   =", "length"])
+def test_what_nobody_can_predict_has_no_default(key):
+    text = Path("dry-contact.toml").read_text("utf-8")
+    line = next(each for each in text.splitlines() if each.startswith(key))
+    Path("less.toml").write_text(text.replace(line + "\n", ""), "utf-8")
+    done = run("life", "less.toml")
+    assert done.exit_code == 2
+    assert f"life.dry.{key.rstrip(' =')} is missing" in " ".join(done.stderr.split())
+
+
+def test_options_of_an_oil_are_refused():
+    Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\n250,16/13/10\n")
+    for option in (["--reports", "oil.csv"], ["--flow-for", "16/14/11"]):
+        done = run("life", "dry-contact.toml", *option)
+        assert done.exit_code == 2
+        assert "[life.dry]" in done.stderr or "life.dry" in done.stderr
+
+
+def test_an_oil_has_a_workbook_too():
+    pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
+    run("new", "oil-circuit")
+    done = run("life", "oil-circuit.toml", "--xlsx", "oil.xlsx")
+    assert done.exit_code == 0, done.exception
+    assert Path("oil.xlsx").is_file()
