@@ -539,7 +539,7 @@ def test_accounts_begin_at_the_beginning_whatever_times_are_asked_for():
 
 def test_an_absurd_duration_is_refused():
     circuit = tb.OilCircuit(volume=0.2, start=(), ingress=())
-    with pytest.raises(tb.errors.InvalidValue, match="duration = .* must be at most"):
+    with pytest.raises(tb.errors.InvalidValue, match="must be at most"):
         tb.life(oil=circuit, duration=3.6e33)
 
 
