@@ -547,3 +547,12 @@ def test_an_oil_alone_does_not_wait_for_wear():
     circuit = tb.OilCircuit(volume=0.2, start=(), ingress=())
     with pytest.raises(tb.errors.InvalidValue, match="until = wear depth needs a contact"):
         tb.life(oil=circuit, duration=1.0, until=tb.systems.life.contact_until.wear_depth(1e-6))
+
+
+def test_a_dry_contact_does_not_wait_for_a_code():
+    steel = tb.materials["S45C"]
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=1e-7, R=3e-6)
+    )
+    with pytest.raises(tb.errors.InvalidValue, match="until = code 18/16/13 needs an oil"):
+        tb.life(contact, duration=1.0, until=tb.until.iso4406("18/16/13"))

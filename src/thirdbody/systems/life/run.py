@@ -193,6 +193,8 @@ def life(
             whole = _whole(conditions, OF_FILM, FILM)
             found = run_film_history(contact, oil=oil, **whole, **of_contact, **shared)
         else:
+            if idle := [each for each in waits if not isinstance(each, ContactUntil)]:
+                raise InvalidValue(Problem("until", "needs an oil", idle[0].name))
             whole = _whole(conditions, OF_DRY, DRY)
             given = whole["arrivals"]
             whole["arrivals"] = (given,) if isinstance(given, Ingress) else tuple(given)
