@@ -327,3 +327,48 @@ def test_constants_of_the_page():
         outputs = tb.outputs.Friction(tau_ss=more.get("tau", TAU))
         found = asked(TWO_BODY.replace(outputs=outputs), laws=laws, limits="speed")
         assert float(f"{found.seizure_speed:.2g}") == speed, (law, more)
+
+
+# ------------------------------------------------------------------ jumps of friction
+def one_that_softens(T):
+    """Speed of every temperature where surface 1 alone softens, and becomes the softer one."""
+    share = 1 - (T - COLD) / (MELT - COLD)
+    pair = tb.MaterialPair(STEEL.replace(H=STEEL.H * share), STEEL)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        mu = tb.solve(RUBBING.replace(surfaces=pair), pressure=5e6).outputs["mu"]
+    return (T - COLD) * 1e4 / (mu * 5e6)
+
+
+def test_states_beyond_a_jump_of_friction_are_found():
+    """Surface 1 becomes 1.2 times softer than its partner at share 1/1.2, and is then ploughed."""
+    jump = COLD + (MELT - COLD) * (1 - 1 / 1.2)
+    below, above = one_that_softens(jump * (1 - 1e-12)), one_that_softens(jump * (1 + 1e-12))
+    assert above < 0.9 * below
+    speed = (below + above) / 2
+    found = asked(sliding_speed=speed, laws=[softening(body="first")], limits="speed")
+    grid = np.concatenate(
+        [np.linspace(COLD + 1, jump - 1e-9, 30), np.linspace(jump + 1e-9, 1780, 60)]
+    )
+    over = np.array([one_that_softens(T) - speed for T in grid])
+    roots = [
+        optimize.brentq(lambda T: one_that_softens(T) - speed, a, b)
+        for a, b, low, high in zip(grid, grid[1:], over, over[1:], strict=False)
+        if low * high < 0 and b - a > 1e-6
+    ]
+    assert [each.T for each in found.states] == pytest.approx(roots, rel=1e-9)
+    assert [each.stable for each in found.states] == [True, True, False]
+    assert any(f"friction jumps at {jump:.4g} K" in note for note in found.warnings)
+
+
+def test_the_stable_state_ends_where_no_state_is_left():
+    found = asked(sliding_speed=1.0, laws=[softening(body="first")], limits="speed")
+    T = optimize.minimize_scalar(
+        lambda T: -one_that_softens(T),
+        bounds=(600, 1700),
+        method="bounded",
+        options={"xatol": 1e-4},
+    ).x
+    jump = COLD + (MELT - COLD) * (1 - 1 / 1.2)
+    most = max(one_that_softens(T), one_that_softens(jump * (1 - 1e-12)))
+    assert found.seizure_speed == pytest.approx(most, rel=1e-7)

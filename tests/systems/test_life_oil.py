@@ -520,3 +520,39 @@ def test_units_do_not_matter():
         return history.numbers * f**3
 
     np.testing.assert_allclose(course(factor), course(1.0), rtol=1e-9)
+
+
+# ------------------------------------------------------------------ found by refutation
+def test_accounts_begin_at_the_beginning_whatever_times_are_asked_for():
+    circuit = tb.OilCircuit(
+        volume=0.2,
+        start=tb.OilDirt.from_iso4406("20/18/15", material=tb.materials["quartz"]),
+        ingress=(),
+        filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
+    )
+    whole = tb.life(oil=circuit, duration=3600.0)
+    late = tb.life(oil=circuit, duration=3600.0, times=[600.0, 3600.0])
+    assert late.times.tolist() == [600.0, 3600.0]
+    assert late.ledger.residual < 1e-9
+    np.testing.assert_allclose(late.flows(rates=True)[0][2], whole.flows(rates=True)[0][2])
+
+
+def test_an_absurd_duration_is_refused():
+    circuit = tb.OilCircuit(volume=0.2, start=(), ingress=())
+    with pytest.raises(tb.errors.InvalidValue, match="must be at most"):
+        tb.life(oil=circuit, duration=3.6e33)
+
+
+def test_an_oil_alone_does_not_wait_for_wear():
+    circuit = tb.OilCircuit(volume=0.2, start=(), ingress=())
+    with pytest.raises(tb.errors.InvalidValue, match="until = wear depth needs a contact"):
+        tb.life(oil=circuit, duration=1.0, until=tb.systems.life.contact_until.wear_depth(1e-6))
+
+
+def test_a_dry_contact_does_not_wait_for_a_code():
+    steel = tb.materials["S45C"]
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=1e-7, R=3e-6)
+    )
+    with pytest.raises(tb.errors.InvalidValue, match="until = code 18/16/13 needs an oil"):
+        tb.life(contact, duration=1.0, until=tb.until.iso4406("18/16/13"))

@@ -194,3 +194,8 @@ def test_files_with_mistakes(tmp_path, text, words):
     file.write_text(text)
     with pytest.raises(tb.InvalidValue, match=words):
         read_reports(file)
+
+
+def test_counts_that_rise_with_the_size_are_refused():
+    with pytest.raises(tb.InvalidValue, match="must fall with the size"):
+        oil_reports([0.0, HOUR], reports=[[1e9, 2e8, 3e8]] * 2, circuit=circuit())

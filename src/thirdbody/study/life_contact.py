@@ -10,6 +10,7 @@ from ..contact.contact import Contact
 from ..errors import InvalidValue, Problem
 from ..quantities.value import quantity
 from ..systems.film_conditions import FilmConditions
+from ..systems.life.contact_until import ContactUntil
 from ..systems.life.debris import Debris
 from ..systems.life.surfaces import RunningIn
 from .reader import NOTHING, Key, Reader, get, quantity_key, read_number, table_of, word, wrong
@@ -138,6 +139,10 @@ def contact_of(reader: Reader, values: dict[str, Any]) -> LifeContact | None:
             if name in given:
                 rule = "has no effect without [life.contact], with entry_ratio"
                 raise InvalidValue(Problem(f"life.{name}", rule))
+        idle = [each for each in given.get("until", ()) if isinstance(each, ContactUntil)]
+        if idle:
+            rule = "has no effect without [life.contact], with entry_ratio"
+            raise InvalidValue(Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule))
         return None
     film = values.get("film")
     missing = [f"[{name}]" for name in ("surfaces", "roughness", "outputs") if name not in values]

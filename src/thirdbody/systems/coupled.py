@@ -20,11 +20,11 @@ from ..errors import (
     RangeWarning,
     tell_of_range,
 )
-from ..numerics.continuation import Branch, follow_branch
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Record, column
-from ..quantities.say import number, value_of
+from ..quantities.say import number
+from .coupled_walk import LAST, Walk
 from .feedback import (
     BoundHalfSpaces,
     HalfSpaces,
@@ -53,18 +53,8 @@ __all__ = ["Coupled", "CoupledState", "coupled"]
 Law = JunctionGrowth | Softening | Thinning
 WARMEST = 500.0
 """Rise up to which a branch is followed where no body melts [K]."""
-LAST = 0.999
-"""Share of the way to a melting point up to which a branch is followed."""
-COOLEST = 1e-3
-"""Rise at which a branch begins, over that at which it ends."""
-DECADES = 6.0
-"""Unit of the logarithm of speed or load along a branch, whose other unit is the largest rise."""
-STEP = 0.1
-"""Largest step along a branch in these units."""
 SLOPE = 1e-5
 """Step of the differences that give the loop gain, over the largest rise."""
-WIDEST = 40.0
-"""Range of the logarithm of speed or load in which a branch is followed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -285,8 +275,8 @@ def coupled(
               g = \frac{\partial T_{out}}{\partial T_{in}}
 
     A state is stable where the loop gain g is below 1. Where g reaches 1 at a rising speed, the
-    stable state meets an unstable one and both end: what comes then is heating without a stop, a
-    seizure as far as this model can say.
+    stable state meets an unstable one and both end. Above the last such end there is no state: what
+    comes then is heating without a stop, a seizure as far as this model can say.
 
     Parameters
     ----------
@@ -333,8 +323,10 @@ def coupled(
     up to 0.999 of the way to the first melting point (500 K of rise where nothing melts), or until
     more than half of the area touches. With one temperature (without ``flash``) all states hang
     together on it, because each temperature has one speed; with two, branches that never meet it
-    are not seen. A fold is known to 1e-8 of its speed (measured against closed forms). E, ν, τ and
-    the roughness stay as they are.
+    are not seen. Friction jumps where the hardness of one surface comes to ``hardness_ratio`` times
+    that of the other, which then begins to be ploughed: the branch goes on behind the jump, and a
+    warning says where it is. A fold is known to 1e-8 of its speed (measured against closed forms).
+    E, ν, τ and the roughness stay as they are.
 
     References
     ----------
@@ -373,11 +365,10 @@ def coupled(
     notes = [note for law in laws if isinstance(law, JunctionGrowth) for note in law.notes()]
     if loop.cooling is None:
         return _without_heat(loop, v, p, notes)
-    walks = {
-        name: _Walk(loop, name, v, p) for name in ("speed", "load") if limits in ("both", name)
-    }
+    walks = {name: Walk(loop, name, v, p) for name in ("speed", "load") if limits in ("both", name)}
     first = next(iter(walks.values()))
     states = tuple(_state(loop, x, v, p) for x in first.states())
+    notes += [note for walk in walks.values() for note in walk.notes()]
     speed, speed_limit = walks["speed"].end() if "speed" in walks else UNASKED
     load, load_limit = walks["load"].end() if "load" in walks else UNASKED
     return Coupled(
@@ -489,83 +480,6 @@ def _without_heat(loop: _Loop, v: float, p: float, notes: list[Note]) -> Coupled
         branch_of_load={},
         warnings=_warn(states, notes),
     )
-
-
-class _Walk:
-    """The states of a loop along speed or load, from where nothing warms."""
-
-    def __init__(self, loop: _Loop, name: str, v: float, p: float) -> None:
-        self.loop, self.name, self.v, self.p = loop, name, v, p
-        cold = np.zeros(2 if loop.flash else 1)
-        rise = float(np.max(loop.unknowns_made(cold, v, p)))
-        if not math.isfinite(rise):
-            raise NoEquilibrium("the contact has no state at the temperature without friction")
-        self.begins = min(math.log(COOLEST / rise) if rise > 0 else -1.0, -0.5) / DECADES
-        v_0, p_0 = self.speed_and_load(self.begins)
-        self.branch: Branch = follow_branch(
-            self.residual,
-            x=loop.unknowns_made(cold, v_0, p_0),
-            parameter=self.begins,
-            step=STEP,
-            inside=self.inside,
-        )
-
-    def speed_and_load(self, place: float) -> tuple[float, float]:
-        """Speed and load at a place along the branch."""
-        factor = math.exp(DECADES * place)
-        return (self.v * factor, self.p) if self.name == "speed" else (self.v, self.p * factor)
-
-    def residual(self, x: Array, place: float) -> Array:
-        """What is made less what is put in."""
-        if not np.all(x < 1 / LAST):
-            return np.full_like(x, math.nan)
-        return self.loop.unknowns_made(x, *self.speed_and_load(place)) - x
-
-    def inside(self, x: Array, place: float) -> bool:
-        """Whether a point belongs to the branch that is followed."""
-        near = self.begins - 0.5 / DECADES < place < self.begins + WIDEST / DECADES
-        return bool(np.all(x < 1)) and near
-
-    def states(self) -> list[Array]:
-        """Unknowns at the speed and load that were asked for, the coldest first."""
-        found = self.branch.solutions(self.residual, 0.0)
-        return sorted(found, key=lambda x: float(x[0]))
-
-    def end(self) -> tuple[float, str]:
-        """Speed or load at which the stable state ends, NaN where it does not, and a sentence."""
-        kind, unit = ("speed", "m/s") if self.name == "speed" else ("load", "Pa")
-        index = 0 if self.name == "speed" else 1
-        places = self.branch.parameter
-        for i in self.branch.folds:
-            if places[i] > places[i - 1]:
-                value = self.speed_and_load(float(places[i]))[index]
-                T = self.loop.temperatures(self.branch.x[i])[0]
-                words = f"the stable state ends at {value_of(value, unit)}, {number(T)} K"
-                return value, f"{words}; above, friction heats without a stop"
-        T = self.loop.temperatures(self.branch.x[-1])[0]
-        value = self.speed_and_load(float(places[-1]))[index]
-        if self.branch.ended == "step":
-            return math.nan, (
-                f"not known: beyond {value_of(value, unit)} and {number(T)} K no state is solved, "
-                "or half of the area touches"
-            )
-        if self.branch.x[-1].max() > 0.8:
-            return math.nan, (
-                f"none: the {kind} rises with the temperature up to {value_of(value, unit)} at "
-                f"{number(T)} K, where the laws end"
-            )
-        return math.nan, f"none up to {value_of(value, unit)}"
-
-    def columns(self) -> dict[str, Array]:
-        """The branch as columns."""
-        both = np.array([self.speed_and_load(float(each)) for each in self.branch.parameter])
-        index, label = (0, "speed") if self.name == "speed" else (1, "pressure")
-        numbers = [self.loop.numbers(x, *each) for x, each in zip(self.branch.x, both, strict=True)]
-        return {
-            label: both[:, index],
-            "T": self.loop.cold + self.loop.span * self.branch.x[:, 0],
-            "mu": np.array([each[0] for each in numbers]),
-        }
 
 
 def _state(loop: _Loop, x: Array, v: float, p: float) -> CoupledState:

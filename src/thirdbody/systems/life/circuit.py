@@ -210,7 +210,7 @@ class OilCircuit(Value):
             out.append(Problem("oil_changes", "must be times that increase and start above 0 [s]"))
         if self.fresh_oil is None and (self.make_up > 0 or changes):
             what = "make_up" if self.make_up > 0 else "oil_changes"
-            rule = f"is missing: {what} brings fresh oil, and new oil is seldom clean; () for none"
+            rule = f"is missing: {what} brings fresh oil, and new oil is seldom clean"
             out.append(Problem("fresh_oil", rule))
         if self.settling_area > 0 and (self.viscosity is None or self.density is None):
             rule = "needs viscosity [Pa s] and density [kg/m^3] of the oil"

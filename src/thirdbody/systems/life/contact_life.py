@@ -31,7 +31,7 @@ from .history import LifeHistory
 from .ingress import Ingress
 from .ledger import Ledger
 from .loop import FINER, Loop, Setting
-from .oil_history import run_oil_history, usual_times
+from .oil_history import kept_times, run_oil_history, usual_times
 from .size_classes import SizeClasses, sizes_of
 from .surfaces import RunningIn
 from .until import ContactUntil, Until
@@ -273,9 +273,10 @@ def run_film_history(
     if times is None:
         shortest = 1e-2 * oil.volume / max(float(np.max(terms.loss)), 1e-300)
         times = usual_times(duration, shortest=shortest)
+    some = kept_times(times, duration=duration)
     start = _start(loop, oil.volume * terms.start.T.ravel())
     course = ContactCourse(
-        loop, start, duration=duration, times=np.asarray(times, float),
+        loop, start, duration=duration, times=some,
         until=() if alone is not None else until, circuit=oil,
     )  # fmt: skip
     seen = course.run()
@@ -385,8 +386,8 @@ def run_dry_history(
     if times is None:
         times = usual_times(duration, shortest=0.1 * length / sliding_speed)
     course = ContactCourse(
-        loop, _start(loop, present.ravel()), duration=duration, times=np.asarray(times, float),
-        until=until,
+        loop, _start(loop, present.ravel()), duration=duration,
+        times=kept_times(times, duration=duration), until=until,
     )  # fmt: skip
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states)

@@ -127,7 +127,7 @@ class LifeHistory(Record):
         rates : bool, optional
             Mean over the history [kg/s] in the place of the whole mass [kg].
         """
-        over = self.times[-1] - self.times[0] if rates else 1.0
+        over = self.times[-1] if rates else 1.0  # a history begins at 0
         return [(start, end, mass / over) for start, end, mass in self.ledger.rows()]
 
     # -------------------------------------------------------------------------- what it tends to

@@ -37,11 +37,14 @@ class Ledger(Record):
         By where it came from [kg].
     went : dict of str to array (T,)
         By where it went [kg].
+    begin : float, optional
+        Mass in the oil at the beginning [kg], where the first time is a later one.
     """
 
     in_oil: Array
     came: Mapping[str, Array]
     went: Mapping[str, Array]
+    begin: float | None = None
 
     def over_time(self) -> dict[str, Array]:
         """Every column, by its name."""
@@ -58,8 +61,9 @@ class Ledger(Record):
         """What is in no account, over the largest of them, at the worst time [1]."""
         came = sum(self.came.values(), np.zeros_like(self.in_oil))
         went = sum(self.went.values(), np.zeros_like(self.in_oil))
-        off = self.in_oil - self.in_oil[0] + went - came
-        largest = np.max([self.in_oil, np.full_like(off, self.in_oil[0]), came, went])
+        begin = self.in_oil[0] if self.begin is None else self.begin
+        off = self.in_oil - begin + went - came
+        largest = np.max([self.in_oil, np.full_like(off, begin), came, went])
         return float(np.max(np.abs(off)) / largest) if largest > 0 else 0.0
 
     def to_dict(self) -> dict[str, object]:

@@ -33,12 +33,14 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["run_oil_history", "usual_times"]
+__all__ = ["kept_times", "need_duration", "run_oil_history", "usual_times"]
 
 POINTS = 120
 """Times of a history, evenly and in the logarithm each."""
 AFTER = 8
 """Of the times after an event every so-manyth is kept."""
+LONGEST = 1e12
+"""The longest duration [s], some 30 000 years: beyond, events fall between two numbers."""
 MOST_EVENTS = 1000
 """Events after which a history is given up."""
 
@@ -58,6 +60,40 @@ def usual_times(duration: float, *, shortest: float) -> Array:
     even, log = np.linspace(0.0, duration, POINTS + 1), np.geomspace(first, duration, POINTS)
     log[-1] = duration
     return np.unique(np.concatenate([even, log]))
+
+
+def kept_times(times: ArrayLike, *, duration: float) -> Array:
+    """Times at which a history is asked for, increasing [s].
+
+    Parameters
+    ----------
+    times : array
+        As given [s].
+    duration : float
+        [s].
+
+    Raises
+    ------
+    InvalidValue
+        No times, or some that are not from 0 to the duration.
+    """
+    some = np.unique(np.asarray(times, float))
+    if not len(some) or some[0] < 0 or some[-1] > duration or not np.all(np.isfinite(some)):
+        raise InvalidValue(Problem("times", f"must lie from 0 to {duration:g} [s]"))
+    return some
+
+
+def need_duration(duration: float) -> None:
+    """Refuse a duration that is none, or too long.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    need_positive(duration=duration)
+    if duration > LONGEST:
+        rule = f"must be at most {value_of(LONGEST, 's')}, some 30 000 years"
+        raise InvalidValue(Problem("duration", rule, value_of(duration, "s")))
 
 
 @dataclass
@@ -273,6 +309,7 @@ class _Course:
                 in_oil=columns["in the oil"],
                 came={name: columns[name] for name in self.accounts.came},
                 went={name: columns[name] for name in self.accounts.went},
+                begin=float(np.sum(self.circuit.volume * self.first.start * self.first.masses)),
             ),
             events=tuple(self.events),
             warnings=tuple(self.circuit.notes()),
@@ -329,7 +366,7 @@ def run_oil_history(
     >>> found.codes[0], found.codes[-1], found.ledger.residual < 1e-9
     ('18/16/13', '5/3/0', True)
     """
-    need_positive(duration=duration)
+    need_duration(duration)
     dry = circuit.volume / (circuit.leak - circuit.make_up) if circuit.leak > circuit.make_up else 0
     if 0 < dry <= duration:
         rule = f"must be below {value_of(dry, 's', 3)}: then the leak has emptied the circuit"
@@ -338,8 +375,6 @@ def run_oil_history(
     if times is None:
         some = usual_times(duration, shortest=shortest)
     else:
-        some = np.unique(np.asarray(times, float))
-        if not len(some) or some[0] < 0 or some[-1] > duration or not np.all(np.isfinite(some)):
-            raise InvalidValue(Problem("times", f"must lie from 0 to {duration:g} [s]"))
+        some = kept_times(times, duration=duration)
     course = _Course(circuit, duration, tuple(until))
     return course.run(some, shortest=shortest, after_events=times is None)

@@ -325,6 +325,9 @@ def _counts_of(reports: Sequence[str] | ArrayLike, sizes: ArrayLike | None) -> t
         raise InvalidValue(Problem("reports", rule))
     if not np.all((counts > 0) & np.isfinite(counts)):
         raise InvalidValue(Problem("reports", "must hold counts above 0 [1/m³]"))
+    if np.any(np.diff(counts, axis=1) > 0):
+        rule = "must fall with the size: larger particles are among the smaller"
+        raise InvalidValue(Problem("reports", rule))
     return at, counts
 
 
@@ -381,7 +384,9 @@ def oil_reports(
     Between two sizes counts are power laws, beyond the last as for ISO 4406, up to 70 µm. The band
     holds 90 % of what is found where every count may lie anywhere in its range: each for itself, or
     all of a size alike, as in oil that no longer changes, where codes repeat and more of them say
-    no more; the wider end counts. It knows nothing of a filter that is worse than its data sheet.
+    no more; the wider end counts. It knows nothing of a filter that is worse than its data sheet,
+    nor of the classes of size, which decide where a filter lets nearly all particles of a counted
+    size pass: there what is found may be off by a factor of four.
     Two reports are always fitted: whether the ingress is constant, three or more say. Filters are
     taken as never full.
 

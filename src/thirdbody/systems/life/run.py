@@ -12,10 +12,11 @@ from ...quantities.carried import takes_units
 from .circuit import OilCircuit
 from .contact_history import DryHistory
 from .contact_life import run_dry_history, run_film_history
+from .contact_until import ContactUntil
 from .debris import Debris
 from .history import LifeHistory
 from .ingress import Ingress
-from .oil_history import run_oil_history
+from .oil_history import need_duration, run_oil_history
 from .surfaces import RunningIn
 from .until import Until
 
@@ -182,13 +183,18 @@ def life(
         assert oil is not None
         if lost := [*conditions, *(name for name, value in of_contact.items() if value)]:
             raise InvalidValue(Problem(lost[0], "needs a contact"))
+        if idle := [each for each in waits if isinstance(each, ContactUntil)]:
+            raise InvalidValue(Problem("until", "needs a contact", idle[0].name))
         found = run_oil_history(oil, **shared)
     else:
-        _check_parts(of_contact, duration)
+        _check_parts(of_contact)
+        need_duration(duration)
         if oil is not None:
             whole = _whole(conditions, OF_FILM, FILM)
             found = run_film_history(contact, oil=oil, **whole, **of_contact, **shared)
         else:
+            if idle := [each for each in waits if not isinstance(each, ContactUntil)]:
+                raise InvalidValue(Problem("until", "needs an oil", idle[0].name))
             whole = _whole(conditions, OF_DRY, DRY)
             given = whole["arrivals"]
             whole["arrivals"] = (given,) if isinstance(given, Ingress) else tuple(given)
@@ -198,16 +204,14 @@ def life(
     return found
 
 
-def _check_parts(of_contact: Mapping[str, Any], duration: float) -> None:
-    """Refuse a share that is none, areas that are none, and a duration that is none."""
+def _check_parts(of_contact: Mapping[str, Any]) -> None:
+    """Refuse a share that is none, and areas that are none."""
     problems = []
     if not 0 <= of_contact["stays"] <= 1:
         problems.append(Problem("stays", "must be from 0 to 1 [1]", repr(of_contact["stays"])))
     area = of_contact["worn_area"]
     if area is not None and not (len(area) == 2 and all(_positive(each) for each in area)):
         problems.append(Problem("worn_area", "must be two areas above 0 [m^2]", repr(area)))
-    if not _positive(duration):
-        problems.append(Problem("duration", "must be finite and > 0 [s]", repr(duration)))
     if problems:
         raise InvalidValue(*problems)
 
