@@ -10,11 +10,11 @@ from thirdbody.laws.asperity import CEB, JG, KE
 from thirdbody.laws.particle import Series
 
 pytest.importorskip("numba")
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
 from thirdbody.equilibrium.engine import gaps
 from thirdbody.equilibrium.engine.run import own_columns
 
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 STEEL, BRONZE = tb.materials["100Cr6"], tb.materials["CuSn8"]
 LAWS = Series(), Series(shadow="none"), Series(law=KE()), Series(law=JG()), Series(law=CEB())
 COLUMNS = "A_e", "A_ep", "A_p", "A_sa", "A_t"
