@@ -26,6 +26,7 @@ from .fields import (
     COVERAGE,
     COVERED,
     DMT,
+    EQUAL,
     F_SA,
     F_SS,
     HIGH,
@@ -100,8 +101,9 @@ NOTHING = -1
 ASKED, FAR = 1e-10, 0.1
 """Error of loads, areas and the separation that is asked for: of this over σ, or over so much of
 itself where that is more."""
-SAFE = 10.0
-"""The error of a rule of twice the nodes is this many squares of its difference to the other."""
+ROUNDED, SAFE = 2e-14, 10.0
+"""What rounding leaves of a part; the error of a rule of twice the nodes is so many squares of its
+difference to the other."""
 MOST_WHOLE = 1_500_000
 SEARCHED, POLISHED = 80, 14
 """Densities of what is whole that there is room for; evaluations at most, by few nodes and all."""
@@ -432,7 +434,8 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
     error, left = SAFE * worst * worst, 0.0
     for p in range(len(given)):  # what series leave out
         if given[p, SEAT] != PRINTED:
-            left += SETTLED + work[2][p, laid[p, few, COUNT], SHARE]
+            own = SETTLED if given[p, SEAT] == PLANE and given[p, EQUAL] == 1 else ROUNDED
+            left += own + work[2][p, laid[p, few, COUNT], SHARE]
     if load > 0 and area > 0:  # of the part that particles have
         pressed = row[A_SA] + row[A_SA + 1] + row[A_SA + 2]
         left *= min(max(row[F_SA] / load, pressed / area), 1.0)
