@@ -127,6 +127,11 @@ def of_particles() -> Iterator[tuple[str, tb.Contact, tuple[str, ...]]]:
         ("plane", (ROUGHNESS[0], median, gsd, BODY[0])),
     ):
         yield f"LogNormal {seat}", contact(wide, seat=seat), inputs
+    edges, counts = (4e-6, 6e-6, 14e-6, 70e-6), (1350.0, 396.0, 56.6)  # of an oil 18/16/13
+    dirt = tb.PowerLaw(edges=edges, counts=counts, slopes=(3.41, 2.45, 3.34))
+    for kind, particles in (("hard", hard), ("squashed", soft)):
+        oil = contact(particles.replace(diameter=dirt, areal_density=1e6))
+        yield f"dirt of an oil, {kind}", oil, (ROUGHNESS[0], DENSITY, BODY[0], *SURFACE, FRICTION)
     one = hard.replace(diameter=tb.Monodisperse(mean=300e-9))
     inputs = (ROUGHNESS[0], SIZES[0], BODY[0])
     field = contact().replace(asperity_law=tb.asperity.Field())

@@ -23,7 +23,10 @@ from .fields import (
     BEYOND,
     BREAKS,
     CODE,
+    COVERAGE,
+    COVERED,
     DMT,
+    EQUAL,
     F_SA,
     F_SS,
     HIGH,
@@ -41,6 +44,7 @@ from .fields import (
     RULE,
     SEAT,
     SHADE,
+    SHADOW,
     SIDE,
     SIGMA,
     SIGMA_S,
@@ -49,13 +53,41 @@ from .fields import (
     UNSOLVED,
     WIDTH,
 )  # fmt: skip
+from .gaps import SLOTS, SUMS, add_by_gaps, goes_by_gaps, lay_cells, sum_panels
+from .laid import (
+    BASE,
+    BY_GAPS,
+    COUNT,
+    FREE,
+    GAPS,
+    GRID,
+    GRID_END,
+    LAID,
+    PIECE_BEGIN,
+    PIECE_END,
+    PIECES,
+    SIZED,
+    SIZED_END,
+    SLOT,
+    WAY,
+    WHOLE,
+    WHOLE_END,
+)
 from .monotone import only_falls_above
 from .printed import add_printed, printed_bound
-from .seats import GRID_ROWS, MOST_NODES, add_part, gather_gaps, lay_broken, lay_pieces
+from .seats import (
+    GRID_ROWS,
+    MOST_NODES,
+    add_broken,
+    add_rough,
+    gather_gaps,
+    lay_broken,
+    lay_pieces,
+)
 from .sides import scalar
 from .skins import MOST_HEIGHTS, add_skin, lay_skin
 from .squeeze import lay_panels
-from .sums import MOST_SIZES
+from .sums import MOST_SIZES, add_plane
 
 __all__ = ["LEVELS", "solve_own"]
 
@@ -66,13 +98,12 @@ COARSE, FINE, LEVELS = 0, 1, 2
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 NOTHING = -1
 """In place of a level: nothing is laid."""
-COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECE_BEGIN, PIECE_END, GAPS = range(10)
-"""What is laid of a part, a level: its panels; where nodes, sizes, what is whole and pieces begin
-and end. The row after the last part is of the asperities."""
-ASKED = 1e-10
-"""Error of loads, areas and the separation over σ that is asked for."""
-SAFE = 10.0
-"""The error of a rule of twice the nodes is this many squares of its difference to the other."""
+ASKED, FAR = 1e-10, 0.1
+"""Error of loads, areas and the separation that is asked for: of this over σ, or over so much of
+itself where that is more."""
+ROUNDED, SAFE = 2e-14, 10.0
+"""What rounding leaves of a part; the error of a rule of twice the nodes is so many squares of its
+difference to the other."""
 MOST_WHOLE = 1_500_000
 SEARCHED, POLISHED = 80, 14
 """Densities of what is whole that there is room for; evaluations at most, by few nodes and all."""
@@ -87,10 +118,32 @@ must have fallen."""
 
 
 @scalar
+def _add_part(given, work, laid, p, own, d, rule, out):
+    """What part p carries at a separation d [m]; False where its formulas do not reach.
+
+    ``own`` is what is laid of it on this level, and ``laid`` of all.
+    """
+    apart()
+    _, sides, panels, grid, sizes, shares, _, _, sums = work
+    gap = d + given[p, OFFSET]
+    if given[p, SHADOW] == COVERED:
+        out[SHADE] += given[p, COVERAGE]
+    if given[p, SEAT] == PLANE:
+        return add_plane(given, sides, panels, p, own[COUNT], gap, rule, out)
+    if own[WAY] == BY_GAPS:
+        add_by_gaps(given, sides, panels, p, own, laid, grid, sizes, gap, rule, sums, out)
+    elif given[p, BREAKS] == 1:
+        add_broken(given, sides, panels, p, own, grid, sizes, gap, shares, out)
+    else:
+        add_rough(given, sides, panels, p, own, grid, sizes, gap, out)
+    return True
+
+
+@scalar
 def total(given, skin, work, laid, rules, level, h, out):
     """Columns at h [σ_s] by the nodes of a level; the load, or NaN where formulas do not reach."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _, coating = work
+    heights, coating = work[0], work[7]
     for k in range(10):
         out[k] = 0.0
     last = len(given)
@@ -106,10 +159,7 @@ def total(given, skin, work, laid, rules, level, h, out):
             gap = d + given[p, OFFSET]
             add_printed(given, p, gap, rules[level, RULE], rules[level, RULE + 1], nodes, out)
             continue
-        good &= add_part(
-            given, sides, panels, p, own, grid, sizes, shares, d, rules[level],
-            out,
-        )  # fmt: skip
+        good &= _add_part(given, work, laid, p, own, d, rules[level], out)
     if not good:
         return math.nan
     return (1 - min(out[SHADE], 1.0)) * out[F_SS] + out[F_SA]
@@ -119,7 +169,7 @@ def total(given, skin, work, laid, rules, level, h, out):
 def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _, coating = work
+    heights, sides, panels, grid, sizes, shares, _, coating, _ = work
     last, good = len(given), True
     place = size = begin = kept = piece = 0
     if level == FINE:
@@ -136,9 +186,15 @@ def lay(given, skin, work, laid, rules, level):
     good &= begin >= 0
     for p in range(last):
         own = laid[p, level]
-        own[COUNT] = laid[p, COARSE, COUNT]
+        own[COUNT], own[WAY] = laid[p, COARSE, COUNT], laid[p, COARSE, WAY]
         own[GRID], own[SIZED], own[WHOLE], own[PIECE_BEGIN] = place, size, kept, piece
-        if given[p, SEAT] == ROUGH and good:
+        if own[WAY] == BY_GAPS:
+            own[SLOT] = (2 * p + level) * SLOTS
+            piece, size = lay_cells(
+                given, panels, p, own[COUNT], grid, own, sizes, size, rules[level]
+            )
+            good &= piece >= 0 and size >= 0
+        elif given[p, SEAT] == ROUGH and good:
             if given[p, BREAKS] == 1:
                 place, size = lay_broken(
                     given, sides, panels, p, own[COUNT], grid, place, sizes, size, rules[level]
@@ -164,6 +220,7 @@ def lay(given, skin, work, laid, rules, level):
                 )  # fmt: skip
                 good &= piece >= 0
         own[GRID_END], own[SIZED_END], own[WHOLE_END], own[PIECE_END] = place, size, kept, piece
+    laid[last, COARSE, BASE] = laid[last, COARSE, FREE] = place
     return good
 
 
@@ -374,12 +431,18 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
             unit = load
         if unit != 0:
             worst = max(worst, abs((out[k] - row[k]) / unit))
-    error = SAFE * worst * worst
+    error, left = SAFE * worst * worst, 0.0
     for p in range(len(given)):  # what series leave out
         if given[p, SEAT] != PRINTED:
-            error += SAFE * (SETTLED + work[2][p, laid[p, few, COUNT], SHARE])
+            own = SETTLED if given[p, SEAT] == PLANE and given[p, EQUAL] == 1 else ROUNDED
+            left += own + work[2][p, laid[p, few, COUNT], SHARE]
+    if load > 0 and area > 0:  # of the part that particles have
+        pressed = row[A_SA] + row[A_SA + 1] + row[A_SA + 2]
+        left *= min(max(row[F_SA] / load, pressed / area), 1.0)
+    error += SAFE * left
     if slope < 0:
-        error = max(error, error / -slope * skin[0, SIGMA_S] / skin[0, SIGMA])
+        unit = skin[0, SIGMA_S] / skin[0, SIGMA]
+        error = max(error, error / -slope * unit / max(1.0, FAR * abs(h) * unit))
     return error
 
 
@@ -423,9 +486,15 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
             laid[p, COARSE, COUNT] = 0
             if given[p, SEAT] == PRINTED:
                 continue
-            count = lay_panels(given, work[1], work[2], p, rules[len(rules) - 1, POLYNOMIAL:])
+            series = rules[len(rules) - 1, POLYNOMIAL:]
+            count = lay_panels(given, work[1], work[2], p, series)
+            laid[p, COARSE, WAY] = PIECES
+            if count > 0 and goes_by_gaps(given, work[2], p, count):
+                laid[p, COARSE, WAY] = BY_GAPS
+                finest = rules[len(rules) - 2, POLYNOMIAL:]
+                left = sum_panels(given, work[1], work[2], p, count, finest, work[8])
+                work[2][p, count, SHARE] += left
             if count > 0 and given[p, BREAKS] == 1:
-                series = rules[len(rules) - 1, POLYNOMIAL:]
                 count = lay_tension(given, work[1], work[2], p, count, series, work[6])
             laid[p, COARSE, COUNT] = count
             if count < 0:
@@ -490,8 +559,9 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
         np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),
         inside,
         coating,
+        np.empty((most, MOST_PANELS, SUMS)),
     )
-    laid = np.zeros((most + 1, 2, 10), np.int64)
+    laid = np.zeros((most + 1, 2, LAID), np.int64)
     ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):

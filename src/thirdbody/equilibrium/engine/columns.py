@@ -288,6 +288,7 @@ class Numbers:
             self.origin = self.centre
         self.parts = np.zeros((count, len(found), f.OF_PARTICLES))
         self.bodies = np.zeros((count, 2 * len(found), f.OF_SIDE))
+        self.last: Any = None
         for p, each in enumerate(found):
             self._add_particles(p, *each)
 
@@ -397,16 +398,28 @@ class Numbers:
         rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * squared
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
+        self._add_sides(rows, p, changed, law, varied, grit)
+
+    def _add_sides(
+        self, rows: Array, p: int, changed: Any, law: Any, varied: Any, grit: Any
+    ) -> None:
+        """Fill in both sides of part p: once for all classes of size of one population."""
+        here, other = self.bodies[:, 2 * p], self.bodies[:, 2 * p + 1]
+        if p > 0 and changed is self.last:
+            here[:], other[:] = self.bodies[:, 2 * p - 2], self.bodies[:, 2 * p - 1]
+            for k in (f.STIFFEST, f.SOFTEST, f.EQUAL):
+                rows[:, k] = self.parts[:, p - 1, k]
+            return
+        self.last = changed
         first, second = self.varied.surfaces.first, self.varied.surfaces.second
-        E, H = self._side(self.bodies[:, 2 * p], first, changed.material, law, varied, grit)
+        E, H = self._side(here, first, changed.material, law, varied, grit)
         E_2, H_2 = E, H
         if all(np.array_equal(getattr(first, x), getattr(second, x)) for x in ("H", "E", "nu")):
-            self.bodies[:, 2 * p + 1] = self.bodies[:, 2 * p]
+            other[:] = here
         else:
-            rows_2 = self.bodies[:, 2 * p + 1]
-            E_2, H_2 = self._side(rows_2, second, changed.material, law, varied, grit)
+            E_2, H_2 = self._side(other, second, changed.material, law, varied, grit)
         rows[:, f.STIFFEST], rows[:, f.SOFTEST] = np.minimum(E, E_2), np.minimum(H, H_2)
-        rows[:, f.EQUAL] = np.all(self.bodies[:, 2 * p] == self.bodies[:, 2 * p + 1], axis=1)
+        rows[:, f.EQUAL] = np.all(here == other, axis=1)
 
     def _add_strength(self, rows: Array, one: Any, changed: Any, size: Any, seat: str) -> None:
         """Fill in how particles break."""

@@ -25,6 +25,7 @@ from .fields import (
     STIFFEST,
     WIDTH,
 )  # fmt: skip
+from .laid import COUNT, GRID, GRID_END, PIECES, WAY
 from .printed import only_falls
 from .seats import pays
 from .shares import fill_particles, particle_at
@@ -34,8 +35,6 @@ from .vectors import VECTOR
 
 __all__ = ["only_falls_above"]
 
-COUNT, GRID, GRID_END = range(3)
-"""Of what is laid of a part: its panels, and where its nodes begin and end."""
 RISE = 1e-6
 """Rise of the load with the separation that does not count."""
 
@@ -52,8 +51,8 @@ def _pays(given, work, laid, p, bound):
         return False
     if coverage * (0.5 * math.pi * bound / given[p, STIFFEST]) ** 2 > RISE:
         return False
-    if given[p, SEAT] == ROUGH and given[p, BREAKS] == 0:
-        own = laid[p, 1]
+    own = laid[p, 1]
+    if given[p, SEAT] == ROUGH and given[p, BREAKS] == 0 and own[WAY] == PIECES:
         return pays(work[3], own[GRID], own[GRID_END], bound, RISE * bound / coverage)
     most, worst, room = 0.0, 0.0, panels[p, len(panels[p]) - ROOM :]
     for n in range(laid[p, 0, COUNT]):

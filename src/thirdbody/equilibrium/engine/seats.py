@@ -21,8 +21,6 @@ from .fields import (
     A_SA2,
     BREADTH,
     BREAKS,
-    COVERAGE,
-    COVERED,
     DENSITY,
     F_SA,
     FOOTPRINT,
@@ -36,15 +34,12 @@ from .fields import (
     NARROW_NODES,
     NARROW_RULE,
     NODES,
-    OFFSET,
     PANEL_NODES,
     PANEL_RULE,
     PANEL_SPAN,
-    PLANE,
     POLYNOMIAL,
     PROJECTED,
     RULE,
-    SEAT,
     SEAT_NODES,
     SEAT_SPAN,
     SHADE,
@@ -55,20 +50,24 @@ from .fields import (
     TAKEN,
     WIDTH,
 )
+from .laid import COUNT, GAPS, GRID, GRID_END, PIECE_BEGIN, PIECE_END, SIZED, SIZED_END, WHOLE
 from .nodes import LINEAR, ROOTED, is_plain, place_nodes, variable_of
 from .shares import fill_particles
 from .sides import exact, scalar, summed
 from .skins import ROOT_2PI
-from .sums import above, add_last, add_plane, lay_sizes, parts_of_sizes
+from .sums import above, add_last, lay_sizes, parts_of_sizes
 
 __all__ = [
     "GRID_ROWS",
     "MOST_NODES",
-    "add_part",
+    "add_broken",
+    "add_nodes",
+    "add_rough",
     "gather_gaps",
     "lay_broken",
     "lay_pieces",
     "pays",
+    "weigh_gaps",
 ]
 
 MOST_NODES = 16_384
@@ -78,8 +77,11 @@ the first surface by regime, and the sum over sizes."""
 SUM = FIRST + 3
 BY_ITSELF = SUM + 1
 """The weight of a node."""
-FROM, UNTIL, NODE, NODE_END, SIZE, SIZE_END, GRID_ROWS = range(SUM + 2, SUM + 9)
+FROM, UNTIL, NODE, NODE_END, SIZE, SIZE_END = range(SUM + 2, SUM + 8)
 """Of pieces of the squeeze, in more rows: its ends, and where its nodes and its sizes begin and
+end."""
+KEY, PLACE, PLACE_END, GRID_ROWS = range(SUM + 8, SUM + 12)
+"""Of slots for cells over the gap, in more rows: which cell is in it, and where its nodes begin and
 end."""
 REACH = 9.5
 """Widths of a seat beyond which nothing is summed."""
@@ -438,7 +440,7 @@ def gather_gaps(given, p, grid, begin, end, sizes, first, last, shares, whole, r
 
 
 @exact
-def _weigh_gaps(grid, begin, end, gap, width):
+def weigh_gaps(grid, begin, end, gap, width):
     """Densities of the seat at nodes over the gap, without what stands in the nodes."""
     apart()
     # rows of their own, from zero: only then do loops over them become vectors
@@ -470,7 +472,7 @@ def _sum_sizes(grid, sizes, s, gap, width):
 
 
 @scalar
-def _add_nodes(given, p, grid, begin, end, out):
+def add_nodes(given, p, grid, begin, end, out):
     """What nodes carry whose K is known."""
     apart()
     factor, share = given[p, DENSITY], grid[SUM, begin:end]
@@ -509,12 +511,13 @@ def _squared(given, p, grid, sizes, s, thick, gap):
 
 
 @scalar
-def _add_rough(given, sides, panels, p, count, grid, sizes, piece, until, gap, out):
+def add_rough(given, sides, panels, p, own, grid, sizes, gap, out):
     """What a part carries on a rough seat, into the columns of the particles."""
     apart()
+    count, piece, until = own[COUNT], own[PIECE_BEGIN], own[PIECE_END]
     for s in range(piece, until):
         _sum_sizes(grid, sizes, s, gap, given[p, WIDTH])
-        _add_nodes(given, p, grid, int(grid[NODE, s]), int(grid[NODE_END, s]), out)
+        add_nodes(given, p, grid, int(grid[NODE, s]), int(grid[NODE_END, s]), out)
     thin = 1 - panels[p, count - 1, TO]
     squeezed = _squared(given, p, grid, sizes, until - 1, thin, gap)
     add_last(given, sides, panels, p, count, squeezed, out)
@@ -524,13 +527,14 @@ def _add_rough(given, sides, panels, p, count, grid, sizes, piece, until, gap, o
 
 
 @scalar
-def _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, out):
+def add_broken(given, sides, panels, p, own, grid, sizes, gap, shares, out):
     """What a part that breaks carries on a rough seat; ``own`` is what is laid of it."""
     apart()
-    width, first, last = given[p, WIDTH], own[3], own[4]
-    place = own[5] + (last - first) * (own[9] - own[1])
-    _weigh_gaps(grid, own[9], own[2], gap, width)
-    _add_nodes(given, p, grid, own[9], own[2], out)
+    width, first, last = given[p, WIDTH], own[SIZED], own[SIZED_END]
+    place = own[WHOLE] + (last - first) * (own[GAPS] - own[GRID])
+    weigh_gaps(grid, own[GAPS], own[GRID_END], gap, width)
+    add_nodes(given, p, grid, own[GAPS], own[GRID_END], out)
+    count = own[COUNT]
     edge, squeezed = panels[p, count - 1, TO], 0.0
     for j in range(first, last):
         x = sizes[0, j]
@@ -540,25 +544,3 @@ def _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, o
     add_last(given, sides, panels, p, count, squeezed, out)
     if given[p, SHADOW] == PROJECTED:  # what is squeezed less stands in the nodes
         out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * squeezed
-
-
-@scalar
-def add_part(given, sides, panels, p, own, grid, sizes, shares, d, rule, out):
-    """What part p carries at a separation d [m]; False where its formulas do not reach.
-
-    ``own`` says what of it is laid: panels; where nodes, sizes and what is whole begin and end;
-    pieces; where nodes over the gap begin, the last of the nodes.
-    """
-    apart()
-    gap, count = d + given[p, OFFSET], own[0]
-    if given[p, SHADOW] == COVERED:
-        out[SHADE] += given[p, COVERAGE]
-    if given[p, SEAT] == PLANE:
-        return add_plane(
-            given, sides, panels, p, count, gap, rule, out
-        )  # fmt: skip
-    if given[p, BREAKS] == 1:
-        _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, out)
-    else:
-        _add_rough(given, sides, panels, p, count, grid, sizes, own[7], own[8], gap, out)
-    return True

@@ -1,0 +1,413 @@
+"""Particles of broad sizes on a rough seat: what they carry under a gap, weighed with the seat.
+
+Under a gap t the sizes t/(1 − ε) are squeezed by ε. Numbers that grow like a power of the size,
+norm (x/x_1)^(−n) between x_1 and x_2, then carry a difference of one sum over the squeeze,
+
+    L(t) = norm x_1³ (t/x_1)^(3 − n) [Q(1 − t/x_2) − Q(1 − t/x_1)],
+    Q(ε) = ∫_0^ε q(e) (1 − e)^(n − 4) de,
+
+where q is what a particle of unit size carries: no node is spent on sizes, however broad they are
+against the seat. Q is a series on each panel, once a state. L(t) stands at nodes of cells over t,
+which end where a panel of either end of the sizes does; they are filled where a separation looks,
+and every separation costs the density of the seat there.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..compiled.machine import apart, exp
+from .curves import (
+    AREA_1,
+    AREA_2,
+    AT,
+    EDGE,
+    MASS,
+    OFF,
+    OTHER,
+    REGIME,
+    ROOM,
+    SLOPE,
+    TO,
+    transform,
+)
+from .curves import LOAD as CARRIED
+from .fields import (
+    BREAKS,
+    COVERED,
+    DENSITY,
+    EQUAL,
+    FOOTPRINT,
+    HALF_NODES,
+    HALF_RULE,
+    HIGH,
+    KIND,
+    LOW,
+    NORM,
+    NOTHING,
+    PANEL_NODES,
+    PANEL_RULE,
+    PANEL_SPAN,
+    POWER,
+    ROUGH,
+    SEAT,
+    SHADOW,
+    SIZE_1,
+    SIZE_2,
+    UNIFORM,
+    WIDTH,
+)
+from .laid import BASE, COUNT, FREE, PIECE_BEGIN, PIECE_END, SIZED, SIZED_END, SLOT
+from .nodes import CUBIC, FLATTENED, LINEAR, LOGARITHMIC, ROOTED, is_plain, place_nodes, variable_of
+from .seats import (
+    EPS,
+    FIRST,
+    FROM,
+    KEY,
+    LARGER,
+    LOAD,
+    MOST_NODES,
+    NARROW_SEAT,
+    NEAR_END,
+    NODE,
+    NODE_END,
+    ONSET,
+    PLACE,
+    PLACE_END,
+    REACH,
+    SECOND,
+    SIZE,
+    SIZE_END,
+    SUM,
+    UNTIL,
+    add_nodes,
+    weigh_gaps,
+)
+from .shares import fill_particles
+from .sides import exact, scalar
+from .skins import ROOT_2PI
+from .sums import above, add_last, lay_sizes
+from .vectors import ln
+
+__all__ = ["SUMS", "add_by_gaps", "goes_by_gaps", "lay_cells", "sum_panels"]
+
+TERMS = 32
+"""Of a series of sums: as many as the finest polynomial over a seat has nodes."""
+BEFORE, SECOND_LARGER, VARIABLE, START, RATE, OF_LOAD = 0, 6, 7, 8, 9, 10
+"""Of the sums on a panel: what its columns have before it, in the order of the nodes; whether the
+area on the second surface is the larger; variable of its series, where that starts and its rate."""
+OF_AREA_1, OF_AREA_2, SUMS = (
+    OF_LOAD + TERMS + 1,
+    OF_LOAD + 2 * (TERMS + 1),
+    OF_LOAD + 3 * (TERMS + 1),
+)
+"""Series of load and areas, from the start of the panel."""
+BROAD, STEEP = 3.0, 2.0
+"""Difference of the largest and the smallest size over the width of the seat, at least; ratio of
+1 − ε at the ends of a panel up to which every variable does for a power of it."""
+ONE, TWO, PARTS, CELL = NODE, NODE_END, SIZE, SIZE_END
+"""Of segments, beside their ends: the panels of the smallest and of the largest size there, their
+number of cells, and that of all before."""
+SLOTS, COLUMNS = 256, 6
+"""Cells of a part and a level whose nodes are kept at once, and columns of nodes."""
+
+
+@scalar
+def goes_by_gaps(given, panels, p, count):
+    """Whether part p is summed over gaps."""
+    apart()
+    kind, shadow = given[p, KIND], given[p, SHADOW]
+    if given[p, SEAT] != ROUGH or given[p, BREAKS] == 1 or (kind != POWER and kind != UNIFORM):
+        return False
+    if shadow != FOOTPRINT and shadow != COVERED and shadow != NOTHING:
+        return False
+    broad = given[p, HIGH] - given[p, LOW] > BROAD * given[p, WIDTH]
+    return broad and panels[p, count - 1, TO] < 1 and 2 * SLOTS * len(given) <= MOST_NODES
+
+
+@scalar
+def _exponent(given, p):
+    """n of numbers per size that go like x^(−n)."""
+    return given[p, SIZE_2] if given[p, KIND] == POWER else 0.0
+
+
+@scalar
+def _variable_of(given, panels, p, n):
+    """Variable of panel n in which a power of 1 − ε is smooth too."""
+    a, b = panels[p, n, EDGE], panels[p, n, TO]
+    variable = variable_of(given, panels, p, n)
+    bends = a > 0 and 1 - a > STEEP * (1 - b)
+    return LOGARITHMIC if bends and variable in (LINEAR, CUBIC) else variable
+
+
+@exact
+def _weigh_squeezes(power, at, mass):
+    """Weights of nodes over ε times a power of 1 − ε."""
+    for j in range(len(at)):
+        mass[j] *= exp(power * ln(1 - at[j]))
+
+
+@scalar
+def _sum_row(rule, values, mass, terms, series):
+    """Series of the integral from the start of a panel of what has these values at its places.
+
+    The integral over the panel, and what the series leaves out of it, at most.
+    """
+    start = whole = 0.0
+    for j in range(TERMS):
+        values[j] *= mass[j]
+    transform(rule, values, terms)
+    for k in range(1, TERMS + 1):
+        below = terms[k - 1] * (2 if k == 1 else 1)
+        series[k] = (below - (terms[k + 1] if k + 1 < TERMS else 0.0)) / (2 * k)
+        start += series[k] * (1 if k % 2 == 1 else -1)
+        whole += series[k]
+    series[0] = start
+    return whole + start, (abs(terms[TERMS - 1]) + abs(terms[TERMS - 2])) / TERMS
+
+
+@scalar
+def _place_of(variable, eps):
+    """A squeeze in the variable of a panel."""
+    if variable == ROOTED:
+        return math.sqrt(eps)
+    if variable == CUBIC:
+        return eps ** (1 / 3)
+    if variable == LOGARITHMIC:
+        return math.log(eps / (1 - eps))
+    if variable == FLATTENED:
+        return -math.log(1 - eps)
+    return eps
+
+
+@scalar
+def sum_panels(given, sides, panels, p, count, rule, sums):
+    """Fill in Q of part p on every panel; what its series leave out, at most, over all so far."""
+    apart()
+    room, power, worst = panels[p, len(panels[p]) - ROOM :], _exponent(given, p) - 4, 0.0
+    at, mass, ones = room[AT, :TERMS], room[MASS, :TERMS], room[SLOPE, :TERMS]
+    for k in range(COLUMNS):
+        sums[p, 0, BEFORE + k] = 0.0
+    for n in range(count):
+        own = sums[p, n]
+        a, b, variable = panels[p, n, EDGE], panels[p, n, TO], _variable_of(given, panels, p, n)
+        for j in range(TERMS):
+            ones[j] = 1.0
+        place_nodes(variable, 1.0, a, b, rule[0, :TERMS], ones, at, mass)
+        fill_particles(given, sides, panels, p, n, TERMS)
+        _weigh_squeezes(power, at, mass)
+        own[VARIABLE], own[START] = variable, _place_of(variable, a)
+        own[RATE] = 2 / (_place_of(variable, b) - own[START])
+        middle = TERMS // 2
+        own[SECOND_LARGER] = 1.0 if room[AREA_2, middle] > room[AREA_1, middle] else 0.0
+        load, left = _sum_row(rule, room[CARRIED, :TERMS], mass, ones, own[OF_LOAD:OF_AREA_1])
+        worst = max(worst, left / (own[BEFORE] + load))
+        one, left = _sum_row(rule, room[AREA_1, :TERMS], mass, ones, own[OF_AREA_1:OF_AREA_2])
+        worst = max(worst, left / (own[BEFORE + SECOND - LOAD] + one))
+        two = one
+        if given[p, EQUAL] == 1:
+            own[OF_AREA_2:SUMS] = own[OF_AREA_1:OF_AREA_2]
+        else:
+            two, left = _sum_row(rule, room[AREA_2, :TERMS], mass, ones, own[OF_AREA_2:SUMS])
+            worst = max(worst, left / (own[BEFORE + SECOND - LOAD] + two))
+        following = sums[p, n + 1]
+        for k in range(COLUMNS):
+            following[BEFORE + k] = own[BEFORE + k]
+        following[BEFORE] += load
+        following[BEFORE + SECOND - LOAD] += two
+        if given[p, SHADOW] == FOOTPRINT:
+            following[BEFORE + LARGER - LOAD] += two if own[SECOND_LARGER] == 1 else one
+        following[BEFORE + FIRST - LOAD + int(panels[p, n, REGIME])] += one
+    return worst
+
+
+# ------------------------------------------------------------------------------ cells
+@scalar
+def lay_cells(given, panels, p, count, grid, own, sizes, size, rule):
+    """Lay the segments of part p over the gap, in which it stays on one panel of either end.
+
+    Where they and the sizes behind the last panel end; −1 for segments where there is no room.
+    """
+    apart()
+    low, high, step = given[p, LOW], given[p, HIGH], rule[0, PANEL_SPAN] * given[p, WIDTH]
+    thin, piece, cells = 1 - panels[p, count - 1, TO], own[PIECE_BEGIN], 0.0
+    one, two, a = count - 1, count, low * thin
+    while two >= 0:
+        # sizes of either end come to the next panel, the largest first from behind the last
+        end_1 = low * (1 - panels[p, one, EDGE]) if one >= 0 else math.inf
+        end_2 = high * (1 - panels[p, two, EDGE] if two < count else thin)
+        b = min(end_1, end_2)
+        if b > a:
+            if piece == MOST_NODES:
+                return -1, size
+            near = one == 0 or (one < 0 and two == 0)
+            parts = max(1, math.ceil((b - a) / (ONSET * step if near else step) - 1e-9))
+            grid[FROM, piece], grid[UNTIL, piece], grid[PARTS, piece] = a, b, parts
+            grid[ONE, piece], grid[TWO, piece], grid[CELL, piece] = one, two, cells
+            cells += parts
+            piece += 1
+            a = b
+        one -= 1 if end_1 <= b else 0
+        two -= 1 if end_2 <= b else 0
+    for slot in range(own[SLOT], own[SLOT] + SLOTS):
+        grid[KEY, slot] = 0.0
+    return piece, lay_sizes(given, p, sizes, size, rule, thin)
+
+
+@exact
+def _find_places(variable, start, rate, eps, x):
+    """Places, from −1 to 1, of squeezes in the variable of a panel."""
+    if variable == ROOTED:
+        for j in range(len(eps)):
+            x[j] = math.sqrt(max(eps[j], 0.0))
+    elif variable == CUBIC:
+        for j in range(len(eps)):
+            x[j] = exp(ln(eps[j]) / 3)
+    elif variable == LOGARITHMIC:
+        for j in range(len(eps)):
+            x[j] = ln(eps[j] / (1 - eps[j]))
+    elif variable == FLATTENED:
+        for j in range(len(eps)):
+            x[j] = -ln(1 - eps[j])
+    else:
+        for j in range(len(eps)):
+            x[j] = eps[j]
+    for j in range(len(eps)):
+        x[j] = rate * (x[j] - start) - 1
+
+
+@exact
+def _read_sums(own, x, load, one, two):
+    """Series of a panel at places."""
+    first, second = own[OF_LOAD:OF_AREA_1], own[OF_AREA_1:OF_AREA_2]
+    third = own[OF_AREA_2:SUMS]
+    for j in range(len(x)):
+        place = x[j]
+        b_1, c_1, b_2, c_2, b_3, c_3, twice = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2 * place
+        for k in range(TERMS):
+            b_1, c_1 = first[TERMS - k] + twice * b_1 - c_1, b_1
+            b_2, c_2 = second[TERMS - k] + twice * b_2 - c_2, b_2
+            b_3, c_3 = third[TERMS - k] + twice * b_3 - c_3, b_3
+        load[j] = first[0] + place * b_1 - c_1
+        one[j] = second[0] + place * b_2 - c_2
+        two[j] = third[0] + place * b_3 - c_3
+
+
+@exact
+def _add_sums(own, sign, regime, dark, load, one, two, grid, begin, end):
+    """Add Q to the columns of nodes."""
+    for k in range(COLUMNS):
+        column, before = grid[LOAD + k, begin:end], sign * own[BEFORE + k]
+        for j in range(len(column)):
+            column[j] += before
+    larger = two if own[SECOND_LARGER] == 1 else one
+    to_load, to_second = grid[LOAD, begin:end], grid[SECOND, begin:end]
+    to_larger, to_first = grid[LARGER, begin:end], grid[FIRST + regime, begin:end]
+    for j in range(len(to_load)):
+        to_load[j] += sign * load[j]
+        to_second[j] += sign * two[j]
+        to_larger[j] += sign * dark * larger[j]
+        to_first[j] += sign * one[j]
+
+
+@exact
+def _take_gaps(norm, middle, power, unit, at, mass, grid, begin, end):
+    """Columns of nodes times the numbers of sizes there, and the gaps in the place of squeezes."""
+    own, factor = grid[EPS, begin:end], grid[SUM, begin:end]
+    for j in range(len(own)):
+        own[j] = unit * (1 - at[j])
+        factor[j] = norm * middle**3 * unit * mass[j] * exp(power * ln(own[j] / middle))
+    for k in range(COLUMNS):
+        column = grid[LOAD + k, begin:end]
+        for j in range(len(column)):
+            column[j] *= factor[j]
+
+
+@scalar
+def _add_end(given, sides, panels, p, n, sign, size, own_size, sums, grid, begin, end):
+    """Add Q where sizes of one end are on panel n, at the nodes over ε of one end of the sizes."""
+    apart()
+    room, count = panels[p, len(panels[p]) - ROOM :], end - begin
+    at, eps, x = room[AT, :count], room[OTHER, :count], room[OFF, :count]
+    for j in range(count):
+        eps[j] = at[j] if size == own_size else 1 - own_size * (1 - at[j]) / size
+    own = sums[p, n]
+    _find_places(own[VARIABLE], own[START], own[RATE], eps, x)
+    load, one, two = room[CARRIED, :count], room[AREA_1, :count], room[AREA_2, :count]
+    _read_sums(own, x, load, one, two)
+    dark = 1.0 if given[p, SHADOW] == FOOTPRINT else 0.0
+    _add_sums(own, sign, int(panels[p, n, REGIME]), dark, load, one, two, grid, begin, end)
+
+
+@scalar
+def _fill_cell(given, sides, panels, p, count, grid, s, a, b, place, rule, sums):
+    """Fill the nodes of a cell of segment s between two gaps; where they end."""
+    apart()
+    one, two, low, high = int(grid[ONE, s]), int(grid[TWO, s]), given[p, LOW], given[p, HIGH]
+    # nodes lie as the end that is squeezed last wants them
+    n, size = (one, low) if one >= 0 else (two, high)
+    first, last, variable = 1 - b / size, 1 - a / size, LINEAR
+    few = b - a <= NARROW_SEAT * given[p, WIDTH]
+    if n < count:
+        first, last = max(first, panels[p, n, EDGE]), min(last, panels[p, n, TO])
+        variable = _variable_of(given, panels, p, n)
+        few &= is_plain(given, panels, p, n) and (first == 0 or last <= NEAR_END * first)
+    few &= two == count or is_plain(given, panels, p, two)
+    row, nodes = (HALF_RULE, HALF_NODES) if few else (PANEL_RULE, PANEL_NODES)
+    nodes, room = int(rule[0, nodes]), panels[p, len(panels[p]) - ROOM :]
+    at, mass, end = room[AT, :nodes], room[MASS, :nodes], place + nodes
+    place_nodes(
+        variable, 1.0, first, last, rule[row, :nodes], rule[row + 1, :nodes], at,
+        mass,
+    )  # fmt: skip
+    for k in range(COLUMNS):
+        column = grid[LOAD + k, place:end]
+        for j in range(nodes):
+            column[j] = sums[p, count, BEFORE + k] if two == count else 0.0
+    if two < count:
+        _add_end(given, sides, panels, p, two, 1.0, high, size, sums, grid, place, end)
+    if one >= 0:
+        _add_end(given, sides, panels, p, one, -1.0, low, size, sums, grid, place, end)
+    _take_gaps(
+        given[p, NORM] / (ROOT_2PI * given[p, WIDTH]), given[p, SIZE_1], 3 - _exponent(given, p),
+        size, at, mass, grid, place, end,
+    )  # fmt: skip
+    return end
+
+
+# ------------------------------------------------------------------------------ at a separation
+@scalar
+def add_by_gaps(given, sides, panels, p, own, laid, grid, sizes, gap, rule, sums, out):
+    """What part p carries at a gap; ``own`` is what is laid of it, ``laid`` of all."""
+    apart()
+    count, width = own[COUNT], given[p, WIDTH]
+    low, high = gap - REACH * width, gap + REACH * width
+    free = laid[len(laid) - 1, 0]
+    for s in range(own[PIECE_BEGIN], own[PIECE_END]):
+        begin, end, parts = grid[FROM, s], grid[UNTIL, s], grid[PARTS, s]
+        if end < low or begin > high:
+            continue
+        step = (end - begin) / parts
+        first = int(max((low - begin) / step, 0.0))
+        last = int(min(math.ceil((high - begin) / step), parts))
+        for m in range(first, last):
+            slot = own[SLOT] + int(grid[CELL, s] + m) % SLOTS
+            if grid[KEY, slot] != grid[CELL, s] + m + 1:
+                if free[FREE] + 2 * TERMS > MOST_NODES:  # all are forgotten
+                    free[FREE] = free[BASE]
+                    grid[KEY, : 2 * SLOTS * len(given)] = 0.0
+                a, b = begin + m * step, end if m == parts - 1 else begin + (m + 1) * step
+                grid[KEY, slot], grid[PLACE, slot] = grid[CELL, s] + m + 1, free[FREE]
+                free[FREE] = _fill_cell(
+                    given, sides, panels, p, count, grid, s, a, b, free[FREE], rule, sums
+                )
+                grid[PLACE_END, slot] = free[FREE]
+            place, until = int(grid[PLACE, slot]), int(grid[PLACE_END, slot])
+            weigh_gaps(grid, place, until, gap, width)
+            add_nodes(given, p, grid, place, until, out)
+    thin, squared = 1 - panels[p, count - 1, TO], 0.0
+    if given[p, HIGH] * thin > low:
+        for j in range(own[SIZED], own[SIZED_END]):
+            x = sizes[0, j]
+            squared += sizes[1, j] * x * x * above((x * thin - gap) / width)
+        add_last(given, sides, panels, p, count, given[p, DENSITY] * squared, out)

@@ -1,0 +1,13 @@
+"""What is laid of a state, in rows of whole numbers: one for each part and level, one of all."""
+
+from __future__ import annotations
+
+COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECE_BEGIN, PIECE_END, GAPS = range(10)
+"""Of a part, a level: its panels; where nodes, sizes, what is whole and pieces begin and end. The
+row after the last part is of the asperities."""
+WAY, SLOT, LAID = range(10, 13)
+"""How a part is summed, and the first slot of its cells."""
+PIECES, BY_GAPS = range(2)
+"""Ways: by pieces of the squeeze, or over gaps."""
+BASE, FREE = SIZED, SIZED_END
+"""In the row of the asperities: from where nodes are free for cells, and where the next is."""
