@@ -546,7 +546,7 @@ def test_an_absurd_duration_is_refused():
 def test_an_oil_alone_does_not_wait_for_wear():
     circuit = tb.OilCircuit(volume=0.2, start=(), ingress=())
     with pytest.raises(tb.errors.InvalidValue, match="until = wear depth needs a contact"):
-        tb.life(oil=circuit, duration=1.0, until=tb.systems.life.contact_until.wear_depth(1e-6))
+        tb.life(oil=circuit, duration=1.0, until=tb.until.wear_depth(1e-6))
 
 
 def test_a_dry_contact_does_not_wait_for_a_code():

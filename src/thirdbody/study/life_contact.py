@@ -10,9 +10,9 @@ from ..contact.contact import Contact
 from ..errors import InvalidValue, Problem
 from ..quantities.value import quantity
 from ..systems.film_conditions import FilmConditions
-from ..systems.life.contact_until import ContactUntil
 from ..systems.life.debris import Debris
 from ..systems.life.surfaces import RunningIn
+from ..systems.life.until import ContactUntil
 from .reader import NOTHING, Key, Reader, get, quantity_key, read_number, table_of, word, wrong
 from .vocabulary import DISTRIBUTIONS
 

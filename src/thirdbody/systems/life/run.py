@@ -12,13 +12,12 @@ from ...quantities.carried import takes_units
 from .circuit import OilCircuit
 from .contact_history import DryHistory
 from .contact_life import run_dry_history, run_film_history
-from .contact_until import ContactUntil
 from .debris import Debris
 from .history import LifeHistory
 from .ingress import Ingress
 from .oil_history import need_duration, run_oil_history
 from .surfaces import RunningIn
-from .until import Until
+from .until import ContactUntil, Until
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
