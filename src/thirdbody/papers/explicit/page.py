@@ -285,6 +285,7 @@ def figure(points: tuple[Point, ...]) -> Figure:
 
     inks = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky",
                                          "black")]  # fmt: skip
+    marks = "osD^vP*"
     out = Figure(figsize=(10.4, 12.6), dpi=150, layout="constrained")
     panels = out.subplots(4, 3, sharey=True).ravel().tolist()
     for ax, (name, title) in zip(panels, GROUPS.items(), strict=False):
@@ -305,7 +306,7 @@ def figure(points: tuple[Point, ...]) -> Figure:
             ratio = np.array([point.statistical / point.share[0] for point in every])
             error = ratio * np.array([point.share[1] / point.share[0] for point in every])
             ax.errorbar(
-                load, ratio, yerr=error, marker="o", markersize=4, capsize=2.5, linewidth=1.0,
+                load, ratio, yerr=error, marker=marks[i % len(marks)], markersize=4, capsize=2.5, linewidth=1.0,
                 elinewidth=1.0, color=ink, label=words,
             )  # fmt: skip
             field = np.array([point.field[0] / point.share[0] for point in every])
@@ -327,8 +328,8 @@ def figure(points: tuple[Point, ...]) -> Figure:
         ax.set_ylim(0.75, 1.5)
         ax.tick_params(which="both", direction="in", top=True, right=True)
         ax.tick_params(labelleft=True)
-    out.supxlabel("load $F^*$", fontsize="medium")
-    out.supylabel("particles' load share, statistical over explicit; crosses: one field",
+    out.supxlabel("load $F^*$ [1]", fontsize="medium")
+    out.supylabel("load share of particles, model over pressed [1]; crosses: by the law field",
                   fontsize="medium")  # fmt: skip
     return out
 
