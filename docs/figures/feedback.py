@@ -78,7 +78,9 @@ def main() -> None:
         print(label, found.speed_limit)
         draw(right, found, label, colour, mark)
     left.set(
-        ylabel="temperature of the surfaces [K]", title="alumina of 0.5 µm on the area", ylim=(250, 1800)
+        ylabel="temperature of the surfaces [K]",
+        title="alumina of 0.5 µm on the area",
+        ylim=(250, 1800),
     )
     right.set(title="clean, other constants")
     for axes in (left, right):

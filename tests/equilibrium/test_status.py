@@ -12,9 +12,9 @@ import thirdbody as tb
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.crowding import chi_of, crowded
-from thirdbody.papers import seats
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.equilibrium.status import SENTENCES, WORDS, Status
+from thirdbody.papers import seats
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
@@ -190,7 +190,9 @@ class TestChi:
 
     def test_the_numbers_of_hard_surfaces_are_of_the_record(self):
         """χ of 0.4 and 0.7 with α of 3 and 5: what was pressed beside the model."""
-        hard = [s for s in seats.comparison() if s["group"] == "hard" and "alpha15" not in s["case"]]
+        hard = [
+            s for s in seats.comparison() if s["group"] == "hard" and "alpha15" not in s["case"]
+        ]
         less = sorted(round(100 * (1 - s["share"] / s["share_statistical"])) for s in hard)
         assert (less[0], less[-1]) == (19, 30)
         apart = sorted(s["h_over_sigma"] - s["h_over_sigma_statistical"] for s in hard)

@@ -281,7 +281,9 @@ def test_the_book_shows_the_record(monkeypatch):
     assert f"it is {off[0]} to {off[-1]} % high, from a real area of" in whole
     deep = max(s["share_statistical"] / s["share"] for s in every if s["case"] == "valleys") - 1
     assert f"The model is up to {100 * deep:.0f} % high." in whole
-    area = min(s["A_t"] / s["A_t_statistical"] for s in every if s["group"] not in {"hard", "debris"})
+    area = min(
+        s["A_t"] / s["A_t_statistical"] for s in every if s["group"] not in {"hard", "debris"}
+    )
     assert f"pressed area is up to {100 * (1 - area):.0f} % lower" in whole
 
 

@@ -306,8 +306,8 @@ def figure(points: tuple[Point, ...]) -> Figure:
             ratio = np.array([point.statistical / point.share[0] for point in every])
             error = ratio * np.array([point.share[1] / point.share[0] for point in every])
             ax.errorbar(
-                load, ratio, yerr=error, marker=marks[i % len(marks)], markersize=4, capsize=2.5, linewidth=1.0,
-                elinewidth=1.0, color=ink, label=words,
+                load, ratio, yerr=error, marker=marks[i % len(marks)], markersize=4, capsize=2.5,
+                linewidth=1.0, elinewidth=1.0, color=ink, label=words,
             )  # fmt: skip
             field = np.array([point.field[0] / point.share[0] for point in every])
             ax.plot(load, field, marker="x", markersize=4, linestyle=":", linewidth=0.8, color=ink)

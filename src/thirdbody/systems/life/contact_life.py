@@ -174,11 +174,11 @@ def _notes(
         )
         out.append(Note(what, code="life.single", effect=0.0))
     if entry_ratio == 1:
-        what = "entry ratio 1 is not known to be right: surfaces that lasted show far fewer dents"
+        what = "the entry ratio is assumed to be 1: surfaces that lasted show far fewer dents"
         action = "count dents, and take life.entry_ratio_from_dents"
         out.append(Note(what, code="life.entry", action=action))
     if worn_area is None:
-        what = "wear depths are those of the contact area alone, as if no other place came into it"
+        what = "wear depths are as if the same place of each surface were always in contact"
         action = "give worn_area, the area of each surface that is worn in turn"
         out.append(Note(what, code="life.worn_area", action=action))
     if (most := float(np.max(more["covered"]))) > CROWDED:
