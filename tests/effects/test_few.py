@@ -161,7 +161,7 @@ def test_which_of_few_particles_bear_is_not_known():
         warnings.simplefilter("always")
         found = tb.solve(dusty(1e10).replace(particles=dust), pressure=1e5)
     assert math.isnan(found.outputs["gc_closed"])
-    (told,) = [str(w.message) for w in heard if "chance decides which do" in str(w.message)]
+    (told,) = [str(w.message) for w in heard if "chance decides which they are" in str(w.message)]
     clean = closed_with(0, 1e5, 1e-6)
     low, high = (float(text) for text in re.findall(r"0\.\d+", told))
     assert (low, high) == pytest.approx((math.exp(-1) * clean, clean), rel=1e-3)
