@@ -340,7 +340,7 @@ def _share(pair: tuple[float, float]) -> str:
 
 
 def _explicit(point: Point) -> str:
-    """The share without the luck of the draw, or its bounds."""
+    """The share, corrected for the random surfaces drawn, or its bounds."""
     if not point.bounded:
         return _share(point.share)
     return _bounds_text(*(100 * each for each in point.bounds)) + " %"
@@ -353,11 +353,11 @@ def _page(summary: Summary, figures: str) -> str:
         f"<p>{len(CASES)} contacts, each on {summary.effort.words}; "
         f"{summary.left_out} states that did not converge are left out. Base: σ = 0.3 µm, "
         "R = 3 µm, α = 5, E* = 112 GPa, H = 5 GPa, 10¹¹ particles of one size per m², random "
-        "seats. Shares are those of the particles in the load; explicit ones without the luck of "
-        "the draw, with standard errors over surfaces; where too few of these draw an asperity, "
-        "what is sure of them. The model has the seat heights that were "
-        "measured; nothing is fitted. Rows on a coloured ground are those in which it is off by "
-        "more than the error bars (95 %, the few surfaces counted).</p>",
+        "seats. A share is the part of the load on particles. Explicit ones are corrected for the "
+        "random surfaces drawn, with standard errors over surfaces; where an asperity carries on "
+        "too few of these, bounds stand in their place. The model has the seat heights that were "
+        "drawn; nothing is fitted. In coloured rows it is off by more than the error bars (95 %, "
+        "the few surfaces counted).</p>",
         "<h2>Shares</h2>",
     ]
     for name, words in GROUPS.items():
