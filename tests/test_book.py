@@ -31,7 +31,7 @@ PAGES = sorted(DOCS.glob("*.md"))
 STUMBLES = re.compile(
     r"\b(?:is|are|was|were|be) told\b|\btold of\b|\bluck\b|\b(?:is|are) worth\b|\bat the door\b|"
     r"\b(?:code|file|law|formula|histogram|model|table|field|spectrum|cap|friction)s? (?:hardly )?"
-        r"(?:knows?|believes?|thinks?)\b|`\w+`,? (?:hardly )?(?:knows?|wants?)\b"
+    r"(?:knows?|believes?|thinks?)\b|`\w+`,? (?:hardly )?(?:knows?|wants?)\b"
 )
 
 

@@ -132,8 +132,8 @@ def solve(
 
     Notes
     -----
-    The answer is unique and comes with a certificate ε: the elastic energy of its error is below
-    ε σF. That is the only rule by which iterations stop.
+    Where no particle carries less as it is squeezed more, the answer is unique. It comes with a
+    certificate ε: the elastic energy of its error is below ε σF. That is the only rule by which iterations stop.
 
     References
     ----------
