@@ -133,7 +133,8 @@ def solve(
     Notes
     -----
     Where no particle carries less as it is squeezed more, the answer is unique. It comes with a
-    certificate ε: the elastic energy of its error is below ε σF. That is the only rule by which iterations stop.
+    certificate ε: the elastic energy of its error is below ε σF. That is the only rule by which
+    iterations stop.
 
     References
     ----------
