@@ -128,7 +128,7 @@ def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list
     if not _counts_summits(contact):
         if most > MOST_AREA:
             what = (
-                f"A_t reaches {most:.3g}: the law of one field was held against surfaces pressed "
+                f"A_t reaches {most:.3g}: the law of one field was compared with surfaces pressed "
                 f"point by point up to {MOST_AREA:g} only"
             )
             out.append(Note(what, code=AREA, action=POINTS))

@@ -169,8 +169,8 @@ def _notes(
     fewest = float(np.min(more["present"]))
     if fewest < 1:
         what = (
-            f"a contact holds {number(fewest, 2)} loaded particles on average: the history tells "
-            "mean rates; modes and shares of the particles mean nothing at a moment"
+            f"a contact holds {number(fewest, 2)} loaded particles on average: the history has "
+            "mean rates; modes and shares of the particles at one moment have no meaning"
         )
         out.append(Note(what, code="life.single", effect=0.0))
     if entry_ratio == 1:
