@@ -4,6 +4,7 @@ The folder has one book for each version, ``versions.js`` for the switch at the 
 and an ``index.html`` that leads to this version. Books of other versions in it stay.
 """
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -47,6 +48,8 @@ def main(folder):
     command += [folder.parent / "doctrees", HERE, book]
     done = subprocess.run(command, check=False).returncode
     if done == 0:
+        # what cells of the notebooks left beside the book is no page of it
+        shutil.rmtree(folder / "jupyter_execute", ignore_errors=True)
         add_switch(folder, __version__)
     return done
 

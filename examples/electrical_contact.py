@@ -46,8 +46,8 @@ curves = {density: resistance(density) for density in grains}
 # %%
 figure = Figure(figsize=(5.6, 3.8), layout="constrained")
 ax = figure.add_subplot()
-for density, label in grains.items():
-    ax.loglog(force, curves[density] * 1e3, label=label, color="k" if not density else None)
+for (density, label), style in zip(grains.items(), ("k-", "--", "-.", ":"), strict=True):
+    ax.loglog(force, curves[density] * 1e3, style, label=label)
 ax.axhline(1.0, color="0.6", lw=0.8, zorder=0)
 ax.annotate("1 mΩ", (force[-1], 1.0), xytext=(-3, 3), textcoords="offset points", ha="right")
 ax.set(

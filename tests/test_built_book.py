@@ -17,6 +17,7 @@ import thirdbody as tb
 
 pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
+DOCS = ROOT / "docs"
 
 
 OUTSIDE = re.compile(
@@ -170,6 +171,111 @@ def test_the_search_of_the_book_leads_to_the_page(book):
             first[words] = link.get_attribute("href").partition(".html")[0]
         browser.close()
     assert first == SEARCHES
+
+
+# ---------------------------------------------------------------- the switch between versions
+def fake_books(folder, **pages_of):
+    """Books of several versions with the header of the real one, in a folder that make docs wrote."""
+    jinja2 = pytest.importorskip("jinja2", reason="needs the extra docs")
+    made = importlib.util.spec_from_file_location("versions_of_book", DOCS / "versions.py")
+    versions = importlib.util.module_from_spec(made)
+    made.loader.exec_module(versions)
+    header = jinja2.Template((DOCS / "_templates" / "version.html").read_text("utf-8"))
+    for version, pages in pages_of.items():
+        book = folder / version.removeprefix("v").replace("_", ".")
+        (book / "_static").mkdir(parents=True)
+        (book / "objects.inv").touch()
+        shutil.copy(DOCS / "_static" / "version.js", book / "_static")
+        for page in pages:
+            root = "../" * page.count("/") or "./"
+            shown = header.render(
+                version=book.name,
+                pagename=page,
+                pathto=lambda name, _, root=root: f"{root}{name}",
+            )
+            file = book / f"{page}.html"
+            file.parent.mkdir(exist_ok=True)
+            # the theme has the header twice: in a window for telephones it is in the side bar
+            file.write_text(f"<!doctype html><p>{page}</p>{shown}{shown}", "utf-8")
+    versions.add_switch(folder, book.name)
+
+
+@contextlib.contextmanager
+def chromium_page():
+    """A page of a browser without a window, and what it says of mistakes."""
+    api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    if chromium is None:
+        pytest.skip("needs chromium")
+    with api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        page = browser.new_page()
+        page.set_default_timeout(30_000)
+        mistakes = []
+        page.on("pageerror", lambda mistake: mistakes.append(str(mistake)))
+        yield page, mistakes
+        browser.close()
+
+
+SWITCH = ".book-version select"
+
+
+@pytest.mark.slow
+def test_the_switch_leads_to_the_same_page_of_another_version(tmp_path):
+    """In a real browser: there and back, and to the first page where the other has no such page."""
+    both = ["index", "theory", "api/solve"]
+    fake_books(tmp_path, v0_9=both, v0_10=[*both, "new"])
+    with chromium_page() as (page, mistakes), served(tmp_path) as address:
+        page.goto(address)  # the folder leads to the version that was built
+        page.wait_for_url("**/0.10/index.html")
+        for here, there in (("theory", "theory"), ("api/solve", "api/solve"), ("new", "index")):
+            page.goto(f"{address}/0.10/{here}.html")
+            assert page.locator(SWITCH).count() == 2
+            for switch in page.locator(SWITCH).all():
+                assert switch.locator("option").all_inner_texts() == ["version 0.10", "version 0.9"]
+                assert switch.input_value() == "0.10"
+            page.locator(SWITCH).last.select_option("0.9")
+            page.wait_for_url(f"{address}/0.9/{there}.html")
+            assert page.locator(SWITCH).first.input_value() == "0.9"
+            page.go_back()
+            page.wait_for_url(f"{address}/0.10/{here}.html")
+            assert page.locator(SWITCH).first.input_value() == "0.10"
+        # a folder that is opened without a server
+        page.goto((tmp_path / "0.9" / "theory.html").as_uri())
+        page.locator(SWITCH).first.select_option("0.10")
+        page.wait_for_url("**/0.10/index.html")
+    assert mistakes == []
+
+
+@pytest.mark.slow
+def test_a_version_alone_has_no_switch(tmp_path):
+    fake_books(tmp_path / "one", v0_9=["index"])
+    fake_books(tmp_path / "none", v0_9=["index"])
+    (tmp_path / "none" / "versions.js").unlink()  # a book that was taken out of its folder
+    with chromium_page() as (page, mistakes), served(tmp_path) as address:
+        for folder in ("one", "none"):
+            page.goto(f"{address}/{folder}/0.9/index.html")
+            assert page.locator(SWITCH).count() == 0
+            assert page.locator(".book-version").first.inner_text() == "version 0.9"
+    assert mistakes == []
+
+
+@pytest.mark.slow
+def test_the_header_of_the_book_has_the_switch(book, tmp_path):
+    """The real book beside a copy of itself, by links: the switch is seen and can be used."""
+    for version in (tb.__version__, "0.0.9"):
+        (tmp_path / version).symlink_to(book, target_is_directory=True)
+    listed = f'window.BOOK_VERSIONS = ["{tb.__version__}", "0.0.9"];'
+    (tmp_path / "versions.js").write_text(listed, "utf-8")
+    with chromium_page() as (page, mistakes), served(tmp_path) as address:
+        page.goto(f"{address}/{tb.__version__}/api/thirdbody.solve.html")
+        switch = page.locator(f"header {SWITCH}").filter(visible=True)
+        assert switch.count() == 1
+        assert switch.get_attribute("aria-label") == "version of this book"
+        switch.select_option("0.0.9")
+        page.wait_for_url(f"{address}/0.0.9/api/thirdbody.solve.html")
+        assert page.locator("article h1").inner_text().startswith("solve")
+    assert mistakes == []
 
 
 @pytest.mark.slow

@@ -77,3 +77,30 @@ def test_every_example_is_here_and_in_the_book():
     readme = (ROOT / "README.md").read_text("utf-8")
     for name in scripts:
         assert f"examples/{name}.py" in readme, f"{name} is not in README"
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+def test_dust_and_debris_carry_what_the_book_says():
+    import thirdbody as tb
+
+    text = " ".join((ROOT / "docs" / "dust.md").read_text("utf-8").split())
+    contact = tb.load_study(EXAMPLES / "dust_and_debris.toml").contact
+    dust, debris = contact.populations
+    assert dust.areal_density == pytest.approx(20 * debris.areal_density)
+    light, heavy = (tb.solve(contact, pressure=p).populations for p in (8e4, 5e6))
+    assert f"carries {light[1].load_share:.0%} of the load at 80 kPa.".replace("%", " %") in text
+    said = f"the dust carries {heavy[0].load_share:.0%} and the debris {heavy[1].load_share:.0%}."
+    assert said.replace("%", " %") in text
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+def test_squashed_debris_carries_four_times_the_load_of_spheres():
+    """What docs/soft.md and the example say of a film of a tenth of the size."""
+    import thirdbody as tb
+
+    contact = tb.load_study(EXAMPLES / "steel_debris_in_film.toml").contact
+    assert contact.particles.diameter.mean_diameter == pytest.approx(5e-6, rel=0.03)
+    law = contact.particle_law
+    spheres = contact.replace(particle_law=law.replace(soft="sphere"))
+    squashed, whole = (tb.solve(one, d=0.5e-6).pressure for one in (contact, spheres))
+    assert squashed / whole == pytest.approx(4, rel=0.1)

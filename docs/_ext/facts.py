@@ -4,11 +4,11 @@ Agreements come from stored runs, verdicts from a stored ledger, limits from the
 """
 
 import json
+import math
 import re
 import warnings
 from functools import cache
 from importlib import resources
-from math import ceil
 from pathlib import Path
 
 __all__ = ["WRITTEN", "facts", "insert_facts"]
@@ -59,6 +59,65 @@ def differences():
     return share, gap
 
 
+def least_and_most(values):
+    """Both ends of some parts [1], in whole per cent: 8 to 21 %."""
+    values = sorted(100 * each for each in values)
+    return f"{values[0]:.0f} to {values[-1]:.0f} %"
+
+
+def pressed():
+    """How far both asperity laws are off where they leave the middle of the range."""
+    from thirdbody.papers import seats
+    from thirdbody.papers.explicit.one_field import HEAVY, OPEN
+
+    every = [one for one in seats.comparison() if one["share"]]
+    known = [one for one in every if one["case"] not in OPEN]
+    heavy = [one for one in known if one["F_star"] > HEAVY]
+
+    def too_high(some, law="statistical"):
+        return [one[f"share_{law}"] / one["share"] - 1 for one in some]
+
+    def apart(some, law="statistical"):
+        return max(abs(one[f"h_over_sigma_{law}"] - one["h_over_sigma"]) for one in some)
+
+    def area(some, law="statistical"):
+        return max(abs(one[f"A_t_{law}"] / one["A_t"] - 1) for one in some)
+
+    def worst(values):
+        return f"{100 * max(map(abs, values)):.2g} %"
+
+    def mean_square(values):
+        return f"{100 * math.sqrt(sum(each**2 for each in values) / len(values)):.3g} %"
+
+    large = [one for one in known if one["group"] == "loads"]
+    hard = [one for one in known if one["group"] == "hard" and "alpha15" not in one["case"]]
+    plain = [one for one in every if one["group"] not in ("hard", "debris")]
+    deep = [one for one in every if one["case"] == "valleys"]
+    summits = [one for one in every if one["case"] == "summits"]
+    return {
+        "off_large": least_and_most(too_high(large)),
+        "off_hard": least_and_most(too_high(hard)),
+        "off_crowded": least_and_most(too_high([*large, *hard])),
+        "less_large": least_and_most([1 - 1 / (1 + each) for each in too_high(large)]),
+        "less_hard": least_and_most([1 - 1 / (1 + each) for each in too_high(hard)]),
+        "off_valleys": worst(too_high(deep)),
+        "off_valleys_field": worst(too_high(deep, "field")),
+        "off_summits_field": worst([round(each, 2) for each in too_high(summits, "field")]),
+        "area_low": worst([one["A_t"] / one["A_t_statistical"] - 1 for one in plain]),
+        "area_low_hard": worst([one["A_t"] / one["A_t_statistical"] - 1 for one in hard]),
+        "states": f"{len([one for one in seats.comparison() if one['case'] not in OPEN])}",
+        "states_heavy": f"{len(heavy)}",
+        "sum_share": worst(too_high(heavy)),
+        "sum_share_rms": mean_square(too_high(heavy)),
+        "sum_separation": f"{apart(heavy):.2f} σ",
+        "sum_area": worst([area(heavy)]),
+        "field_share": worst(too_high(heavy, "field")),
+        "field_share_rms": mean_square(too_high(heavy, "field")),
+        "field_separation": f"{apart(heavy, 'field'):.3f} σ",
+        "field_area": worst([area(heavy, "field")]),
+    }
+
+
 def counted(verdicts):
     """Verdicts of one kind in words: six lost, nine undecided, none met."""
     words = list(verdicts.values())
@@ -72,13 +131,13 @@ def facts():
     from thirdbody.equilibrium import crowding, status
 
     share, gap = differences()
-    parts = [ceil(100 * share[case]) for case in SIZES]
+    parts = [math.ceil(100 * share[case]) for case in SIZES]
     verdicts = stored("verdicts")
     measured, computed = (counted(verdicts[kind]) for kind in ("measurements", "computations"))
     of = verdicts["horng2022"]
     errata = (Path(__file__).parent.parent / "errata.md").read_text("utf-8")
     two, one, small = parts
-    separation = f"{ceil(200 * gap) / 200:g} σ"
+    separation = f"{math.ceil(200 * gap) / 200:g} σ"
     return {
         "version": tb.__version__,
         "agreement_share": f"{two}, {one}, {small} %",
@@ -103,6 +162,7 @@ def facts():
         "laws_word": word(len(tb.asperity.REGISTRY)),
         "materials": f"{len(list(tb.materials))}",
         "errata": f"{len(re.findall(r'^[*][*][0-9]+[.] ', errata, re.M))}",
+        **pressed(),
     }  # fmt: skip
 
 

@@ -20,6 +20,7 @@ CLEAN = tb.Contact(
 )
 PATH = feedback.ThermalPath(h_1=5e3, h_2=5e3, T_1=COLD, T_2=COLD)
 COLOURS = ("#000000", "#0072B2", "#E69F00", "#D55E00")
+MARKS = ("o", "s", "^", "D")
 
 
 def dusty(areal_density: float) -> tb.Contact:
@@ -44,8 +45,8 @@ def answer(contact: tb.Contact, *, exponent: float = EXPONENT, alpha: float | No
         )
 
 
-def draw(axes: Axes, found: tb.results.Coupled, label: str, colour: str) -> None:
-    """A branch, dashed where it is unstable, and its end."""
+def draw(axes: Axes, found: tb.results.Coupled, label: str, colour: str, mark: str) -> None:
+    """A branch, dashed where it is unstable, and its end with the mark of the legend."""
     v, T = found.branch["speed"], found.branch["T"]
     turn = int(np.argmax(v))
     # length along the branch in units of the figure, for a smooth line through its points
@@ -53,30 +54,33 @@ def draw(axes: Axes, found: tb.results.Coupled, label: str, colour: str) -> None
     through = PchipInterpolator(length, np.column_stack([v, T]))
     for start, end, style in ((0, turn, "-"), (turn, len(v) - 1, "--")):
         points = through(np.linspace(length[start], length[end], 200))
-        axes.plot(*points.T, style, color=colour, lw=1.5, label=label if start == 0 else None)
-    axes.plot(v[turn], T[turn], "o", color=colour, ms=5)
+        axes.plot(*points.T, style, color=colour, lw=1.5)
+    axes.plot(v[turn], T[turn], mark, color=colour, ms=6)
+    axes.plot([], [], f"-{mark}", color=colour, ms=6, label=label)
 
 
 def main() -> None:
     figure = Figure(figsize=(9, 3.8), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
     cases = [(None, "clean"), (1e9, "10⁹ m⁻²"), (1e10, "10¹⁰ m⁻²"), (1e11, "10¹¹ m⁻²")]
-    for (density, label), colour in zip(cases, COLOURS, strict=True):
+    for (density, label), colour, mark in zip(cases, COLOURS, MARKS, strict=True):
         found = answer(dusty(density) if density else CLEAN)
         print(label, found.speed_limit, found.states[0].T, found.states[0].mu)
-        draw(left, found, label, colour)
+        draw(left, found, label, colour, mark)
     guesses = [
         ({}, "as on the left"),
         ({"exponent": 0.7}, "m = 0.7"),
         ({"exponent": 1.5}, "m = 1.5"),
         ({"alpha": 9.0}, "α = 9"),
     ]
-    for (options, label), colour in zip(guesses, COLOURS, strict=True):
+    for (options, label), colour, mark in zip(guesses, COLOURS, MARKS, strict=True):
         found = answer(CLEAN, **options)
         print(label, found.speed_limit)
-        draw(right, found, label, colour)
+        draw(right, found, label, colour, mark)
     left.set(
-        ylabel="temperature of the surfaces [K]", title="particles on the area", ylim=(250, 1800)
+        ylabel="temperature of the surfaces [K]",
+        title="alumina of 0.5 µm on the area",
+        ylim=(250, 1800),
     )
     right.set(title="clean, other constants")
     for axes in (left, right):

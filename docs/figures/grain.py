@@ -13,10 +13,15 @@ from thirdbody.views.plot.style import OKABE_ITO
 
 BEARING = tb.Material(E=206e9, nu=0.29, H=7.37e9)
 QUARTZ = tb.materials["quartz"]
-WORDS = {"gone": "pieces are gone", "footprint": "over the footprint", "all": "all pieces bear"}
+WORDS = {
+    "gone": "gone: fragments carry nothing",
+    "footprint": "footprint: the default",
+    "all": "all: every fragment carries",
+}
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
 LOOKS = (("blue", "-"), ("vermilion", "--"), ("green", "-."))
+DASHES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)))
 
 
 def load(x, gaps, fragments):
@@ -43,13 +48,13 @@ def draw_broken():
     for ax, x in zip(figure.subplots(1, 2, sharey=True), (3e-6, 20e-6), strict=True):
         eps = np.linspace(0.0, 1.0, 400)
         whole = load(x, x * (1 - eps), None)
-        ax.plot(eps, whole / whole[-1], "k:", lw=1.2, label="whole (no strength)")
+        ax.plot(eps, whole / whole[-1], "k:", lw=1.2, label="whole: without a strength")
         for (fragments, label), (ink, dash) in zip(WORDS.items(), LOOKS, strict=True):
             ratio = load(x, x * (1 - eps), fragments) / whole[-1]
             ax.plot(eps, ratio, color=OKABE_ITO[ink], ls=dash, label=label)
-        ax.set(xlabel=r"squeeze of the grain $1-g/x$", xlim=(0, 1), ylim=(0, 2))
-        ax.set_title(f"quartz of {1e6 * x:g} µm between 60 HRC", fontsize="medium")
-    figure.axes[0].set_ylabel("load over that of the grain swallowed whole")
+        ax.set(xlabel=r"squeeze of the grain $1-g/x$ [1]", xlim=(0, 1), ylim=(0, 2))
+        ax.set_title(f"quartz of {1e6 * x:g} µm between steel of 60 HRC", fontsize="medium")
+    figure.axes[0].set_ylabel("load over that of a grain\nthat sinks in whole [1]")
     figure.axes[0].legend(fontsize="small", loc="upper left")
     figure.savefig(Path(__file__).with_name("grain.png"), dpi=110)
 
@@ -62,23 +67,23 @@ def draw_shapes():
     law = tb.particle.Series()
     eps = np.linspace(0.0, 1.0, 400)[1:-1]
     sphere = law.single(1.0, 1 - eps, surfaces=pair, particle=QUARTZ)["force"]
-    left.plot(eps, sphere / (np.pi / 4 * BEARING.H), "k--", lw=1.0, label="sphere")
+    left.plot(eps, sphere / (np.pi / 4 * BEARING.H), "k:", lw=1.2, label="sphere")
     for i, (roundness, degrees) in enumerate([(0.5, 45), (0.25, 35), (0.25, 25), (0.15, 18)]):
         shape = tb.Angular(roundness=roundness, angle=f"{degrees} deg")
         found = law.of_shape(shape).single(1.0, 1 - eps, surfaces=pair, particle=QUARTZ)["force"]
         label = f"$R_w$ = {roundness:g}, {degrees}°"
-        left.plot(eps, found / (np.pi / 4 * BEARING.H), f"C{i}", label=label)
-    left.set(xlabel=r"squeeze of the grain $1-g/x$", ylabel=r"load over $\pi H x^2/4$")
-    left.set_title("quartz between 60 HRC", fontsize="medium")
+        left.plot(eps, found / (np.pi / 4 * BEARING.H), f"C{i}", ls=DASHES[i], label=label)
+    left.set(xlabel=r"squeeze of the grain $1-g/x$ [1]", ylabel=r"load over $\pi H x^2/4$ [1]")
+    left.set_title("quartz between steel of 60 HRC", fontsize="medium")
     left.legend(fontsize="small")
     debris = tb.Material(E=193e9, nu=0.29, H=1.36e9)
     eps = 1 - np.geomspace(0.03, 0.99, 400)
-    for soft, style in (("sphere", "k--"), ("squashed", "C3")):
+    for soft, style in (("sphere", "k:"), ("squashed", "C3-")):
         found = tb.particle.Series(soft=soft).single(1.0, 1 - eps, surfaces=pair, particle=debris)
         right.plot(1 - eps, found["force"] / (np.pi / 4 * debris.H), style, label=soft)
-    right.set(xlabel=r"height left $g/x$", ylabel=r"load over $\pi H_a x^2/4$")
+    right.set(xlabel=r"height left $g/x$ [1]", ylabel=r"load over $\pi H_a x^2/4$ [1]")
     right.set(xscale="log", yscale="log", xlim=(0.03, 1), ylim=(0.01, 100))
-    right.set_title("steel debris between 60 HRC", fontsize="medium")
+    right.set_title("soft steel debris between steel of 60 HRC", fontsize="medium")
     right.legend(fontsize="small")
     figure.savefig(Path(__file__).with_name("grain_shapes.png"), dpi=110)
 

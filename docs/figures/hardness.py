@@ -15,14 +15,16 @@ COMPUTED = (0.5, 0.7, 1, 1.4, 2, 3, 5)
 RATIOS = np.unique(np.concatenate([np.geomspace(0.5, 5, 121), [0.9999, 1.0001], COMPUTED]))
 SQUEEZES = (0.2, 0.4, 0.6, 0.8)
 COLOURS = ("#0072B2", "#009E73", "#E69F00", "#D55E00")
+MARKS = ("o", "s", "^", "D")
+DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)))
 CURVES = (0.5, 1, 1.4, 2, 3, 5)
 """Hardness ratios of the curves over the squeeze."""
 SHADES = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#d4b400")
 EPSILON = np.linspace(0.02, 0.95, 187)
 NAMES = (
-    "load over $\\pi R^2 H$ of the surface",
-    "sink over squeeze",
-    "contact area over $\\pi R^2$",
+    "load over $\\pi R^2 H$ of the surface [1]",
+    "sink over squeeze [1]",
+    "contact area over $\\pi R^2$ [1]",
 )
 
 
@@ -47,13 +49,14 @@ def draw_over_hardness(panels: np.ndarray) -> None:
         found = values(deep, RATIOS, SQUEEZES)
         for k, axes in enumerate(panels):
             for i, (squeeze, colour) in enumerate(zip(SQUEEZES, COLOURS, strict=True)):
-                label = f"ε = {squeeze:g}" if deep == "table" else None
+                label = f"ε = {squeeze:g}"
                 width = 1.6 if deep == "table" else 0.9
-                axes.plot(RATIOS, found[:, k, i], line, color=colour, lw=width, label=label)
+                axes.plot(RATIOS, found[:, k, i], line, color=colour, lw=width)
                 if deep == "table":
                     at = np.isin(RATIOS, COMPUTED)
-                    axes.plot(RATIOS[at], found[at, k, i], ".", color=colour, markersize=6)
-            axes.set(xscale="log", xlabel="hardness, grain over surface", ylabel=NAMES[k])
+                    axes.plot(RATIOS[at], found[at, k, i], MARKS[i], color=colour, ms=4)
+                    axes.plot([], [], f"-{MARKS[i]}", color=colour, ms=4, label=label)
+            axes.set(xscale="log", xlabel="hardness ratio ρ [1]", ylabel=NAMES[k])
             axes.set_xticks([0.5, 1, 2, 3, 5], ["0.5", "1", "2", "3", "5"], minor=False)
             axes.minorticks_off()
             axes.axvline(1, color="0.8", lw=0.8, zorder=0)
@@ -63,9 +66,9 @@ def draw_over_squeeze(panels: np.ndarray) -> None:
     """Three panels over the squeeze, one curve a hardness ratio."""
     found = values("table", CURVES, EPSILON)
     for k, axes in enumerate(panels):
-        for row, ratio, colour in zip(found, CURVES, SHADES, strict=True):
-            axes.plot(EPSILON, row[k], color=colour, lw=1.4, label=f"ρ = {ratio:g}")
-        axes.set(xlabel="squeeze ε of each half", ylabel=NAMES[k], xlim=(0, 0.95))
+        for row, ratio, colour, dash in zip(found, CURVES, SHADES, DASHES, strict=True):
+            axes.plot(EPSILON, row[k], color=colour, ls=dash, lw=1.4, label=f"ρ = {ratio:g}")
+        axes.set(xlabel="squeeze ε of each half [1]", ylabel=NAMES[k], xlim=(0, 0.95))
 
 
 def main() -> None:
@@ -74,6 +77,8 @@ def main() -> None:
     panels = figure.subplots(2, 3)
     draw_over_hardness(panels[0])
     draw_over_squeeze(panels[1])
+    for letter, axes in zip("abcdef", panels.flat, strict=True):
+        axes.set_title(f"({letter})", loc="left", fontsize="medium")
     for row in panels:
         row[0].set_yscale("log")
         row[0].legend(frameon=False, fontsize=8)

@@ -43,10 +43,10 @@ def one_particle(ax):
     limits = {
         "elastic limit": elastic,
         "fully plastic limit": np.pi / 2 * STEEL.H * SIZE * (SIZE - gap),
-        "embedded": np.full_like(gap, np.pi / 4 * STEEL.H * SIZE**2),
+        "embedded limit": np.full_like(gap, np.pi / 4 * STEEL.H * SIZE**2),
     }
-    ax.loglog(squeeze, 1e6 * whole, color=INKS[0], lw=2.6, label="series")
-    ax.loglog(squeeze, 1e6 * table, color="black", lw=1.2, label="by the table, the default")
+    ax.loglog(squeeze, 1e6 * whole, color=INKS[0], lw=2.6, label='keeps its shape, deep = "off"')
+    ax.loglog(squeeze, 1e6 * table, color="black", lw=1.2, label="squashed, the default")
     for (name, load), ink, dash in zip(limits.items(), INKS[1:], DASHES[1:], strict=False):
         ax.loglog(squeeze, 1e6 * load, color=ink, ls=dash, label=name)
     ax.set(xlabel=r"squeeze $\delta$ over diameter [1]", ylabel="load of one particle [µN]")

@@ -13,6 +13,7 @@ STEEL = tb.materials["S45C"]
 SOFT = STEEL.replace(H=2.5e9)
 DENSITY = np.geomspace(1e8, 1e12, 41)
 COLOURS = ("#0072B2", "#000000", "#D55E00")
+MARKS = ("s", "o", "^")
 
 
 def contact(*, size: float = 1e-6, deep: str = "table") -> tb.Contact:
@@ -48,29 +49,33 @@ def grooves(dirty: tb.Contact, *, pressure: float) -> np.ndarray:
     return out
 
 
-def draw(axes: Axes, values: np.ndarray, label: str, colour: str, style: str = "-") -> None:
-    """A line, with its maximum as a dot."""
-    axes.loglog(DENSITY, values, style, color=colour, lw=1.5, label=label)
+def draw(
+    axes: Axes, values: np.ndarray, label: str, colour: str, mark: str, style: str = "-"
+) -> None:
+    """A line, with a mark at its maximum, which the legend shows, too."""
+    axes.loglog(DENSITY, values, style, color=colour, lw=1.5)
+    axes.plot([], [], style, marker=mark, color=colour, lw=1.5, ms=5, label=label)
     top = int(np.nanargmax(values))
-    axes.plot(DENSITY[top], values[top], "o", color=colour, ms=5)
+    axes.plot(DENSITY[top], values[top], mark, color=colour, ms=6)
     print(f"{label}: {values[top]:.3g} at {DENSITY[top]:.2g} per m²")
 
 
 def main() -> None:
     figure = Figure(figsize=(9, 3.8), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
-    for pressure, colour in zip((1e6, 5e6, 25e6), COLOURS, strict=True):
+    for pressure, colour, mark in zip((1e6, 5e6, 25e6), COLOURS, MARKS, strict=True):
         label = f"{pressure / 1e6:.0f} MPa"
-        draw(left, grooves(contact(), pressure=pressure), label, colour)
+        draw(left, grooves(contact(), pressure=pressure), label, colour, mark)
     old = grooves(contact(deep="off"), pressure=5e6)
-    draw(left, old, "5 MPa, particles keep their shape", COLOURS[1], "--")
-    for size, colour in zip((0.5e-6, 1e-6, 2e-6), COLOURS, strict=True):
-        draw(right, grooves(contact(size=size), pressure=5e6), f"{size * 1e6:g} µm", colour)
-    left.set_ylabel("grooves, m³ per m² and m")
+    draw(left, old, "5 MPa, particles keep their shape", COLOURS[1], "D", "--")
+    for size, colour, mark in zip((0.5e-6, 1e-6, 2e-6), COLOURS, MARKS, strict=True):
+        label = f"{size * 1e6:g} µm"
+        draw(right, grooves(contact(size=size), pressure=5e6), label, colour, mark)
+    left.set_ylabel("volume of grooves [m³ per m² and m]")
     left.set_title("particles of 1 µm")
     right.set_title("5 MPa")
     for axes in (left, right):
-        axes.set_xlabel("particles in the contact, 1/m²")
+        axes.set_xlabel("particles per area [1/m²]")
         axes.grid(alpha=0.3)
         axes.legend(frameon=False, loc="lower center", fontsize=8)
         axes.set_ylim(1e-8, 2e-4)

@@ -2,7 +2,9 @@
 
 import itertools
 import json
+import re
 import warnings
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -132,6 +134,23 @@ def test_turning_point_sizes():
         pressure=5e6,
     )
     assert state.particle_load_share == pytest.approx(0.5, abs=1e-6)
+
+
+@pytest.mark.parametrize(("number", "place"), [(1e-4, 2), (1e-3, 1), (1e-2, 2), (0.5, 0)])
+def test_the_book_shows_the_sizes_of_equal_shares(number, place):
+    """A cell of each row of the table in docs/design.md: one load of 1, 5 and 50 MPa."""
+    page = (Path(__file__).parents[2] / "docs" / "design.md").read_text("utf-8")
+    (row,) = re.findall(rf"^\| {number:g} \| (.*) \|$", page, re.M)
+    sized = {
+        "roughness.R": 3.5e-6,
+        "particles.areal_density": number / 100e-9**2,
+        "particles.diameter.mean": 30e-9,
+        "particles.diameter.std": 3e-9,
+    }
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tb.RangeWarning)  # far squeezed, as the page says
+        size = equal_share_size(contact().replace(**sized), pressure=[1e6, 5e6, 5e7][place])
+    assert row.split(" | ")[place] == f"{size:.2f}"
 
 
 @pytest.mark.slow

@@ -56,7 +56,7 @@ def test_schema_is_a_schema():
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
-TABLE = "squeezed by more than 0.15 of their radius a side"
+TABLE = "squeezed by more than 0.15 of their radius on each side"
 CHI = "from 0.005 on particles carried 3 to 4 % less"
 WARNED = {name: [TABLE] for name in ("additive", "assess", "explicit", "oil_film")}
 WARNED |= {

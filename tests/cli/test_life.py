@@ -228,7 +228,7 @@ def test_filters_beyond_their_data_sheets_are_warned_of():
     Path("steep.toml").write_text(text, "utf-8")
     done = run("life", "steep.toml")
     told = " ".join(done.stderr.split())
-    assert "holds nothing up to 5.05 µm, where more would pass than comes" in told
+    assert "up to 5.05 µm more particles would pass than arrive" in told
     assert "holds nothing below 5 µm" in told
 
 

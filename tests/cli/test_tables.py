@@ -85,7 +85,9 @@ def test_columns_go_in_their_order_and_are_named():
     kept = []
     for width in (110, 80, 60):
         text = " ".join(run(width, "solve", DUSTY).split())
-        gone = re.search(r"Not shown for want of width: (.*?); --json or --csv FILE", text)
+        gone = re.search(
+            r"Not shown, because the window is too narrow: (.*?); --json or --csv FILE", text
+        )
         kept.append(set() if gone is None else set(re.split(", | and ", gone[1])))
     assert kept[0] < kept[1] < kept[2]
     assert kept[1] == {"A_ss", "A_sa", "d", "d/sigma"}  # h is the separation
@@ -111,7 +113,7 @@ def test_every_cell_shown_stands_whole(seed):
     text = console.export_text()
     assert max(map(len, text.splitlines())) <= width
     shown = set(text.split())
-    told = re.search(r"Not shown for want of width: (.*);", " ".join(text.split()))
+    told = re.search(r"Not shown, because the window is too narrow: (.*);", " ".join(text.split()))
     gone = set() if told is None else set(re.split(", | and ", told[1]))
     for i, head in enumerate(heads):
         assert all((row[i] in shown) == (head not in gone) for row in cells)

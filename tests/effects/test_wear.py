@@ -204,7 +204,7 @@ def test_what_nobody_can_predict_must_be_given():
 
 
 def test_warnings():
-    with pytest.warns(tb.RangeWarning, match="frozen"):
+    with pytest.warns(tb.RangeWarning, match="same particles stay"):
         tb.solve(contact(wear=Wear(**ALL | {"renewal": None})), pressure=5e6)
     with pytest.warns(tb.RangeWarning, match="in it already"):
         tb.solve(contact(), pressure=5e6)

@@ -14,6 +14,7 @@ from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.crowding import chi_of, crowded
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.equilibrium.status import SENTENCES, WORDS, Status
+from thirdbody.papers import seats
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
@@ -184,9 +185,18 @@ class TestChi:
         assert bool(told) == warns
         if warns:
             assert state.A_t < 0.05
-            assert "15 to 26 % less at 0.41" in told[0]
-            # 29 to 35 and 18 % high are so much less
-            assert [round(100 * (1 - 1 / (1 + high))) for high in (0.18, 0.35)] == [15, 26]
+            assert "19 to 30 % less at 0.4 and 0.7" in told[0]
+            assert "0.05 to 0.72 sigma further apart" in told[0]
+
+    def test_the_numbers_of_hard_surfaces_are_of_the_record(self):
+        """χ of 0.4 and 0.7 with α of 3 and 5: what was pressed beside the model."""
+        hard = [
+            s for s in seats.comparison() if s["group"] == "hard" and "alpha15" not in s["case"]
+        ]
+        less = sorted(round(100 * (1 - s["share"] / s["share_statistical"])) for s in hard)
+        assert (less[0], less[-1]) == (19, 30)
+        apart = sorted(s["h_over_sigma"] - s["h_over_sigma_statistical"] for s in hard)
+        assert [round(each, 2) for each in (apart[0], apart[-1])] == [0.05, 0.72]
 
     def test_plastic_surfaces_as_before(self):
         contact = dusty().replace(

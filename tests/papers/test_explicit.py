@@ -2,8 +2,10 @@
 
 import csv
 import dataclasses
+import importlib
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +20,7 @@ from thirdbody.papers.explicit.cases import GROUPS
 from thirdbody.papers.explicit.compared import Effort, Point
 from thirdbody.papers.explicit.one_field import against_stored
 
+DOCS = Path(__file__).parents[2] / "docs"
 SMALL = Effort(surfaces=3, size=64, spacing=300e-9, loads=(3e-4, 1e-3))
 NAMES = ("x1", "bump1")
 
@@ -238,11 +241,50 @@ def test_the_law_of_a_bump_explains_the_earlier_runs():
     assert within["sizes"] < within["bumps"]
 
 
-def test_the_book_shows_the_record():
-    text = page.markdown(seats.comparison())
-    assert "| x/σ = 2 |" in text
-    book = Path(__file__).parents[2] / "docs" / "explicit-evidence.md"
-    assert "explicit-tables" in book.read_text("utf-8")  # which the book fills with that text
+def test_the_book_shows_the_record(monkeypatch):
+    """The page as the book is built from it: every state in its cell, and what its words count."""
+    monkeypatch.syspath_prepend(str(DOCS / "_ext"))
+    facts, pages = (importlib.import_module(name) for name in ("facts", "pages"))
+    text = facts.insert_facts((DOCS / "explicit-evidence.md").read_text("utf-8"), "the page")
+    text = pages.insert_generated(text)
+    assert "{generated}" not in text
+    assert "{{" not in text
+    whole, tables = " ".join(text.split()), text.split("## Every state\n")[1]
+    cells = {}
+    for table in re.findall(r"(?:^\|.*\|$\n?)+", tables, re.M):
+        head, _, *rows = (line.strip("| ").split(" | ") for line in table.splitlines())
+        cells |= {
+            (head[0], row[0], load): cell
+            for row in rows
+            for load, cell in zip(head[1:], row[1:], strict=True)
+        }
+    assert len(cells) == len(seats.comparison())
+    for state in seats.comparison():
+        load = f"F* = {state['F_star']:.0e}".replace("e-0", "e-")
+        cell = cells[GROUPS[state["group"]], state["what"], load]
+        numbers = [float(each) for each in re.findall(r"\d+\.?\d*", cell)]
+        known = [state["share_statistical"], state["share_field"]]
+        known += [state["share"]] if state["share_least"] is None else []
+        for share in known:
+            assert min(abs(100 * share - each) for each in numbers) < 0.5, (state["case"], cell)
+        assert ("**" in cell) == state["off"], (state["case"], cell)
+    # what the words say is of the record, too
+    every = [state for state in seats.comparison() if state["share"]]
+    too_high = {
+        group: [s["share_statistical"] / s["share"] - 1 for s in every if s["group"] == group]
+        for group in ("loads", "hard")
+    }
+    low, high = (round(100 * each) for each in (min(too_high["loads"]), max(too_high["loads"])))
+    assert f"the share is {low} to {high} % high, and the surfaces are" in whole
+    steep = [s for s in every if s["group"] == "hard" and "α = 15" not in s["what"]]
+    off = sorted(round(100 * (s["share_statistical"] / s["share"] - 1)) for s in steep)
+    assert f"it is {off[0]} to {off[-1]} % high, from a real area of" in whole
+    deep = max(s["share_statistical"] / s["share"] for s in every if s["case"] == "valleys") - 1
+    assert f"The model is up to {100 * deep:.0f} % high." in whole
+    area = min(
+        s["A_t"] / s["A_t_statistical"] for s in every if s["group"] not in {"hard", "debris"}
+    )
+    assert f"pressed area is up to {100 * (1 - area):.0f} % lower" in whole
 
 
 def test_where_the_model_may_be_trusted():

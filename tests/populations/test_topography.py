@@ -642,8 +642,8 @@ def test_a_file_without_unit_asks_for_it(tmp_path, library):
     with pytest.raises(tb.InvalidValue) as error:
         from_topography(path)
     unit, sides = error.value.problems
-    assert "does not tell its unit" in unit
-    assert "does not tell its lateral size" in sides
+    assert "does not state its unit" in unit
+    assert "does not state its lateral size" in sides
     s = from_topography(path, unit="nm", spacing=1e-7, detrend="none")
     np.testing.assert_allclose(s.heights, h - np.nanmean(h), atol=1e-18)
 

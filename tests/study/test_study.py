@@ -1095,7 +1095,7 @@ def test_examples_are_sensible(path):
     known = (
         "sit deeper than their radius",
         "strengths are extrapolated by a factor",
-        "held to a computation",
+        "agrees with a computation",
         "soft particles squashed to contacts",
         "as debris = 'ductile' says",
         "at chi = H/(E* g)",

@@ -18,11 +18,13 @@ omega = np.geomspace(1e-11, 1e-6, 400)  # m
 
 figure = Figure(figsize=(5.2, 3.6), layout="constrained")
 ax = figure.add_subplot()
-for name in ("gw", "ceb", "zmc", "hermite", "ke", "jg"):
+names = ("gw", "ceb", "zmc", "hermite", "ke", "jg")
+dashes = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)))
+for name, dash in zip(names, dashes, strict=True):
     law = tb.asperity.REGISTRY[name]()
     law = law.bound(R=R, E_star=E_star, H=steel.H, nu=steel.nu)
     pressure = law.mean_pressure(omega, R=R, E_star=E_star, H=steel.H)
-    ax.semilogx(omega * 1e9, pressure / steel.H, label=name)
+    ax.semilogx(omega * 1e9, pressure / steel.H, linestyle=dash, label=name)
 ax.set(xlabel="interference ω [nm]", ylabel="mean pressure over hardness [1]", ylim=(0, 1.6))
 ax.legend(frameon=False)
 

@@ -42,7 +42,7 @@ embedded = np.pi / 4 * steel.H * x**2
 figure = Figure(figsize=(5.2, 3.6), layout="constrained")
 ax = figure.add_subplot()
 ax.loglog(squeeze / x, force * 1e6, linewidth=2.5, label="silica")
-ax.loglog(squeeze / x, rigid * 1e6, linewidth=1, label='kept round, deep = "off"')
+ax.loglog(squeeze / x, rigid * 1e6, "-.", linewidth=1, label='kept round, deep = "off"')
 ax.loglog(squeeze / x, elastic * 1e6, "--", label="elastic limit")
 ax.loglog(squeeze / x, plastic * 1e6, ":", label="fully plastic limit")
 ax.axhline(embedded * 1e6, color="0.5", linewidth=1, label="embedded")

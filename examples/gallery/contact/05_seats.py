@@ -16,7 +16,11 @@ loads = np.geomspace(1e-7, 1e-3, 80)
 figure = Figure(figsize=(5.2, 3.6), layout="constrained")
 ax = figure.add_subplot()
 share = {}
-for zeta, words in ((-0.5, "valleys, −0.5 σ"), (0.0, "random places"), (0.5, "peaks, +0.5 σ")):
+for zeta, style, words in (
+    (-0.5, "--", "valleys, −0.5 σ"),
+    (0.0, "-", "random places"),
+    (0.5, "-.", "peaks, +0.5 σ"),
+):
     contact = tb.Contact(
         surfaces=tb.MaterialPair(steel, steel),
         roughness=tb.Roughness(sigma=300e-9, R=2.8e-6),
@@ -28,7 +32,7 @@ for zeta, words in ((-0.5, "valleys, −0.5 σ"), (0.0, "random places"), (0.5, 
         particle_law=tb.particle.Series(zeta_mean=zeta),
     )
     state = tb.solve(contact, F_star=loads)
-    ax.semilogx(loads, 100 * np.asarray(state.particle_load_share), label=words)
+    ax.semilogx(loads, 100 * np.asarray(state.particle_load_share), style, label=words)
     share[zeta] = float(tb.solve(contact, F_star=1e-5).particle_load_share)
 ax.set(xlabel="load F* [1]", ylabel="particle load share [%]")
 ax.legend(frameon=False)

@@ -30,10 +30,11 @@ state = tb.solve(contact, F_star=loads)
 
 figure = Figure(figsize=(5.2, 3.4), layout="constrained")
 ax = figure.add_subplot()
-for each, words in zip(state.populations, ("debris, 120 nm", "dust, 400 nm"), strict=True):
-    ax.semilogx(loads, 100 * np.asarray(each.load_share), label=words)
+looks = (("--", "debris, 120 nm"), ("-", "dust, 400 nm"))
+for each, (style, words) in zip(state.populations, looks, strict=True):
+    ax.semilogx(loads, 100 * np.asarray(each.load_share), style, label=words)
 asperities = 1 - np.asarray(state.particle_load_share)
-ax.semilogx(loads, 100 * asperities, color="0.5", label="asperities")
+ax.semilogx(loads, 100 * asperities, ":", color="0.3", label="asperities")
 ax.set(xlabel="load F* [1]", ylabel="share of the load [%]")
 ax.legend(frameon=False)
 

@@ -15,7 +15,7 @@ rubber = tb.Material(E=2e6, nu=0.49, H=1e6)  # Pa, 1, Pa
 figure = Figure(figsize=(5.2, 3.6), layout="constrained")
 ax = figure.add_subplot()
 tension = []
-for sigma in (1e-6, 1.5e-6, 2e-6):  # m
+for sigma, style in ((1e-6, "-"), (1.5e-6, "--"), (2e-6, "-.")):  # m
     contact = tb.Contact(
         surfaces=tb.MaterialPair(rubber, rubber),
         roughness=tb.Roughness(sigma=sigma, R=100e-6),
@@ -24,7 +24,7 @@ for sigma in (1e-6, 1.5e-6, 2e-6):  # m
     held, at = tb.pull_off(contact)
     d = np.linspace(min(0.5 * sigma, at), 4 * sigma, 300)
     pressure = np.asarray(tb.solve(contact, d=d).pressure)
-    ax.plot(d / sigma, pressure / 1e3, label=f"σ = {sigma * 1e6:g} µm")
+    ax.plot(d / sigma, pressure / 1e3, style, label=f"σ = {sigma * 1e6:g} µm")
     ax.plot(at / sigma, -held / 1e3, "k.")
     tension.append(held)
 ax.axhline(0, color="0.5", linewidth=0.8)

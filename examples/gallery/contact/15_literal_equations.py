@@ -32,7 +32,7 @@ for law, words in (
     )
     state = tb.solve(contact, F_star=loads)
     pressure = loads * contact.E_ss / np.asarray(state.A_t)
-    ax.semilogx(loads, pressure / 1e9, label=words)
+    ax.semilogx(loads, pressure / 1e9, "--" if words == "consistent" else "-", label=words)
     if words == "as printed":
         printed = pressure
 ax.set(xlabel="load F* [1]", ylabel="mean real pressure [GPa]", ylim=(0, 6))

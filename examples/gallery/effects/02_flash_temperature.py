@@ -34,8 +34,8 @@ names = {
     "dT_ss_load": "mean by load",
     "dT_ss_number": "mean by number",
 }
-for name, label in names.items():
-    ax.loglog(speeds, [float(each[name]) for each in found], label=label)
+for (name, label), style in zip(names.items(), ("-", "--", "-.", ":"), strict=True):
+    ax.loglog(speeds, [float(each[name]) for each in found], style, label=label)
 ax.set(
     xlabel="sliding speed [m/s]",
     ylabel="rise over the bulk [K]",

@@ -288,7 +288,7 @@ class Page:
         if self.state.current:
             return "Outputs with mistakes, told beside their fields, are left out."
         return (
-            f"The study has {len(problems)} mistake(s), told beside the fields; "
+            f"The study has {len(problems)} mistake(s), shown beside the fields; "
             "shown is the last study without one."
         )
 

@@ -17,7 +17,7 @@ __all__ = ["ALL", "MOST_ROWS", "some", "terminal", "usual"]
 
 MOST_ROWS = 20
 """Rows of a table that a terminal shows."""
-ALL = "--json or --csv FILE tells all"
+ALL = "--json or --csv FILE has all of it"
 WHOLE = 12
 """Digits of a default, which is a short number."""
 PIPE = 120

@@ -115,8 +115,8 @@ def about_pressed(contact: Contact, d: Array) -> list[str]:
     if broken > TOLD:
         out.append(
             f"{percent(broken, digits=2)} of the particles' load is on brittle particles pressed "
-            "beyond the strength of most grains of their size: they would break, and the laws keep "
-            'them whole; give the particles a strength ("material" takes the library\'s)'
+            "beyond the strength of most grains of their size: they would break, but they count as "
+            'whole here; give the particles a strength ("material" takes the library\'s)'
         )
     return out
 
@@ -139,8 +139,9 @@ def _about_squashed(contact: Contact, d: Array) -> list[str]:
         return []
     return [
         f"up to {percent(share, digits=2)} of the particles' load is on soft particles squashed to "
-        f"contacts wider than {WIDE:g} of their radius: at 0.20 to 0.28 metal spheres pressed with "
-        "a sixth to a third less than this law says, and no measurement is known beyond"
+        f"contacts wider than {WIDE:g} of their radius: metal spheres were measured to press with "
+        "at most 0.7 to 0.8 of their Vickers hardness, at 0.20 to 0.28; this law says at most 0.95 "
+        "to 1.08, and no measurement is known beyond"
     ]
 
 
@@ -169,9 +170,9 @@ def _about_computed(contact: Contact, d: Array) -> list[str]:
         return []
     what = (
         f"up to {percent(min(far / total, 1.0), digits=2)} of the particles' load is on particles "
-        f"squeezed by more than {TABLE_BEGINS:g} of their radius a side: their law is held to a "
-        "computation there within ±10 % (friction of the grain's faces, smooth to rough: "
-        f"{_signed(less)} … {_signed(more)} %), to no measurement"
+        f"squeezed by more than {TABLE_BEGINS:g} of their radius on each side: their law agrees "
+        "with a computation there within ±10 %, but with no measurement; friction of their faces, "
+        f"from smooth to rough, changes their load by {_signed(less)} to {_signed(more)} %"
     )
     action = OTHER_FRICTION
     if min(collars / total, 1.0) > TOLD:

@@ -180,7 +180,7 @@ def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> l
     for i in np.flatnonzero(unknown)[:1]:
         low, high = float(found.low[i]), float(found.high[i])
         why = (
-            f"holds so few particles that bear that chance decides which do: {closed} is "
+            f"holds so few particles under load that chance decides which they are: {closed} is "
             f"between {number(low)} and {number(high)}"
         )
         if math.isnan(high):
@@ -211,7 +211,7 @@ def _about_open(
     if not count < ONE:
         return []
     if not count:  # the mean over such areas is that of each: 0
-        what = f"{say}nothing conducts where least does: A_n is open there ({numbers} are NaN)"
+        what = f"{say}at some loads nothing in A_n conducts: it is open there ({numbers} are NaN)"
         return [Note(what, code=code, effect=math.inf)] if output.few == "open" else []
     chance = f"closed with probability {number(-math.expm1(-count))}"
     what = (

@@ -276,8 +276,8 @@ class Wear(AbstractOutput):
             length = float(np.min(values["groove_length"], initial=np.inf))
             if math.isfinite(length):
                 what = (
-                    "outputs.wear: without renewal the particles are frozen in their places; the "
-                    f"rates hold for about {value_of(length, 'm', 2)} of sliding, when grooves "
+                    "outputs.wear: without renewal the same particles stay in their grooves; the "
+                    f"rates hold for about {value_of(length, 'm', 2)} of sliding, until grooves "
                     "cover the surface"
                 )
                 action = "give renewal, the fresh particles per particle and sliding length"

@@ -570,8 +570,8 @@ def _warnings(
     if bound.one_field and scaled:
         names = ", ".join(f"outputs.{name}" for name in scaled)
         out.append(
-            f"the law field knows no single spots: what {names} says of asperities is of the "
-            "summits of zmc, in number and area scaled to its load and area"
+            f"the law field has no single spots: for asperities {names} takes the summits of zmc, "
+            "in number and area scaled to its load and area"
         )
     if bound.particles is not None:
         out += about_particles(contact)

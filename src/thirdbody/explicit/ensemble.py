@@ -89,11 +89,11 @@ class Ensemble:
         How many maps of heights were pressed.
     table : xarray.Dataset
         Along ``F_star``: for ``h``, ``A_t``, ``particle_load_share`` and ``particle_area_share``
-        the raw number, ``…_raw``, the one without the luck of the draw, ``…_cv``, their jackknife
-        errors, ``…_raw_error`` and ``…_cv_error``, the statistical number, ``…_statistical``, and
-        the difference in standard errors, ``…_difference``. Where no asperity or no particle
-        carries on any surface, shares have no error: NaN, and bounds, ``…_least`` and ``…_most``
-        (NaN elsewhere).
+        the raw number, ``…_raw``, the one corrected for the surfaces drawn, ``…_cv``, their
+        jackknife errors, ``…_raw_error`` and ``…_cv_error``, the statistical number,
+        ``…_statistical``, and the difference in standard errors, ``…_difference``. Where no
+        asperity or no particle carries on any surface, shares have no error: NaN, and bounds,
+        ``…_least`` and ``…_most`` (NaN elsewhere).
     at_h : xarray.Dataset
         Along ``h``: pooled loads and areas, and the ratios that say why the two differ.
     seats : SeatHeights

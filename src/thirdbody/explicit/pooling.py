@@ -155,7 +155,7 @@ class Pool:
         ----------
         pressure : array (K,)
         fair : bool
-            Take out the luck of the draw.
+            Correct for the random surfaces that were drawn.
         cap : float or None
             The highest pressure of asperities [Pa]: what those can carry that nobody drew.
 

@@ -122,7 +122,7 @@ class HighestSeats(AbstractSeats):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DownhillSeats(AbstractSeats):
-    """Down the steepest descent from a random place, so far.
+    """At the end of a way down the steepest descent from a random place.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ class SphereSeats(AbstractSeats):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GivenSeats(AbstractSeats):
-    """At the places told.
+    """At the places that you give.
 
     Parameters
     ----------

@@ -132,8 +132,9 @@ def solve(
 
     Notes
     -----
-    The answer is unique and comes with a certificate ε: the elastic energy of its error is below
-    ε σF. That is the only rule by which iterations stop.
+    Where no particle carries less as it is squeezed more, the answer is unique. It comes with a
+    certificate ε: the elastic energy of its error is below ε σF. That is the only rule by which
+    iterations stop.
 
     References
     ----------
@@ -387,8 +388,8 @@ def _doubts(columns: list[dict[str, Any]], found: list[Pressed], tol: float) -> 
     most = max(each["A_t"] for each in columns)
     if most > DENSE:
         out.append(
-            f"real contact area {percent(most)}: the half-space is one of small contacts, and the "
-            "law of particles knows no neighbours"
+            f"real contact area {percent(most)}: a half-space is meant for small contacts, and the "
+            "law of particles leaves out their neighbours"
         )
     return out
 

@@ -22,6 +22,7 @@ __all__ = ["Line", "Panel", "draw", "picture_of", "table_of"]
 Array = NDArray[np.float64]
 COLOURS = ("blue", "vermilion", "green", "purple", "orange", "sky")
 DASHES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)))
+MARKS = "osD^vP*"
 
 
 @dataclass(frozen=True)
@@ -66,6 +67,8 @@ def draw(panel: Panel) -> Figure:
     figure.subplots_adjust(left=0.11, right=0.63, bottom=0.21, top=0.91)
     for value, label in panel.levels:
         ax.axhline(value, color="0.35", linestyle=":", linewidth=1.1, label=label, zorder=1)
+    # where dashes repeat, marks tell the lines apart without their colours
+    marked = len({line.dash % len(DASHES) for line in panel.lines}) < len(panel.lines)
     for line in panel.lines:
         bare = line.colour < 0
         ax.plot(
@@ -74,6 +77,9 @@ def draw(panel: Panel) -> Figure:
             color="0.75" if bare else OKABE_ITO[COLOURS[line.colour % len(COLOURS)]],
             linestyle=DASHES[line.dash % len(DASHES)],
             linewidth=4.0 if bare else 1.6,
+            marker=MARKS[line.colour % len(MARKS)] if marked and not bare else "",
+            markevery=max(1, len(line.x) // 7),
+            markersize=5,
             label=line.label,
             zorder=2 if bare else 3,
         )

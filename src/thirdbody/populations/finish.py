@@ -237,8 +237,8 @@ def assumption_sentence(faces: Sequence[Finish], used: dict[str, float]) -> str:
     ]
     if parts:
         out += (
-            f"; {', '.join(parts)} follow from the process, its slopes "
-            f"{tables['slopes']['standing']}: not measured; assess carries the ranges"
+            f"; {', '.join(parts)} follow from the process, whose slopes are "
+            f"{tables['slopes']['standing']} and not measured; assess takes the ranges"
         )
     return out
 

@@ -115,7 +115,7 @@ class Table:
         if told := [f"{head}: {self.legend[head]}" for head in told if head in self.legend]:
             yield "; ".join(told) + "."
         if gone := [self.heads[i] for i in every if i not in shown]:
-            yield f"Not shown for want of width: {join_words(gone)}; {self.more}."
+            yield f"Not shown, because the window is too narrow: {join_words(gone)}; {self.more}."
 
     def _draw_table(self, shown: list[int], widths: list[int], gap: int) -> Any:
         from rich import box

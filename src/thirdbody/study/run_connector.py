@@ -210,8 +210,8 @@ def _breaking_note(plug: Connector) -> list[Note]:
     return [
         Note(
             f"most particles of {name} of the mean size would break before they are pressed in; "
-            "they count as whole, so that the contacts fail less often than told where the pieces "
-            "carry less, and more often where they spread",
+            "they count as whole here; the contacts fail less often where the pieces carry less, "
+            "and more often where they spread",
             code="brittle",
             action="take the answer for dust that stays whole, or measure with and without force",
         )

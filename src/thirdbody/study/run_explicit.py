@@ -121,8 +121,8 @@ def run_explicit(
         else:
             if study.faces:
                 notes.append(
-                    "roughness.topography gives two faces, which are not measured one above the "
-                    "other: surfaces with their moments are pressed"
+                    "roughness.topography has two faces, and nothing says which place of one "
+                    "meets which of the other: random surfaces with their moments are pressed"
                 )
             spacing = spacing_for(contact) if spacing is None else spacing
             found = ensemble(

@@ -243,7 +243,7 @@ def _breaking(
     return [
         Note(
             f"most particles of {name} from {value_of(x, 'm', 3)} on would break: their pieces are "
-            "smaller, and the plate stands lower than told",
+            "smaller, and the plate stands lower than computed",
             code="brittle",
             action="take heights from there on as an upper end",
         )

@@ -60,7 +60,7 @@ LIKELY = (
 """Inputs that are taken as uncertain where the study says nothing of any."""
 PART = 0.1
 """By how much of each."""
-ASSUMED = "The study says of no input how well it is known: shown for ±10 % of {}."
+ASSUMED = "The study does not say how well its inputs are known: shown for ±10 % of {}."
 
 
 def assumed(state: State) -> dict[str, dict[str, object]]:

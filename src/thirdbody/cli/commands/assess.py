@@ -56,7 +56,7 @@ def command(options: Options) -> None:
     if options.as_json:
         print_json(answer.to_dict())
     else:
-        terminal().print(answer.page("--json or --html FILE tells all"))
+        terminal().print(answer.page("--json or --html FILE has all of it"))
 
 
 def _assess_life(options: Options) -> None:

@@ -206,7 +206,7 @@ def _show_comparison(title: str, found: Comparison, index: int) -> None:
     for sentence in _answer(found, index):
         console.print(sentence)
     heads, rows, notes = _table(found, index)
-    more = "--csv FILE tells all"
+    more = "--csv FILE has all of it"
     shown = Table(heads, right=True, words=["law"], drop=DROP, more=more, legend=MEANS)
     for row in rows:
         shown.add_row(*row)

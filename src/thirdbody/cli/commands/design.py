@@ -282,4 +282,4 @@ def _against_load(out: Any, best: Best, said: _Words) -> None:
         table.add_row(value_of(float(best.loads[i]), unit), *cells)
     out.print(table)
     if count > MOST_ROWS:
-        out.print(f"{MOST_ROWS} of {count} loads shown; --json tells all\n")
+        out.print(f"{MOST_ROWS} of {count} loads shown; --json has all of it\n")

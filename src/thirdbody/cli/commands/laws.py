@@ -17,7 +17,7 @@ from ..streams import print_json
 
 __all__ = ["command"]
 
-JSON = "--json tells all"
+JSON = "--json has all of it"
 
 
 def command(

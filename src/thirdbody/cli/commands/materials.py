@@ -67,7 +67,7 @@ def command(
     heads = ("name", "what", "E", "nu", "H", "standing", "source")
     drop = ("source", "standing", "what")
     legend = {"E": "Young's modulus", "nu": "Poisson ratio, no unit", "H": "hardness"}
-    table = Table(heads, words=heads[1:], drop=drop, more="--json tells all", legend=legend)
+    table = Table(heads, words=heads[1:], drop=drop, more="--json has all of it", legend=legend)
     for name, entry in entries.items():
         doi = f", doi:{entry['doi']}" if entry.get("doi") else ""
         table.add_row(

@@ -222,7 +222,7 @@ def _answer(found: Any, cutoff: float) -> Table:
     at = "as sampled" if cutoff == 0 else f"at {value_of(cutoff, 'm')}"
     drop = ("eta R sigma", "y_s", "alpha")
     answer = Table(
-        (at, *MEANS), right=True, words=[at], drop=drop, more="--json tells all", legend=MEANS
+        (at, *MEANS), right=True, words=[at], drop=drop, more="--json has all of it", legend=MEANS
     )
 
     def add(label: str, one: Any, sigma: float, eta: float, alpha: str) -> None:

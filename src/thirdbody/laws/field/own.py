@@ -207,8 +207,8 @@ class RollOff(Value):
 
     Notes
     -----
-    What an unknown spectrum is worth, against 0.8 and "smooth" at σ, R, α: see the book's page
-    "Choose a law".
+    The book's page "Choose an asperity law" says how uncertain a result is where σ, R and α are
+    known and the spectrum is not.
 
     Examples
     --------

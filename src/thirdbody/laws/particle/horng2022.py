@@ -32,7 +32,7 @@ NO_ONE_PARTICLE = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Horng2022(AbstractParticleLaw):
-    r"""Particle load and area of eqs. (1), (2) and (13) of Horng et al. 2022, slips as switches.
+    r"""Particle load and area of eqs. (1), (2) and (13) of Horng et al. 2022, errors as switches.
 
     .. math:: \Sigma = C\int_{d-h_e}^{d} w\,\varphi_a\,dx + \int_d^{x_{max}} w_p\,\varphi_a\,dx,
         \qquad C=\frac{9\pi^2}{4}\left(\frac{H_{s1}^2}{E_1^2}+\frac{H_{s2}^2}{E_2^2}\right)

@@ -285,6 +285,7 @@ def figure(points: tuple[Point, ...]) -> Figure:
 
     inks = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky",
                                          "black")]  # fmt: skip
+    marks = "osD^vP*"
     out = Figure(figsize=(10.4, 12.6), dpi=150, layout="constrained")
     panels = out.subplots(4, 3, sharey=True).ravel().tolist()
     for ax, (name, title) in zip(panels, GROUPS.items(), strict=False):
@@ -305,8 +306,8 @@ def figure(points: tuple[Point, ...]) -> Figure:
             ratio = np.array([point.statistical / point.share[0] for point in every])
             error = ratio * np.array([point.share[1] / point.share[0] for point in every])
             ax.errorbar(
-                load, ratio, yerr=error, marker="o", markersize=4, capsize=2.5, linewidth=1.0,
-                elinewidth=1.0, color=ink, label=words,
+                load, ratio, yerr=error, marker=marks[i % len(marks)], markersize=4, capsize=2.5,
+                linewidth=1.0, elinewidth=1.0, color=ink, label=words,
             )  # fmt: skip
             field = np.array([point.field[0] / point.share[0] for point in every])
             ax.plot(load, field, marker="x", markersize=4, linestyle=":", linewidth=0.8, color=ink)
@@ -327,8 +328,8 @@ def figure(points: tuple[Point, ...]) -> Figure:
         ax.set_ylim(0.75, 1.5)
         ax.tick_params(which="both", direction="in", top=True, right=True)
         ax.tick_params(labelleft=True)
-    out.supxlabel("load $F^*$", fontsize="medium")
-    out.supylabel("particles' load share, statistical over explicit; crosses: one field",
+    out.supxlabel("load $F^*$ [1]", fontsize="medium")
+    out.supylabel("load share of particles, model over pressed [1]; crosses: by the law field",
                   fontsize="medium")  # fmt: skip
     return out
 
@@ -339,7 +340,7 @@ def _share(pair: tuple[float, float]) -> str:
 
 
 def _explicit(point: Point) -> str:
-    """The share without the luck of the draw, or its bounds."""
+    """The share, corrected for the random surfaces drawn, or its bounds."""
     if not point.bounded:
         return _share(point.share)
     return _bounds_text(*(100 * each for each in point.bounds)) + " %"
@@ -352,11 +353,11 @@ def _page(summary: Summary, figures: str) -> str:
         f"<p>{len(CASES)} contacts, each on {summary.effort.words}; "
         f"{summary.left_out} states that did not converge are left out. Base: σ = 0.3 µm, "
         "R = 3 µm, α = 5, E* = 112 GPa, H = 5 GPa, 10¹¹ particles of one size per m², random "
-        "seats. Shares are those of the particles in the load; explicit ones without the luck of "
-        "the draw, with standard errors over surfaces; where too few of these draw an asperity, "
-        "what is sure of them. The model has the seat heights that were "
-        "measured; nothing is fitted. Rows on a coloured ground are those in which it is off by "
-        "more than the error bars (95 %, the few surfaces counted).</p>",
+        "seats. A share is the part of the load on particles. Explicit ones are corrected for the "
+        "random surfaces drawn, with standard errors over surfaces; where an asperity carries on "
+        "too few of these, bounds stand in their place. The model has the seat heights that were "
+        "drawn; nothing is fitted. In coloured rows it is off by more than the error bars (95 %, "
+        "the few surfaces counted).</p>",
         "<h2>Shares</h2>",
     ]
     for name, words in GROUPS.items():

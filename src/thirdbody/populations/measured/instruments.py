@@ -205,12 +205,12 @@ def _lacking(
     problems = []
     if unit is None and scale is None:
         problems.append(
-            f'{path} does not tell its unit; give it, e.g. unit = "um" (heights, and sides too '
+            f'{path} does not state its unit; give it, e.g. unit = "um" (heights, and sides too '
             "unless spacing is given)"
         )
     if sizes is None and steps is None:
         problems.append(
-            f"{path} does not tell its lateral size; give spacing, the distance of neighbouring "
+            f"{path} does not state its lateral size; give spacing, the distance of neighbouring "
             'points, e.g. spacing = "0.5 um"'
         )
     if problems:
@@ -226,7 +226,7 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
     """An object of SurfaceTopography, in its own unit."""
     unit = made.unit
     if unit is None and scale is None:
-        raise InvalidValue(f'{name} does not tell its unit; give it, e.g. unit = "um"')
+        raise InvalidValue(f'{name} does not state its unit; give it, e.g. unit = "um"')
     if unit is not None and name == type(made).__name__:
         known = getattr(made, "physical_sizes", None) is not None
         _told_already(name, unit, scale, steps if known else None)
@@ -241,7 +241,7 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
         heights = made.heights()
         sizes = made.physical_sizes
         if sizes is None and steps is None:
-            raise InvalidValue(f"{name} does not tell its lateral size; give spacing")
+            raise InvalidValue(f"{name} does not state its lateral size; give spacing")
         if steps is not None:
             spacing = _per_axis(steps, np.ndim(heights))
         else:

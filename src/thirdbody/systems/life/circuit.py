@@ -415,8 +415,9 @@ class OilCircuit(Value):
             if each.clipped_to is not None:
                 out.append(
                     Note(
-                        f"the β ratios of {name} rise so fast that it holds nothing up to "
-                        f"{value_of(each.clipped_to, 'm', 3)}, where more would pass than comes",
+                        f"the β ratios of {name} rise so fast that up to "
+                        f"{value_of(each.clipped_to, 'm', 3)} more particles would pass than "
+                        "arrive; it holds none of these sizes",
                         code="clipped",
                         action="give β at more sizes of its data sheet",
                     )

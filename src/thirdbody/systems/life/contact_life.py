@@ -169,16 +169,16 @@ def _notes(
     fewest = float(np.min(more["present"]))
     if fewest < 1:
         what = (
-            f"a contact holds {number(fewest, 2)} loaded particles on average: the history tells "
-            "mean rates; modes and shares of the particles mean nothing at a moment"
+            f"a contact holds {number(fewest, 2)} loaded particles on average: the history has "
+            "mean rates; modes and shares of the particles at one moment have no meaning"
         )
         out.append(Note(what, code="life.single", effect=0.0))
     if entry_ratio == 1:
-        what = "entry ratio 1 is not known to be right: surfaces that lasted show far fewer dents"
+        what = "the entry ratio is assumed to be 1: surfaces that lasted show far fewer dents"
         action = "count dents, and take entry_ratio_from_dents"
         out.append(Note(what, code="life.entry", action=action))
     if worn_area is None:
-        what = "wear depths are those of the contact area alone, as if no other place came into it"
+        what = "wear depths are as if the same place of each surface were always in contact"
         action = "give worn_area, the area of each surface that is worn in turn"
         out.append(Note(what, code="life.worn_area", action=action))
     if (most := float(np.max(more["covered"]))) > CROWDED:

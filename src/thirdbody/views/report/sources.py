@@ -100,8 +100,8 @@ def laws_and_reasons(report: Found) -> list[str]:
     )
     why = (
         "The plasticity index of Greenwood and Williamson, ψ = (E*/H)√(σ_s/R), is "
-        f"{number(psi, 3)}: {verdict}. How laws differ, and which suits which surface, tell "
-        "the pages “Choose a law” and “Choose a seat” of the documentation; the command "
+        f"{number(psi, 3)}: {verdict}. The pages “Choose an asperity law” and “Choose a seat” of "
+        "the documentation say how laws differ, and which suits which surface. The command "
         "compare puts other laws beside this one."
     )
     head = ["for", "law", "chosen by", "valid", "provenance", "source"]
