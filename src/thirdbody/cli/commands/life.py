@@ -48,7 +48,10 @@ class Options:
 
 
 def command(options: Options) -> None:
-    """How dirty an oil or a dry contact becomes over time, and where its dirt goes."""
+    """How dirty an oil or a dry contact becomes over time.
+
+    And where its dirt goes; with --reports, how much enters, from reports of an oil.
+    """
     if options.reports is None:
         _tell_history(options)
     else:
