@@ -192,8 +192,9 @@ def life(
             whole = _whole(conditions, OF_FILM, FILM)
             found = run_film_history(contact, oil=oil, **whole, **of_contact, **shared)
         else:
-            if idle := [each for each in waits if not isinstance(each, ContactUntil)]:
-                raise InvalidValue(Problem("until", "needs an oil", idle[0].name))
+            of_oil = [each for each in waits if not isinstance(each, ContactUntil)]
+            if of_oil:
+                raise InvalidValue(Problem("until", "needs an oil", of_oil[0].name))
             whole = _whole(conditions, OF_DRY, DRY)
             given = whole["arrivals"]
             whole["arrivals"] = (given,) if isinstance(given, Ingress) else tuple(given)
