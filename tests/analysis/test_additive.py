@@ -174,7 +174,7 @@ def test_units_materials_and_loads():
         ('design.objective={ of = "mu", aim = "least" }', "smallest"),
         ('design.objective={ of = "mu", goal = "smallest" }', "goal is not a known key"),
         ('design.limits=[{ of = "mu" }]', "neither most nor least"),
-        ('design.limits=[{ of = "d", most = "5 MPa" }]', "design.limits[0].most"),
+        ('design.limits=[{ of = "d", most = "5 MPa" }]', "design.limits.0.most"),
         ("design.scatter=true", "needs a table [uncertainty]"),
         ("design.sample=3", "did you mean"),
     ],

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..quantities.say import number, value_of
+from ..quantities.say import number, percent, value_of
 from .life_words import words_of_bands
 
 if TYPE_CHECKING:
@@ -50,6 +50,6 @@ def last_words(found: LifeAssessment) -> list[str]:
     low, high = min(bands.probabilities), max(bands.probabilities)
     return [
         f"The table is of the {bands.swings_of} at the end; each input alone at its "
-        f"{100 * low:g} % and {100 * high:g} % ends.",
+        f"{percent(low)} and {percent(high)} ends.",
         f"{most} Measure that first.",
     ]

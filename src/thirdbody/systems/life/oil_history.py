@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["kept_times", "need_duration", "run_oil_history", "usual_times"]
+__all__ = ["run_oil_history", "usual_times"]
 
 POINTS = 120
 """Times of a history, evenly and in the logarithm each."""

@@ -163,7 +163,8 @@ def _error_bars(report: Found) -> list[str]:
     if found is None:
         if not report.result.states.F_star[report.at] >= FAINT:
             return ["<p>There are none: nothing presses the surfaces together.</p>"]
-        if report.study.uncertainty is None and stated_ranges(report.contact):
+        bare = report.contact.replace(outputs=())  # as it is assessed
+        if report.study.uncertainty is None and stated_ranges(bare):
             return [
                 "<p>There are none: with particles that break every sample takes a second, so "
                 "that bands are drawn only where a table [uncertainty] asks for them.</p>"
