@@ -85,14 +85,15 @@ class Dents(AbstractOutput):
 
     Notes
     -----
-    These are the dents of one placement of the particles; every fresh set of particles adds its
-    own (`thirdbody.effects.single.dent.dents_after`). Numbers, percentiles and the largest of
-    whole particles and of brittle ones are within 1e-6 of their exact values, but for soft
-    particles of one size, whose number can be 0.7 % off: no class of squeeze ends where a dent
-    begins; means of fragments within 1e-3; percentiles and the largest of particles with a
-    strength are read from counts of classes, within a few percent. Depths are at full load with a gap that does not give way, the recovery fit is one for spheres (from
-    memory, see `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the
-    radius of the particle are counted besides as embedded: such particles may stay (assumption).
+    These are the dents of one placement of the particles; every fresh set of particles adds its own
+    (`thirdbody.effects.single.dent.dents_after`). Numbers, percentiles and the largest of whole
+    particles and of brittle ones are within 1e-6 of their exact values, but for soft particles of
+    one size, whose number can be 0.7 % off: no class of squeeze ends where a dent begins; means of
+    fragments within 1e-3; percentiles and the largest of particles with a strength are read from
+    counts of classes, within a few percent. Depths are at full load with a gap that does not give
+    way, the recovery fit is one for spheres (from memory, see
+    `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the radius of the
+    particle are counted besides as embedded: such particles may stay (assumption).
 
     Numbers and widths are of all dents, mean depth, percentile and deepest of those whose depth is
     known; their volume is NaN where some is not. Of several populations the state has the dents of
