@@ -199,7 +199,7 @@ def arguments(study: Study) -> dict[str, Any]:
         raise InvalidValue(
             "the study has no table [design]: it says what may be chosen and what is good, e.g. "
             '[design] objective = { of = "A_t" }, [design.vary] "roughness.sigma" = '
-            '{ low = "50 nm", high = "200 nm" }'
+            '{ low = "50 nm", high = "200 nm" }; or [life.design], of an oil'
         )
     given = dict(study.design)
     if given.pop("scatter", False) and study.uncertainty is not None:

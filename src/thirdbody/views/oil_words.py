@@ -22,18 +22,18 @@ __all__ = [
     "uncertainty",
 ]
 
-HEADS = ("population", "load", "dents/h", "mm²/pass", "depth", "5 % above", "deepest", "width")
+HEADS = ("population", "load", "dents/h", "per mm²", "depth", "5 % above", "deepest", "width")
 MEANS = {
     "load": "its part of the whole load",
     "dents/h": "dents in the whole track per hour",
-    "mm²/pass": "dents per mm² of track and overrolling",
+    "per mm²": "dents per mm² of track and overrolling",
     "depth": "mean of the dents, an upper bound",
     "5 % above": "depth that one in twenty exceeds",
     "deepest": "of an hour (median)",
     "width": "mean diameter of the dents",
 }
 """What the heads mean."""
-DROP = ("width", "mm²/pass", "deepest", "load")
+DROP = ("width", "per mm²", "deepest", "load")
 """Columns in the order in which they go where the width is small."""
 
 

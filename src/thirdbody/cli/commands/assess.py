@@ -8,7 +8,7 @@ from pathlib import Path
 from ...errors import InvalidValue
 from ..options import AsJson, Force, KeepFile, Settings, argument, option, read_study
 from ..show import terminal
-from ..streams import STDOUT, TableFiles, print_json, tell_written
+from ..streams import STDOUT, TableFiles, print_json, tell_written, warn
 
 __all__ = ["command"]
 
@@ -48,6 +48,10 @@ def command(options: Options) -> None:
         _assess_life(options)
         return
     asked = read_study(options.study, options.settings, writes=[options.html])
+    if asked.life is not None:
+        warn(
+            "[life] is not assessed without [life.uncertainty]: the answer is of the contact alone"
+        )
     need_places([(options.html, "page")], force=options.force)
     answer = assess_study(asked, progress=True)
     if options.html is not None:

@@ -26,8 +26,8 @@ class Options:
     )
     reports: Path | None = option(
         "--reports",
-        "Print what enters the oil, from a file with a time [h] and an ISO 4406 code a line, "
-        "two or more, e.g. 500,18/16/13.",
+        "Print what enters the oil, from a file with the head time [h],iso4406 and two or more "
+        "lines, e.g. 500,18/16/13.",
         "OIL.csv",
     )
     flow_for: str | None = option(

@@ -63,11 +63,11 @@ class Summary(engine.Summary):
         out = [f"{self.score()}. Nothing is fitted", ""]
         for row in self.rows:
             verdicts = self.ledger[row.name]
-            out.append(f"  {word_of(dict(verdicts)):<11}{row.title}")
+            out.append(f"  {word_of(dict(verdicts)):<16}{row.title}")
             for one in row.statements:
                 verdict = verdicts[one.claim.id]
                 value = verdict.band.text if verdict.band else "–"
-                out.append(f"    {verdict.word:<11}{one.claim.quantity}: {value}")
+                out.append(f"    {verdict.word:<16}{one.claim.quantity}: {value}")
         return out
 
     def pictures(self) -> list[Callable[[], Picture]]:

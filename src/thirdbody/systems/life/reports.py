@@ -403,7 +403,9 @@ def oil_reports(
     """
     t = np.atleast_1d(np.asarray(times, float))
     if len(t) < 2 or not np.all(np.diff(t) > 0) or not np.all(np.isfinite(t)):
-        raise InvalidValue(Problem("times", "must be of two reports or more and increase [s]"))
+        raise InvalidValue(
+            Problem("times", "must be of two reports or more, each later than the one before [s]")
+        )
     at, counts = _counts_of(reports, sizes)
     if len(counts) != len(t):
         raise InvalidValue(Problem("reports", f"must be one for each of {len(t)} times"))
