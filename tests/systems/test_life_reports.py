@@ -150,7 +150,7 @@ def test_the_same_reports_give_the_same_band():
     ("times", "reports", "more", "words"),
     [
         ([0.0], ["20/18/15"], {}, "two reports or more"),
-        ([1.0, 0.0], ["20/18/15"] * 2, {}, "increase"),
+        ([1.0, 0.0], ["20/18/15"] * 2, {}, "each later than the one before"),
         ([0.0, 1.0], ["20/18/15"] * 3, {}, "one for each of 2"),
         ([0.0, 1.0], ["20/18"] * 2, {}, "two numbers"),
         ([0.0, 1.0], [[1.0, 2.0]] * 2, {}, "3 counts each"),
