@@ -314,7 +314,10 @@ def test_a_forgotten_unit_is_an_error_before_any_answer():
 @pytest.mark.parametrize("command", ["laws", "--version", "solve --help", f"solve {DUSTY} --json"])
 def test_an_answer_that_cannot_be_written_is_an_error(command, where):
     words = f"{sys.executable} -m thirdbody {command} {where}"
-    result = subprocess.run(words, shell=True, capture_output=True, text=True, timeout=300)
+    buffered = {k: v for k, v in os.environ.items() if k != "PYTHONUNBUFFERED"}
+    result = subprocess.run(
+        words, shell=True, capture_output=True, text=True, timeout=300, env=buffered
+    )
     assert result.returncode == 2
     if "2>" not in where:
         told = result.stderr

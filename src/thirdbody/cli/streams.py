@@ -166,6 +166,10 @@ def without_output(error: OSError) -> int:
         return BROKEN_PIPE  # whoever read the output has gone: leave quietly
     where = error.filename or "the output"
     complain([f"cannot read or write {where}: {error.strerror or error}"])
+    try:
+        sys.stderr.flush()
+    except OSError:  # nor is there room for what is said: at the last flush neither
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
     return BAD_INPUT
 
 
