@@ -313,7 +313,7 @@ def propagate_life(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
         samples=samples or (SAMPLES if contact is None else SAMPLES_OF_CONTACT),
         swings_of=COUNT, progress=progress, keep=keep,
-        inputs={"oil": circuit.to_dict(), "contact": _plain(contact or {})},
+        inputs={"oil": circuit.to_dict(), "contact": _numbers_of(contact or {})},
     )  # fmt: skip
 
 
@@ -379,11 +379,11 @@ def propagate_dry(
     return _bands(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
         samples=samples or SAMPLES_OF_CONTACT, swings_of=WEAR, progress=progress, keep=keep,
-        inputs={"contact": contact.to_dict(), "conditions": _plain(conditions)},
+        inputs={"contact": contact.to_dict(), "conditions": _numbers_of(conditions)},
     )  # fmt: skip
 
 
-def _plain(given: Mapping[str, Any]) -> dict[str, Any]:
+def _numbers_of(given: Mapping[str, Any]) -> dict[str, Any]:
     """Arguments as what tells one set of them from another."""
     return {k: v.to_dict() if hasattr(v, "to_dict") else repr(v) for k, v in given.items()}
 
