@@ -1,11 +1,16 @@
 """Connectors on dust: against Poisson limits, the law of one kind of dust, and drawn particles."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.study.connector import AskedConnector
+from thirdbody.study.run_connector import run_connector
+from thirdbody.systems import connector
+from thirdbody.systems.compound_sums import expand_sum
 from thirdbody.systems.connector import Connector, overlap
 from thirdbody.systems.contact_probability import ContactProbability
 
@@ -226,3 +231,79 @@ def test_a_curve_over_the_force_is_that_of_single_forces():
     forces = np.geomspace(0.3, 6.0, 6)
     singles = [many.failure(float(force)) for force in forces]
     np.testing.assert_allclose(many.failures(forces), singles, atol=1e-3)
+
+
+def test_a_curve_never_rises_with_the_force():
+    """Many fine particles: from always open over a steep fall to never, far below the last digit."""
+    fine = tb.TruncatedGaussian(mean=300e-9, std=24e-9, n=3)
+    many = plug(dust(377, fine))
+    failures = many.failures(np.geomspace(0.005, 2.0, 31))
+    assert np.all(np.diff(failures) <= 1e-12)
+    assert failures[0] == 1.0
+    assert failures[-1] == 0.0
+    falls = (failures > 1e-3) & (failures < 1 - 1e-3)
+    assert falls.any()
+
+
+@pytest.mark.parametrize("number", [0.02, 5.0, 100.0])
+@pytest.mark.parametrize("height", [0.0, 3e-6])
+def test_what_is_certain_is_what_the_sums_say(monkeypatch, number, height):
+    """Chernoff's bounds against the sums, which without them are computed under every load."""
+    kinds = plug(dust(number, tb.LogNormal(median=8e-6, gsd=1.4)))._kinds()
+    mean = sum(float(kind.each @ (kind.most * kind.x**2)) for kind in kinds)
+    loads = np.geomspace(1e-3 * mean, 300 * max(mean, kinds[0].most * (8e-6) ** 2), 40)
+    more, less = connector._certain(kinds, loads, height)
+    assert less.any()
+    assert more.any() == (number * (1 - height / 9.4e-6) > 42)  # e^-N is 1e-18
+    assert not (more | less).all()
+    monkeypatch.setattr(connector, "_certain", lambda kinds, w, h: (w < 0, w < 0))
+    sums = np.array([connector._open(kinds, loads[[i]], height) for i in range(len(loads))])
+    np.testing.assert_allclose(sums[more], 1.0, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(sums[less], 0.0, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("height", [0.0, 4e-6, 9e-6])
+def test_particles_below_a_load_are_those_that_the_law_says(height):
+    """Against the share of an even spread of places whose single particle carries no more."""
+    sizes = tb.LogNormal(median=8e-6, gsd=1.3)
+    (kind,) = plug(dust(2.0, sizes))._kinds()
+    loads = kind.most * (8e-6) ** 2 * np.array([0.0, 1e-3, 0.03, 0.2, 0.7, 1.0, 1.6, 4.0])
+    places = (np.arange(4000) + 0.5) / 4000  # r²/(2 R_s x), of all that touch at height 0
+    expected = np.zeros(len(loads))
+    for x, each in zip(kind.x, kind.each, strict=True):
+        gap = height + places * x
+        force = LAW.single(np.full_like(gap, x), gap, surfaces=PAIR, particle=kind.material)
+        lies = gap < x
+        expected += each * np.mean((force["force"][:, None] <= loads) & lies[:, None], axis=0)
+    np.testing.assert_allclose(kind.number_below(loads, height), expected, rtol=0, atol=1.5e-3)
+
+
+def test_the_masses_of_a_sum_are_those_of_exact_fractions():
+    """Panjer's recursion in whole numbers, for masses that end early and with zeros among them."""
+    mass = [Fraction(k, 32) for k in (3, 0, 7, 11, 0, 0, 5, 0, 0, 0, 0, 0)]
+    number = Fraction(7, 2)
+    exact = [Fraction(1)]
+    for j in range(1, len(mass)):
+        terms = (number * i * mass[i] * exact[j - i] for i in range(1, j + 1))
+        exact.append(sum(terms, Fraction(0)) / j)
+    weight = np.array([float(number * i * each) for i, each in enumerate(mass)])
+    g = np.zeros(len(mass))
+    g[0] = 1.0
+    assert expand_sum(weight, 6, 1e200, g) == 0
+    np.testing.assert_allclose(g, [float(each) for each in exact], rtol=1e-14)
+    scaled = np.zeros(len(mass))
+    scaled[0] = 1.0
+    times = expand_sum(weight, 6, 0.5, scaled)
+    assert times > 0
+    np.testing.assert_allclose(scaled * 0.5**times, g, rtol=1e-14)
+
+
+def test_what_would_be_no_connector_is_no_what_if():
+    """Twice the dust would cover more than there is: the answer comes without that."""
+    crowded = dust(1.0, tb.Monodisperse(mean=10e-6)).replace(areal_density=9e9)
+    found = run_connector(AskedConnector(title="", connector=plug(crowded), forces=np.array([0.5])))
+    assert found.failure_of_all[2] == pytest.approx(1.0, abs=1e-12)
+    whats = {each.what for each in found.what_ifs}
+    assert whats == {"the hardness of the contacts"}
+    thin = AskedConnector(title="", connector=plug(dust(1.0)), forces=np.array([0.5]))
+    assert len(run_connector(thin).what_ifs) == 3

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from ..errors import Note
+from ..errors import InvalidValue, Note
 from ..quantities.plain_data import plain_data
 from ..quantities.record import column
 from ..quantities.say import number, percent
@@ -132,10 +133,8 @@ def run_connector(asked: AskedConnector) -> ConnectorResult:
 
 
 def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
-    """Effect of each uncertain input, varied alone."""
-
-    def failures(*plugs: Connector) -> tuple[float, ...]:
-        return tuple(each.failure_of_all(force) for each in plugs)
+    """Effect of each uncertain input, varied alone; without those that would be no connector."""
+    pair = plug.surfaces
 
     def with_dust(number: float = 1.0, size: float = 1.0) -> Connector:
         return plug.replace(
@@ -148,7 +147,6 @@ def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
         )
 
     def with_hardness(factor: float) -> Connector:
-        pair = plug.surfaces
         return plug.replace(
             surfaces=pair.replace(
                 first=pair.first.replace(H=pair.first.H * factor),
@@ -156,36 +154,45 @@ def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
             )
         )
 
-    out = [
-        WhatIf(
-            what="the number of particles",
-            between="half and twice as many",
-            action="count the dust on your contacts, e.g. from a tape lift",
-            values=failures(with_dust(0.5), with_dust(2.0)),
+    ends: list[tuple[dict[str, str], tuple[Callable[[], Connector], ...]]] = [
+        (
+            {
+                "what": "the number of particles",
+                "between": "half and twice as many",
+                "action": "count the dust on your contacts, e.g. from a tape lift",
+            },
+            (lambda: with_dust(0.5), lambda: with_dust(2.0)),
         ),
-        WhatIf(
-            what="the size of the particles",
-            between=f"{percent(1 - 1 / SIZES)} smaller and {percent(SIZES - 1)} larger",
-            action="measure the sizes of the dust on your contacts, above all the largest",
-            values=failures(with_dust(size=1 / SIZES), with_dust(size=SIZES)),
+        (
+            {
+                "what": "the size of the particles",
+                "between": f"{percent(1 - 1 / SIZES)} smaller and {percent(SIZES - 1)} larger",
+                "action": "measure the sizes of the dust on your contacts, above all the largest",
+            },
+            (lambda: with_dust(size=1 / SIZES), lambda: with_dust(size=SIZES)),
         ),
-        WhatIf(
-            what="the hardness of the contacts",
-            between=f"{percent(1 - 1 / HARDNESS)} softer and {percent(HARDNESS - 1)} harder",
-            action="measure the hardness of the plated contact itself",
-            values=failures(with_hardness(1 / HARDNESS), with_hardness(HARDNESS)),
+        (
+            {
+                "what": "the hardness of the contacts",
+                "between": f"{percent(1 - 1 / HARDNESS)} softer and {percent(HARDNESS - 1)} harder",
+                "action": "measure the hardness of the plated contact itself",
+            },
+            (lambda: with_hardness(1 / HARDNESS), lambda: with_hardness(HARDNESS)),
         ),
     ]
     if plug.wipe > 0 and plug.pushed_aside is None:
-        out.append(
-            WhatIf(
-                what="what the wipe pushes aside",
-                between="all of the dust before it and none, as taken",
-                action="give connector.pushed_aside from a test with and without wipe",
-                code="wipe",
-                values=failures(plug.replace(pushed_aside=1.0), plug),
-            )
-        )
+        wipe = {
+            "what": "what the wipe pushes aside",
+            "between": "all of the dust before it and none, as taken",
+            "action": "give connector.pushed_aside from a test with and without wipe",
+            "code": "wipe",
+        }
+        ends.append((wipe, (lambda: plug.replace(pushed_aside=1.0), lambda: plug)))
+    out = []
+    for words, plugs in ends:
+        with contextlib.suppress(InvalidValue):  # twice the dust may be more than there is room for
+            values = tuple(each().failure_of_all(force) for each in plugs)
+            out.append(WhatIf(**words, values=values))
     return tuple(sorted(out, key=lambda each: -each.ratio))
 
 

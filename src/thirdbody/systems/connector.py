@@ -53,13 +53,17 @@ CLASSES = 300
 """Classes of size, equally wide in ln x."""
 SHARED = 20.0
 """Loads of a curve within this factor share their steps."""
-APART = 1e-3
-"""Bounds farther apart than this are computed anew, with the steps of one load."""
+APART = 1e-3, 0.05
+"""Bounds farther apart than this, or than this part, are computed anew, with steps of their own."""
+NEVER = math.log(1e-18)
+"""What is less likely than this does not show in a number near 1."""
 SQUEEZES = 4096
 """Squeezes at which the load of a particle is tabled."""
 HEIGHTS, COARSE = 40, 256
 """Heights at which contacts stand on insulating dust, where other dust conducts, and steps
 of the load there."""
+ENDS, TILTS = 400, 120
+"""Loads and tilts at which it is looked whether an answer is certain."""
 NONE = 1e-15
 """Classes with less than this part of all particles are left out."""
 
@@ -243,13 +247,18 @@ class Connector(Value):
         every = np.asarray(loads, float)
         if self.conducting or any(dust.conducts for dust in self.particles):
             return np.array([self.failure(float(load)) for load in every])
-        out, left = np.empty(len(every)), every.copy()
         kinds = self._kinds(conduct=False)
+        out, left = np.empty(len(every)), every.copy()
+        if every.size:
+            more, less = _certain(kinds, every, 0.0)
+            out[more], out[less] = 1.0, 0.0
+            left[more | less] = -1.0
         while np.any(left >= 0):
             here = np.flatnonzero(left >= left.max() / SHARED)
             low, high = _open(kinds, left[here], 0.0)
             out[here] = 0.5 * (low + high)
-            for i in here[high - low > APART]:  # the steps of the largest load are too long
+            apart = (high - low > APART[0]) | (high - low > APART[1] * high)
+            for i in here[apart & (left[here] < left[here].max())]:  # the steps are too long
                 out[i] = np.mean(_open(kinds, left[[i]], 0.0))
             left[here] = -1.0
         return out
@@ -345,14 +354,22 @@ class _Kind:
 
     def number_below(self, loads: Array, height: float) -> Array:
         """Number of particles that carry at most these loads [N]."""
+        from .compound_sums import add_numbers_below
+
         eps, load = self.curve
         reach = 1 - height / self.x
+        sure = loads * (1 + SURE)
+        out = np.zeros(len(loads))
+        if not self.aside:
+            add_numbers_below(sure, self.x, self.each, reach, eps, load, out)
+            return out
         all_ = self.within(reach)
-        out = np.empty(len(loads))
-        for i in range(0, len(loads), 256):
-            some = loads[i : i + 256, None] / self.x**2
-            squeeze = np.interp(some * (1 + SURE), load, eps, right=1.0)
-            out[i : i + 256] = (all_ - self.within(reach - squeeze)).sum(axis=1)
+        few = int(np.searchsorted(sure, load[-1] * self.x.max() ** 2))  # beyond are all of them
+        out[few:] = (all_ - self.within(reach - 1)).sum()
+        for i in range(0, few, 256):
+            here = slice(i, min(i + 256, few))
+            squeeze = np.interp(sure[here, None] / self.x**2, load, eps, right=1.0)
+            out[here] = (all_ - self.within(reach - squeeze)).sum(axis=1)
         return out
 
 
@@ -381,6 +398,10 @@ def _open(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array
     if not number > 0 or top == 0:
         none = np.full(len(loads), -math.expm1(-number))
         return none, none
+    more, less = _certain(kinds, loads, height)
+    if np.all(more | less):
+        certain = np.where(more, 1.0, 0.0)
+        return certain, certain
     step = top / min(max(CELLS if height == 0 else COARSE, PER_PARTICLE * number), MOST_CELLS)
     if len(kinds) == 1 and len(kinds[0].x) == 1 and height == 0:
         jump = kinds[0].most * float(kinds[0].x[0]) ** 2
@@ -394,6 +415,32 @@ def _open(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array
         mass = np.diff(below, prepend=0.0) / number
         out.append(np.maximum(1 - compound(number, mass)[at], 0.0))
     return out[1], out[0]
+
+
+def _certain(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array]:
+    r"""Under which loads these particles carry more, and under which less, as good as always.
+
+    By Chernoff's bounds, for every :math:`\theta > 0`,
+
+    .. math:: P(S \le W) \le e^{\theta W}\,\langle e^{-\theta S}\rangle, \qquad
+              P(S > W) \le e^{-\theta W}\,\langle e^{\theta S}\rangle
+
+    with the load of each particle rounded to the safe side.
+    """
+    known = [kind for kind in kinds if kind.number(height) > 0]
+    if not known:
+        return loads < 0, loads >= 0
+    most = max(kind.most * float(kind.x.max()) ** 2 for kind in known)
+    ends = most * np.geomspace(1e-7, 1, ENDS)
+    count = np.diff(np.sum([kind.number_below(ends, height) for kind in known], axis=0), prepend=0)
+    low = np.geomspace(1e-3, 1e8, TILTS) / most
+    high = np.geomspace(1e-3, 500, TILTS) / most
+    begins = np.array([0.0, *ends[:-1]])
+    below = np.expm1(-low[:, None] * begins) @ count
+    above = np.expm1(high[:, None] * ends) @ count
+    more = np.min(low * loads[:, None] + below, axis=1) < NEVER
+    less = np.min(above - high * loads[:, None], axis=1) < NEVER
+    return more, less
 
 
 def overlap(u: ArrayLike, k: ArrayLike) -> Array:

@@ -233,13 +233,13 @@ class ContactProbability(Value):
 
 def compound(N: float, mass: Array) -> Array:
     """P(S ≤ j) of a Poisson sum S over places 0, 1, 2, … of these masses, at every place j."""
+    from .compound_sums import expand_sum
+
     weight = N * np.arange(len(mass)) * mass
+    known = np.flatnonzero(weight)
     g = np.zeros(len(mass))  # probability of each place, over exp(log_scale)
-    g[0], log_scale = 1.0, -N * (1 - mass[0])
-    for j in range(1, len(mass)):
-        g[j] = weight[1 : j + 1] @ g[:j][::-1] / j
-        if g[j] > LARGE:
-            g /= LARGE
-            log_scale += math.log(LARGE)
+    g[0] = 1.0
+    scaled = expand_sum(weight, int(known[-1]) if len(known) else 0, LARGE, g)
+    log_scale = scaled * math.log(LARGE) - N * (1 - mass[0])
     with np.errstate(divide="ignore"):
         return np.minimum(np.exp(np.minimum(np.log(np.cumsum(g)) + log_scale, 0.0)), 1.0)
