@@ -3,6 +3,7 @@
 python benchmarks/page.py
 python benchmarks/page.py --against OTHER/CHECKOUT
 python benchmarks/page.py --every                  every slider on every tab
+python benchmarks/page.py --every --tab Film --tab Map
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import argparse
 import statistics
 import sys
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -77,13 +79,15 @@ FIRST_CHANGE = """() => {
 FEW = 8
 
 
-def first_changes(browser: Any, address: str) -> None:
-    """A row a tab: of every slider the median and the longest time to the first new picture."""
+def first_changes(browser: Any, address: str, tabs: Collection[str] = ()) -> None:
+    """A row a slider of these tabs, or of all: how long until the first new picture."""
     page = browser.new_page(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
     print("| tab | slider | median ms | longest ms |\n|---|---|---|---|")
     page.goto(address)
     page.wait_for_selector('[data-figure="section"] svg')
     for name in page.get_by_role("tab").all_inner_texts():
+        if tabs and name.strip() not in tabs:
+            continue
         page.get_by_role("tab", name=name.strip(), exact=True).click()
         page.wait_for_timeout(8000)  # what follows a preview is there
         places = page.evaluate(
@@ -131,6 +135,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--against", type=Path, help="another checkout, measured in the same run")
     parser.add_argument("--every", action="store_true", help="every slider on every tab")
+    parser.add_argument("--tab", action="append", default=[], help="of every slider on this tab")
     asked = parser.parse_args()
     other = asked.against
     from playwright.sync_api import sync_playwright
@@ -143,7 +148,7 @@ def main() -> None:
         if asked.every:
             server, address = served()
             try:
-                first_changes(browser, address)
+                first_changes(browser, address, asked.tab)
             finally:
                 ended(server)
             return

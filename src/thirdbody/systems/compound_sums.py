@@ -63,8 +63,14 @@ def add_numbers_below(loads, x, each, reach, eps, load, out):
         k = 0
         for j in range(len(loads)):
             p = loads[j] / size
-            while k < top and load[k + 1] <= p:
-                k += 1
+            step = 1
+            while k + step <= top and load[k + step] <= p:  # the next load may be near, or far
+                k += step
+                step *= 2
+            while step > 1:
+                step //= 2
+                if k + step <= top and load[k + step] <= p:
+                    k += step
             if k == top:
                 whole[j] += each[i] * reach[i]
                 break

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from ..laws.base import AbstractParticleLaw
 
     Array = NDArray[np.float64]
+    Curve = tuple[Array, Array]
 
 __all__ = ["Connector"]
 
@@ -62,7 +63,7 @@ SQUEEZES = 4096
 HEIGHTS, COARSE = 40, 256
 """Heights at which contacts stand on insulating dust, where other dust conducts, and steps
 of the load there."""
-ENDS, TILTS = 400, 120
+ENDS, TILTS = 250, 60
 """Loads and tilts at which it is looked whether an answer is certain."""
 NONE = 1e-15
 """Classes with less than this part of all particles are left out."""
@@ -316,8 +317,8 @@ class _Kind:
     def __init__(self, plug: Connector, dust: Particles, name: str) -> None:
         self.name, self.material = name, dust.material
         law: Any = (dust.law or plug.law).of_shape(dust.shape)  # type: ignore[attr-defined]
-        self.one = law.one(surfaces=plug.surfaces, particle=dust.material)
-        self.x, weight = _classes(dust)
+        self.one, self.curve = _loads_of_one(law, plug.surfaces, dust.material)
+        self.x, weight = _classes(dust.diameter)
         self.each = 2 * math.pi * plug.radius * dust.areal_density * weight
         """In the way before the wipe, at touch."""
         self.k = plug.wipe / np.sqrt(2 * plug.radius * self.x)
@@ -328,13 +329,6 @@ class _Kind:
     def mean(self) -> float:
         """Diameter of the mean particle in the way [m]."""
         return float(self.each @ self.x / self.each.sum())
-
-    @cached_property
-    def curve(self) -> tuple[Array, Array]:
-        """Squeezes ε, and the load over x² there [Pa], which never falls."""
-        kinks = np.asarray(self.one.kinks)
-        eps = np.unique([*np.linspace(0, 1, SQUEEZES + 1), *kinks[kinks < 1]])
-        return eps, np.maximum.accumulate(np.asarray(self.one.at(eps).load, float))
 
     @property
     def most(self) -> float:
@@ -373,10 +367,20 @@ class _Kind:
         return out
 
 
-def _classes(dust: Particles) -> tuple[Array, Array]:
+@lru_cache(maxsize=64)
+def _loads_of_one(law: Any, surfaces: MaterialPair, material: Any) -> tuple[Any, Curve]:
+    """What one particle does, and its curve: squeezes ε, and load over x² [Pa], never falling."""
+    one = law.one(surfaces=surfaces, particle=material)
+    kinks = np.asarray(one.kinks)
+    eps = np.unique([*np.linspace(0, 1, SQUEEZES + 1), *kinks[kinks < 1]])
+    return one, (eps, np.maximum.accumulate(np.asarray(one.at(eps).load, float)))
+
+
+@lru_cache(maxsize=64)
+def _classes(diameter: Any) -> tuple[Array, Array]:
     """Diameters, and what each adds to the mean diameter."""
     x, weight = [], []
-    for share, each in dust.diameter.components:
+    for share, each in diameter.components:
         if isinstance(each, Monodisperse):
             x.append(np.array([each.mean]))
             weight.append(np.array([share * each.mean]))
@@ -431,7 +435,7 @@ def _certain(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Ar
     if not known:
         return loads < 0, loads >= 0
     most = max(kind.most * float(kind.x.max()) ** 2 for kind in known)
-    ends = most * np.geomspace(1e-7, 1, ENDS)
+    ends = most * np.geomspace(1e-5, 1, ENDS)
     count = np.diff(np.sum([kind.number_below(ends, height) for kind in known], axis=0), prepend=0)
     low = np.geomspace(1e-3, 1e8, TILTS) / most
     high = np.geomspace(1e-3, 500, TILTS) / most
