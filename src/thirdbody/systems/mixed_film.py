@@ -30,6 +30,7 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
 from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, note_of, tell_of_range
+from ..numerics.roots import bracketed_root
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
 from ..quantities.record import StateRecord, column, declared_columns
@@ -48,8 +49,10 @@ __all__ = ["MixedFilm", "height_of", "mean_gap", "mixed_film"]
 BOUNDARY, MIXED, FULL = "boundary", "mixed", "full film"
 FEW, MOST = 0.01, 0.99
 """Default shares of the solids below which a film is full, and above which it is boundary."""
-STEPS = 70
-"""Halvings of the bracket of ln γ."""
+NEAR = 4e-16
+"""Relative width of a bracket that holds two neighbours among numbers at the most."""
+LEAST = 1e-18
+"""Least ln γ: below, the solids carry nothing."""
 LONGEST = 96.0
 """Largest ln γ searched: beyond, the film carries nothing."""
 DEEPEST = -4.0
@@ -289,7 +292,7 @@ def mixed_film(
 
     Notes
     -----
-    The root is unique where solids carry less at larger gaps; ln γ is found to 1e-16 absolute.
+    The root is unique where solids carry less at larger gaps; ln γ is found to 4e-16 of it.
 
     References
     ----------
@@ -513,8 +516,8 @@ def _check(
 
 
 def _root(excess: Callable[[Array], Array], count: int, speed: Array) -> Array:
-    """ln γ of every state, by halving a bracket whose upper end is doubled until it holds."""
-    low, high = np.zeros(count), np.full(count, 12.0)
+    """ln γ of every state, inside a bracket whose upper end is doubled until it holds."""
+    low, high = np.full(count, LEAST), np.full(count, 12.0)
     while np.any(short := excess(high) >= 0):
         if np.any(high[short] >= LONGEST):
             slow = float(speed[short].min())
@@ -524,13 +527,23 @@ def _root(excess: Callable[[Array], Array], count: int, speed: Array) -> Array:
                 "take a film formula of every regime"
             )
         low, high = np.where(short, high, low), np.where(short, 2 * high, high)
-    for _ in range(STEPS):
-        middle = 0.5 * (low + high)
-        above = excess(middle) >= 0
-        low, high = np.where(above, middle, low), np.where(above, high, middle)
-        if np.all(high - low <= 1e-16 * (1 + high)):
-            break
-    return 0.5 * (low + high)
+    return zeros_of_falling(excess, low, high)
+
+
+def zeros_of_falling(excess: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Zeros of functions that fall, known of all at once; the nearer end where there is none."""
+    x = low.copy()
+
+    def of_some(value: Array, which: Array) -> Array:
+        places = which.astype(int)
+        x[places] = value
+        return excess(x)[places]
+
+    root = bracketed_root(of_some, low, high, (np.arange(len(low), dtype=float),), xrtol=NEAR)
+    beyond = np.isnan(root)
+    if np.any(beyond):
+        root[beyond] = np.where(excess(low) >= 0, high, low)[beyond]
+    return root
 
 
 def _ranges(bodies: Lubricated, u: Array, ratio: Array) -> list[str]:

@@ -17,16 +17,14 @@ from .mixed_film import (
     COLUMNS,
     FEW,
     MOST,
-    STEPS,
     _loads_and_speeds,
     lubricated,
     mean_gap,
     mixed_film,
+    zeros_of_falling,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import xarray
     from numpy.typing import ArrayLike, NDArray
 
@@ -216,7 +214,7 @@ def regime_speeds(
     shares = np.array([most, few])
     known = (shares > 0) & (shares < 1) & (share_at(np.full(2, -40.0)) > shares)
     # beyond e^40 sigma there is no contact
-    t = _falling(lambda t: share_at(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
+    t = zeros_of_falling(lambda t: share_at(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
     gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma=sigma)
     gamma = 1 / (1 - np.where(known, shares, 0.5))
     ends = np.log([[SLOWEST] * 2, [FASTEST] * 2])
@@ -225,14 +223,5 @@ def regime_speeds(
         return gap / bodies.thickness(np.exp(v), gamma) - 1
 
     known &= (short(ends[0]) > 0) & (short(ends[1]) < 0)
-    speeds = np.exp(_falling(short, *ends))
+    speeds = np.exp(zeros_of_falling(short, *ends))
     return RegimeSpeeds(*(float(u) if yes else None for u, yes in zip(speeds, known, strict=True)))
-
-
-def _falling(excess: Callable[[Array], Array], low: Array, high: Array) -> Array:
-    """Zeros of falling functions by halving brackets."""
-    for _ in range(STEPS):
-        middle = 0.5 * (low + high)
-        above = excess(middle) >= 0
-        low, high = np.where(above, middle, low), np.where(above, high, middle)
-    return 0.5 * (low + high)
