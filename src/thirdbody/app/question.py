@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 from nicegui import ui
 
 from .fields import Field, fields_of
-from .figures import Figure, empty
+from .figures import Figure
 from .inputs import Inputs
 from .state import Answer, State
 from .text import with_micro
-from .widgets import facts, set_attributes, table
+from .widgets import Facts, Plot, set_attributes, table
 
 __all__ = ["Question", "QuestionTab", "Shown"]
 
@@ -78,10 +78,8 @@ class QuestionTab:
         with ui.element("div").classes("figures w-full"):
             self.beside = ui.column().classes("w-full gap-1")
             with self.beside:
-                self.facts = ui.row().classes("facts w-full")
-                self.plot = set_attributes(
-                    ui.plotly(empty(360)).classes("w-full"), {"data-figure": name}
-                )
+                self.facts = Facts(kind=f"{name}: ")
+                self.plot = Plot(name)
                 self.rows = ui.column().classes("w-full")
                 self.notes = ui.column().classes("w-full gap-0")
             with ui.column().classes("w-full"):
@@ -130,19 +128,16 @@ class QuestionTab:
             return
         shown: Shown = await self.state.ask(self.question.contents)
         self.answer = answer
-        self._show(shown)
+        await self._show(shown)
 
-    def _show(self, shown: Shown) -> None:
+    async def _show(self, shown: Shown) -> None:
         name = self.question.table
         self.words.clear()
         with self.words:
             for i, text in enumerate(shown.answer):
                 said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
                 set_attributes(said, {"data-fact": f"{name}: answer {i}"})
-        self.facts.clear()
-        with self.facts:
-            facts(shown.facts, f"{name}: ")
-        self.plot.update_figure(shown.figure)
+        self.facts.show(shown.facts)
         self.rows.clear()
         with self.rows:
             heads = {f"c{i}": head for i, head in enumerate(shown.heads)}
@@ -154,3 +149,4 @@ class QuestionTab:
                     ui.label(with_micro(text)).classes("hint")
         noted = [text.removeprefix(NOTE) for text in shown.notes if text.startswith(NOTE)]
         self.state.note(self.tab, noted)
+        await self.plot.show(shown.figure)

@@ -59,10 +59,15 @@ class Facts:
     """Named numbers side by side that change in place."""
 
     def __init__(
-        self, abouts: Mapping[str, str] = MappingProxyType({}), said: Iterable[str] = ()
+        self,
+        abouts: Mapping[str, str] = MappingProxyType({}),
+        said: Iterable[str] = (),
+        *,
+        kind: str = "",
     ) -> None:
-        self.abouts, self.said = abouts, tuple(said)
-        """What names mean, and names that a sentence above says to those who see it."""
+        self.abouts, self.said, self.kind = abouts, tuple(said), kind
+        """What names mean, names that a sentence above says to those who see it, and what they are
+        of."""
         self.row = ui.row().classes("facts w-full")
         self.labels: dict[str, ui.label] = {}
 
@@ -76,7 +81,8 @@ class Facts:
                 for name in told:
                     with ui.column().classes("fact gap-0") as both:
                         ui.label(name).classes("hint")
-                        label = set_attributes(ui.label().classes("value"), {"data-fact": name})
+                        label = ui.label().classes("value")
+                        set_attributes(label, {"data-fact": f"{self.kind}{name}"})
                     self.labels[name] = label
                     if name in self.said:
                         both.classes("said")

@@ -242,8 +242,7 @@ def mode_map(
     *, study: dict[str, object], folder: str, sizes: list[float], loads: list[float], report: Report
 ) -> ModeMap:
     """Contact mode over x_a/σ and F*: index into p-s, hybrid, s-s (−1: none) and load share."""
-    import thirdbody as tb
-
+    from ..equilibrium.solve import solve_untold
     from ..equilibrium.words import MODES
     from ..errors import InvalidValue, ThirdBodyError
 
@@ -259,7 +258,7 @@ def mode_map(
         try:
             sizes_there = dust.diameter.scaled(size * contact.roughness.sigma / mean)
             made = contact.replace(particles=dust.replace(diameter=sizes_there))
-            state = tb.solve(made, F_star=np.array(loads))
+            state = solve_untold(made, "F_star", np.array(loads))
             row = [names.index(m) if m in names else -1 for m in np.asarray(state.mode).tolist()]
             part = np.asarray(state.particle_load_share).tolist()
         except (InvalidValue, ThirdBodyError):

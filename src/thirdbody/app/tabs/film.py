@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import dataclasses
 from collections.abc import Awaitable, Callable
 from typing import NamedTuple
@@ -24,10 +25,10 @@ from ..figures import GREY, Figure, band, figure, line, log_title, mark
 from ..inputs import Inputs
 from ..sliders import Slider
 from ..solver import apart
+from ..soon import Soon
 from ..state import Answer, State, look, measured
 from ..text import with_micro
-from ..widgets import facts as named_values
-from ..widgets import plot_place, set_attributes
+from ..widgets import Facts, Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 
 __all__ = ["START", "TITLE", "build", "film_figures", "solved"]
@@ -177,7 +178,8 @@ class Film:
         """The speed that is shown."""
         self.there: object = None
         """Which entries there are."""
-        self.plots: dict[str, ui.plotly] = {}
+        self.plots: dict[str, Plot] = {}
+        self.soon = Soon(self._show)
         self.wrong = ui.label().classes("problem").props('role=alert data-said="film"')
         self.words = ui.column().classes("w-full gap-1")
         self.dents = ui.column().classes("w-full gap-1")
@@ -207,31 +209,31 @@ class Film:
         self.slider = Slider(min=0, max=MOST, step=1, value=0)
         self.slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
         self.slider.on_value_change(self._moved)
-        self.facts = ui.row().classes("facts w-full")
-        for name in CURVES:
-            self.plots[name] = plot_place(name)
+        self.facts = Facts(kind="film: ")
+        self.plots = {name: Plot(name) for name in CURVES}
         with ui.expansion("More about the film").classes("w-full").props("dense"):
             self.more = ui.column().classes("w-full gap-1")
 
-    def _show(self, found: FilmResult) -> None:
+    async def _show(self) -> None:
         """Facts and figures at the speed of the slider."""
-        for name, made in film_figures(found, self.i).items():
-            self.plots[name].update_figure(made)
-        known = bool(np.isfinite(found.states["mu"][self.i]))
-        self.plots["film friction"].set_visibility(known)
-        said = f"speed {value_of(found.states['speed'][self.i], 'm/s')}"
+        found, i = self.found, self.i
+        if found is None:
+            return
+        said = f"speed {value_of(found.states['speed'][i], 'm/s')}"
         self.said.set_text(said)
         self.slider.speak(said)
-        self.facts.clear()
-        with self.facts:
-            every = point(found, self.i).items()
-            named_values(((name, said) for name, said in every if said != UNKNOWN), "film: ")
+        every = point(found, i).items()
+        self.facts.show((name, said) for name, said in every if said != UNKNOWN)
+        known = bool(np.isfinite(found.states["mu"][i]))
+        self.plots["film friction"].widget.set_visibility(known)
+        made = film_figures(found, i)
+        await show_figures((plot, made[name]) for name, plot in self.plots.items())
 
     def _moved(self) -> None:
         i = int(self.slider.value or 0)
         if self.found is not None and i != self.i:
             self.i = i
-            self._show(self.found)
+            self.soon()
 
     async def draw(self) -> None:
         shape = _shape(self.state.get("film"))
@@ -251,8 +253,11 @@ class Film:
         self.i = self.i if kept else middle
         set_attributes(self.slider, {"max": len(found.states["speed"]) - 1})
         self.slider.set_value(self.i)
-        self._show(found)
-        await self._show_answer(answer, found)
+        drawing = asyncio.ensure_future(self._show())  # while the oil is asked for
+        try:
+            await self._show_answer(answer, found)
+        finally:
+            await drawing
 
     async def _with_film(self) -> Answer | None:
         """The answer of the study, or of the study with a film to begin with."""

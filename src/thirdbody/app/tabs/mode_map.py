@@ -13,7 +13,7 @@ from ...equilibrium.words import MODES, mode_of
 from ..figures import MODE_FILLS, Figure, Part, figure
 from ..sizing import size_of, with_size
 from ..state import Answer, State
-from ..widgets import plot_place
+from ..widgets import Plot
 from ..work import Asked, Work
 from ..worker import ModeMap
 
@@ -32,6 +32,8 @@ LITTLE = 3
 ABOUT = "Sizes are scaled as a whole, everything else stays. Every point is a solved state."
 
 
+HALF = 7
+"""Radius of the point that is the study, in pixels."""
 NM, MPA = 1e9, 1e-6
 """A map is drawn in these."""
 
@@ -85,10 +87,9 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
             "showlegend": True,
         },
     ]
-    if here is not None:
-        traces.append(_here(NM * here[0], MPA * here[1]))
     return figure(
         traces,
+        shapes=[] if here is None else [_here(NM * here[0], MPA * here[1])],
         x="mean particle size [nm]",
         y="nominal pressure [MPa]",
         title="Contact mode; a click goes there",
@@ -99,20 +100,21 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
 
 
 def _here(size: float, load: float) -> Part:
-    """The study as a point of the map."""
+    """The study as a point of the map: a shape moves without a new picture of the map."""
     return {
-        "type": "scatter",
-        "mode": "markers",
-        "x": [size],
-        "y": [load],
-        "marker": {
-            "size": 14,
-            "color": "#ffffff",
-            "line": {"color": "#000000", "width": 3},
-            "symbol": "circle",
-        },
+        "type": "circle",
+        "xsizemode": "pixel",
+        "ysizemode": "pixel",
+        "xanchor": size,
+        "yanchor": load,
+        "x0": -HALF,
+        "x1": HALF,
+        "y0": -HALF,
+        "y1": HALF,
+        "fillcolor": "#ffffff",
+        "line": {"color": "#000000", "width": 3},
         "name": "this study",
-        "hoverinfo": "skip",
+        "showlegend": True,
     }
 
 
@@ -193,25 +195,25 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         return None if state.answer is None else state.answer.contact
 
     work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=_little)
-    plot = plot_place("map", 520)
+    plot = Plot("map", 520)
     ui.label(ABOUT).classes("hint")
     only = ui.label().classes("hint").props('data-fact="map"')
 
     async def draw_tab() -> None:
         await work.update_preview(state)
-        plot.set_visibility(shown is not None or work.trying)
+        plot.widget.set_visibility(shown is not None or work.trying)
         await draw()
 
     async def draw() -> None:
         if shown is None or state.answer is None:
             return
-        plot.set_visibility(True)
+        plot.widget.set_visibility(True)
         place = await here()
         if not inside(shown, place):
             await work.again(state)  # a map contains its study
             place = None
         only.set_text(about_map(shown["mode"]))
-        plot.update_figure(map_figure(shown, place))
+        await plot.show(map_figure(shown, place))
 
     def clicked(event: GenericEventArguments) -> None:
         points = (event.args or {}).get("points") or []
@@ -223,7 +225,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         at = {"F_star": F_star, "pressure": F_star * contact.E_ss}.get(state.answer.load)
         state.replace(with_size(state.study, size), at=at)
 
-    plot.on("plotly_click", clicked)
+    plot.widget.on("plotly_click", clicked)
     return draw_tab
 
 
