@@ -121,6 +121,7 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
   .verdict.beside { position: absolute; right: 0; z-index: 2; }
   .verdict.beside + .q-tab-panels .headline:not(.second),
   .verdict.beside + .q-tab-panels .whole-contact { padding-right: 13.5rem; }
+  .headline-place { min-height: 3.4rem; }
   .tab-line { display: block; flex-basis: 100%; height: 0; }
   .tab-group:first-child, .tab-line + .tab-group { padding-left: 0; min-width: 5.4rem; }
 }

@@ -72,7 +72,7 @@ class QuestionTab:
         """Whether there were entries."""
         self.answer: Answer | None = None
         name = question.table
-        self.words = ui.column().classes("w-full gap-1")
+        self.words = ui.column().classes("w-full gap-1 headline-place")
         self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
         ui.label(question.about).classes("hint")
         with ui.element("div").classes("figures w-full"):

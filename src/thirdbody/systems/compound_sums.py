@@ -6,14 +6,21 @@ may change its order, so that every processor gives the same digits.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numba import njit
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 __all__ = ["add_numbers_below", "expand_sum"]
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
-def expand_sum(weight, last, large, g):
+def expand_sum(weight: Array, last: int, large: float, g: Array) -> int:
     r"""Masses of a compound Poisson sum, in the place of g; how often they were scaled down.
 
     .. math:: j\,g_j = \sum_{i=1}^{\min(j, K)} w_i\,g_{j-i}, \qquad w_i = N\,i\,m_i
@@ -48,7 +55,9 @@ def expand_sum(weight, last, large, g):
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
-def add_numbers_below(loads, x, each, reach, eps, load, out):
+def add_numbers_below(
+    loads: Array, x: Array, each: Array, reach: Array, eps: Array, load: Array, out: Array
+) -> None:
     """Add to out how many particles carry at most these loads [N], which rise.
 
     A particle of class i is squeezed by ε where ``load[k] = f/x²`` over ``eps[k]`` says so, and

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Curve = tuple[Array, Array]
+    Yes = NDArray[np.bool_]
 
 __all__ = ["Connector"]
 
@@ -421,7 +422,7 @@ def _open(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array
     return out[1], out[0]
 
 
-def _certain(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array]:
+def _certain(kinds: list[_Kind], loads: Array, height: float) -> tuple[Yes, Yes]:
     r"""Under which loads these particles carry more, and under which less, as good as always.
 
     By Chernoff's bounds, for every :math:`\theta > 0`,

@@ -179,10 +179,13 @@ class Film:
         self.there: object = None
         """Which entries there are."""
         self.plots: dict[str, Plot] = {}
+        self.spoken: tuple[FilmResult, list[str]] | None = None
+        """What the sentences are of."""
         self.soon = Soon(self._show)
         self.wrong = ui.label().classes("problem").props('role=alert data-said="film"')
-        self.words = ui.column().classes("w-full gap-1")
+        self.words = ui.column().classes("w-full gap-1 headline-place")
         self.dents = ui.column().classes("w-full gap-1")
+        self.dents.set_visibility(False)  # until there is an oil with particles
         with self.dents:
             self.oil_rows = ui.column().classes("w-full scroll-x")
             self.fine = ui.input("a filter: its β ratio at sizes").classes("w-full narrow")
@@ -242,8 +245,10 @@ class Film:
             self._renewed()
         self.inputs.show_mistakes()
         answer = await self._with_film()
-        for part in (self.words, self.dents, self.beside):
+        for part in (self.words, self.beside):
             part.set_visibility(answer is not None)
+        if answer is None:
+            self.dents.set_visibility(False)
         if answer is None or answer is self.answer:
             return
         before = self.found
@@ -253,6 +258,8 @@ class Film:
         self.i = self.i if kept else middle
         set_attributes(self.slider, {"max": len(found.states["speed"]) - 1})
         self.slider.set_value(self.i)
+        if not self.dents.visible:  # the oil had no particles, and hardly has now
+            self._say(found, [])
         drawing = asyncio.ensure_future(self._show())  # while the oil is asked for
         try:
             await self._show_answer(answer, found)
@@ -276,17 +283,31 @@ class Film:
 
     async def _show_answer(self, answer: Answer, found: FilmResult) -> None:
         """The answer in sentences: what the particles of the oil do, then the film."""
+        wrong = ""
         try:
             oil = await apart(oil_of, answer, str(self.fine.value or ""))
         except ThirdBodyError as error:
-            oil = None
-            self.wrong.set_text("; ".join(getattr(error, "problems", None) or [str(error)]))
+            oil, wrong = None, "; ".join(getattr(error, "problems", None) or [str(error)])
+            self.wrong.set_text(wrong)
         if answer is not self.answer:
             return
-        said = oil.sentences if oil is not None else []
-        self.dents.set_visibility(oil is not None)
+        # a filter with a mistake stays where it can be mended
+        self.dents.set_visibility(oil is not None or bool(self.fine.value and wrong))
         self.state.note("film", found.run_warnings)
-        more = summary(found)
+        self._say(found, [] if oil is None else oil.sentences)
+        self.oil_rows.clear()
+        if oil is not None:
+            with self.oil_rows:
+                heads = {f"c{i}": head for i, head in enumerate(oil.heads)}
+                rows = [dict(zip(heads, row, strict=True)) for row in oil.rows]
+                shown_table("oil", heads, rows)
+
+    def _say(self, found: FilmResult, sentences: list[str]) -> None:
+        """The answer: what is said of the oil, and of the film the rest; else of the film."""
+        if self.spoken == (found, sentences):
+            return
+        self.spoken = found, sentences
+        said, more = sentences, summary(found)
         if not said:
             said, more = more[:1], more[1:]
         self.words.clear()
@@ -300,12 +321,6 @@ class Film:
         with self.more:
             for text in more:
                 ui.label(with_micro(text)).classes("hint")
-        self.oil_rows.clear()
-        if oil is not None:
-            with self.oil_rows:
-                heads = {f"c{i}": head for i, head in enumerate(oil.heads)}
-                rows = [dict(zip(heads, row, strict=True)) for row in oil.rows]
-                shown_table("oil", heads, rows)
 
     async def _filtered(self) -> None:
         if self.answer is not None and self.found is not None:
