@@ -62,9 +62,12 @@ def answer(found: ConnectorResult) -> list[str]:
             float(c[i]) for c in (found.force, found.failure, found.failure_of_all)
         )
         what = "connector" if many else "contact"
-        said = f"Under {value_of(force, 'N')} the {what} fails to close {once_in(every)}"
-        if many and not out:
+        often = f"fails to close {once_in(every)}" if every > 0 else "never fails to close"
+        said = f"Under {value_of(force, 'N')} the {what} {often}"
+        if many and not out and one > 0:
             said += f": of its {many}, each stays open on dust {once_in(one)}"
+        elif many and not out:
+            said += f": of its {many}, none stays open on dust"
         out.append(f"{said}.")
     if len(out) == 1:
         kinds = join_words([name_of(dust, i) for i, dust in enumerate(plug.particles)])
