@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import functools
 import gc
 import importlib
 import json
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import typer.testing
 from hypothesis import HealthCheck, Phase, settings
 
 HERE = Path(__file__).parent
@@ -31,6 +33,9 @@ os.fsync = lambda file: os.fstat(file) and None
 # what commands print heeds COLUMNS, which workers of the tests set to a width of their own
 os.environ.pop("COLUMNS", None)
 os.unsetenv("COLUMNS")  # readline sets it past Python's record of the environment
+
+# the tree of commands is built once, not again by every test that runs one of them
+typer.testing._get_command = functools.cache(typer.testing._get_command)
 
 # CI: the same examples every time, and the first counterexample as it is; a contact costs up to
 # a second to bind, so shrinking is left to HYPOTHESIS_PROFILE=search, which also looks elsewhere
