@@ -48,9 +48,9 @@ def test_every_kind_runs_at_once(kind, empty_folder):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_is_solved(kind):
-    """Those too that another command answers first."""
+@pytest.mark.parametrize("kind", ["connector", "wafer-chuck"])
+def test_a_question_is_solved_too(kind):
+    """As if it were a contact, though another command answers it."""
     run("new", kind)
     solved = run("solve", f"{kind}.toml", "--json")
     assert solved.exit_code == 0
