@@ -34,7 +34,13 @@ def empty_folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=pytest.mark.slow) if kind in ("linear-guide", "gear") else kind
+        for kind in KINDS
+    ],
+)
 def test_every_kind_runs_at_once(kind, empty_folder):
     made = run("new", kind)
     assert made.exit_code == 0
