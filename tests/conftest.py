@@ -1,11 +1,15 @@
 """What all tests share."""
 
+import functools
 import gc
 import importlib
 import json
 import os
 import signal
 import sys
+import tempfile
+import threading
+import time
 import warnings
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
@@ -13,7 +17,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import typer.testing
 from hypothesis import HealthCheck, Phase, settings
+
+from thirdbody.equilibrium.compiled.cached import Cached
 
 HERE = Path(__file__).parent
 # the oracle and the twins are plain modules beside this file; importlib mode adds no path
@@ -32,6 +39,9 @@ os.fsync = lambda file: os.fstat(file) and None
 os.environ.pop("COLUMNS", None)
 os.unsetenv("COLUMNS")  # readline sets it past Python's record of the environment
 
+# the tree of commands is built once, not again by every test that runs one of them
+typer.testing._get_command = functools.cache(typer.testing._get_command)
+
 # CI: the same examples every time, and the first counterexample as it is; a contact costs up to
 # a second to bind, so shrinking is left to HYPOTHESIS_PROFILE=search, which also looks elsewhere
 settings.register_profile(
@@ -49,11 +59,26 @@ settings.register_profile(
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 
+COMPILING = "THIRDBODY_COMPILING"
+"""Environment variable with a file that lies there while the engines are compiled."""
+EARLY = ("laws", "numerics", "populations", "quantities")
+"""Folders of tests of which few need an engine."""
+
+
 def pytest_sessionstart(session):
-    """Compile both engines once, beside each other, before the workers start."""
+    """Compile both engines once, while the workers read the tests and begin with others."""
     if not session.config.getoption("numprocesses", None):
         return  # one process, which compiles once what it needs
     gc.enable()  # only workers read the tests
+    handle, name = tempfile.mkstemp(prefix="thirdbody-compiling-")
+    os.close(handle)
+    os.environ[COMPILING] = name
+    session.config.compiling = threading.Thread(target=_compile_engines, args=(Path(name),))
+    session.config.compiling.start()
+
+
+def _compile_engines(running):
+    """Compile what nearly every study needs; the file ``running`` lies there until it is done."""
     import thirdbody as tb
 
     bodies = tb.MaterialPair(tb.materials["S45C"], tb.materials["100Cr6"])
@@ -63,17 +88,43 @@ def pytest_sessionstart(session):
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(material=tb.materials["SiO2"], diameter=dust, areal_density=1e11),
     )
-    # deep particles are for the engine of columns; where none is deep, and none so soft as to be
-    # squashed, states are for the other
-    laws = [tb.particle.Series(deep=deep) for deep in ("table", "off")]
-    vary = {"particles.material.H": np.linspace(8e9, 9e9, 32)}
+    # particles are for the engine of columns, bare surfaces for the other
+    studies = [
+        (contact, {"particles.material.H": np.linspace(8e9, 9e9, 32)}),
+        (contact.replace(particles=None), {"roughness.sigma": np.linspace(90e-9, 100e-9, 32)}),
+    ]
 
-    def compile_for(law):
-        tb.solve_states(contact.replace(particle_law=law), F_star=1e-5, vary=vary)
+    def compile_for(study):
+        tb.solve_states(study[0], F_star=1e-5, vary=study[1])
 
-    with warnings.catch_warnings(), ThreadPoolExecutor() as threads:
-        warnings.simplefilter("ignore")
-        list(threads.map(compile_for, laws))
+    try:
+        with warnings.catch_warnings(), ThreadPoolExecutor() as threads:
+            warnings.simplefilter("ignore")
+            list(threads.map(compile_for, studies))
+    finally:
+        running.unlink(missing_ok=True)
+
+
+def pytest_sessionfinish(session):
+    """Tests that need no engine may end before it is compiled."""
+    if compiling := getattr(session.config, "compiling", None):
+        compiling.join()
+
+
+def wait_for_engines(prepare):
+    """What a worker needs compiled is not compiled twice."""
+
+    def wait_and_prepare(self, signature):
+        running = Path(os.environ.get(COMPILING, ""))
+        while running.is_file():
+            time.sleep(0.1)
+        prepare(self, signature)
+
+    return wait_and_prepare
+
+
+if "PYTEST_XDIST_WORKER" in os.environ:
+    Cached._prepare = wait_for_engines(Cached._prepare)
 
 
 # what a test draws at random is named when it fails: every generator by its seed
@@ -108,7 +159,7 @@ def pytest_runtest_makereport():
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Files with long studies first, so that no worker is left alone with one at the end; whole,
+    """What needs no engine first, while the engines are compiled; then files with long studies, so that no worker is left alone with one at the end; whole,
     so that what the tests of a file share is made once. Cases of which a spread is quick are
     counted as they stand, so a step that divides no number of values takes each value."""
     long = {item.path for item in items if item.get_closest_marker("slow")}
@@ -119,7 +170,7 @@ def pytest_collection_modifyitems(items):
             if cases[of] % mark.args[0]:
                 item.add_marker(pytest.mark.slow)
             cases[of] += 1
-    items.sort(key=lambda item: item.path not in long)
+    items.sort(key=lambda item: (item.path.parent.name not in EARLY, item.path not in long))
 
 
 @pytest.fixture(scope="session")

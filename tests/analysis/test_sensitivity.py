@@ -355,10 +355,10 @@ FEW_BREAK = ("particles.strength.m", "roughness.sigma", "surfaces.first.E+surfac
     [
         (DUSTY, {"F_star": np.array([1e-7, 1e-5, 1e-3])}, None),
         (PLANE, {"pressure": np.array([1e5, 1e7])}, None),
-        (TWO_BODY, {"F_star": np.array([1e-6])}, None),
         (DUSTY.replace(particles=SAND), {"d": np.array([5e-6, 2e-5])}, FEW_BREAK),
+        (TWO_BODY, {"F_star": np.array([1e-6])}, None),
     ],
-    ids=["rough", "plane", "two-body", "breaking"],
+    ids=["rough", "plane", "breaking", "two-body"],
 )
 def test_quick_ones_have_three_digits(contact, loads, to):
     of = ["A_t", "h"] + ["particle_load_share"] * (not contact.two_body)

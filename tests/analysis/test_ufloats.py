@@ -10,7 +10,7 @@ import thirdbody as tb
 
 uncertainties = pytest.importorskip("uncertainties", reason="pip install 'thirdbody[uncertainty]'")
 ufloat = uncertainties.ufloat
-UNIT = pint.UnitRegistry()
+UNIT = pint.get_application_registry()
 STEEL = tb.materials["S45C"]
 CONTACT = tb.Contact(
     surfaces=tb.MaterialPair(STEEL, STEEL),

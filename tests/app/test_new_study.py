@@ -24,6 +24,7 @@ from thirdbody.app.verdict import badge_of
 from thirdbody.app.worker import mode_map as solved_map
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("oil", OILS)
 def test_what_the_form_begins_runs(kind, oil):

@@ -16,7 +16,10 @@ from thirdbody.cli.commands import COMMANDS
 from thirdbody.cli.options import parameters_of
 from thirdbody.cli.own_files import need_places
 from thirdbody.quantities.files import need_folders, refuse_clashes, whole, write_text
+from thirdbody.study import run_film
 from thirdbody.study.analyses import design_study
+from thirdbody.study.dirty_oil import dirty_oil
+from thirdbody.study.oil_what_ifs import what_ifs_of_oil
 from thirdbody.views.html import document
 
 from .test_cli import EXAMPLES, run
@@ -27,25 +30,35 @@ STUDY, EXPLICIT, DESIGN, FILM, ASSESS = (
 )
 
 # of the files alone: what a picture shows, and what a search finds, is for other tests
-pytestmark = pytest.mark.usefixtures("blank_pictures", "short_search", "best_once")
+pytestmark = pytest.mark.usefixtures("blank_pictures", "short_search", "found_once")
 
 
 @pytest.fixture(scope="module")
-def found_best():
+def answers():
     return {}
 
 
 @pytest.fixture
-def best_once(monkeypatch, found_best):
-    """The best of a study is searched for once, not by every run of the command."""
+def found_once(monkeypatch, answers):
+    """The best of a study, and what its film does, are found once, not by every run of a command."""
 
-    def search(study, **options):
-        key = repr((study.contact, study.design))
-        if key not in found_best:
-            found_best[key] = design_study(study, **options)
-        return found_best[key]
+    def once(find):
+        def find_once(study, *others, **options):
+            asked = {name: value for name, value in options.items() if not callable(value)}
+            key = find, repr((study, others, asked))
+            if key not in answers:
+                answers[key] = find(study, *others, **options)
+            return answers[key]
 
-    monkeypatch.setattr("thirdbody.study.analyses.design_study", search)
+        return find_once
+
+    for place, find in (
+        ("analyses.design_study", design_study),
+        ("run_film", run_film),
+        ("dirty_oil.dirty_oil", dirty_oil),
+        ("oil_what_ifs.what_ifs_of_oil", what_ifs_of_oil),
+    ):
+        monkeypatch.setattr(f"thirdbody.study.{place}", once(find))
 
 
 def contents(folder):

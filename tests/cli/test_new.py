@@ -1,6 +1,7 @@
 """``thirdbody new`` in an empty folder: files that run at once, at 80 columns."""
 
 import fnmatch
+import json
 import re
 import tomllib
 from importlib import resources
@@ -33,7 +34,13 @@ def empty_folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=pytest.mark.slow) if kind in ("linear-guide", "gear") else kind
+        for kind in KINDS
+    ],
+)
 def test_every_kind_runs_at_once(kind, empty_folder):
     made = run("new", kind)
     assert made.exit_code == 0
@@ -41,9 +48,19 @@ def test_every_kind_runs_at_once(kind, empty_folder):
     assert [path.name for path in empty_folder.iterdir()] == [f"{kind}.toml"]
     text = Path(f"{kind}.toml").read_text("utf-8")
     assert max(map(len, text.splitlines())) <= 80
+    answered = run(FIRST.get(kind, "solve"), f"{kind}.toml", "--json")
+    assert answered.exit_code == 0
+    assert json.loads(answered.stdout)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["connector", "wafer-chuck"])
+def test_a_question_is_solved_too(kind):
+    """As if it were a contact, though another command answers it."""
+    run("new", kind)
     solved = run("solve", f"{kind}.toml", "--json")
     assert solved.exit_code == 0
-    assert '"ok"' in solved.stdout
+    assert "ok" in json.loads(solved.stdout)["states"]["status"]
 
 
 @pytest.mark.parametrize("kind", KINDS)

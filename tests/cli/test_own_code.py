@@ -33,11 +33,14 @@ class Plain(Distribution):
 
 @contextmanager
 def registries_kept():
-    """What is defined inside is forgotten outside."""
+    """What is defined inside is forgotten outside, and no later process imports it."""
     before = [(kind, dict(kind.registry)) for kind in own_code.KINDS]
     try:
-        yield
+        with mock.patch.dict(os.environ):
+            yield
     finally:
+        for name in ("abrupt", "overload", "sizes", "heights"):
+            sys.modules.pop(name, None)
         for kind, known in before:
             kind.registry.clear()
             kind.registry.update(known)
@@ -53,6 +56,10 @@ def process(*arguments, **more):
     command = [sys.executable, "-m", "thirdbody", *arguments]
     environment = os.environ | more
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, arguments)
 
 
 @pytest.fixture(autouse=True)
@@ -94,19 +101,21 @@ SIZES = '{distribution="triangular", low="100 nm", mode="200 nm", high="300 nm"}
 )
 def test_a_distribution_of_ones_own_is_solved(file, setting, place):
     """As by Python; a study that does not import it is refused."""
-    process("new", "two-body")
-    found = process("solve", "two-body.toml", "--import", file, f"--set={setting}", "--json")
-    assert found.returncode == 0, found.stderr
+    run("new", "two-body")
+    command = ["solve", "two-body.toml", f"--set={setting}"]
+    without = run(*command)
+    assert without.exit_code == 2
+    assert '"triangular" must be one of' in without.stderr
+    with registries_kept():
+        found = run(*command, "--import", file, "--json")
+        schema = run("schema", "--import", file).stdout
+    assert found.exit_code == 0, found.stderr
     result = json.loads(found.stdout)
     assert set(result["states"]["status"]) == {"ok"}
     part = result["inputs"]
     part = part["particles"]["diameter"] if place == "sizes" else part["roughness"]["heights"]
     assert part["type"].startswith("Triangular")
-    schema = process("schema", "--import", file).stdout
     assert "triangular" in schema
-    without = process("solve", "two-body.toml", f"--set={setting}")
-    assert without.returncode == 2
-    assert '"triangular" must be one of' in without.stderr
 
 
 def test_distributions_of_ones_own_hold_in_every_engine():
@@ -150,10 +159,11 @@ def test_distributions_of_ones_own_hold_in_every_engine():
 
 
 def test_tables_list_what_is_imported():
-    found = process("laws", "--import", "abrupt.py", "--json")
+    with registries_kept():
+        found = run("laws", "--import", "abrupt.py", "--json")
+        both = run("outputs", "--import", "abrupt.py", "--import", "overload.py")
     assert "abrupt" in [each["name"] for each in json.loads(found.stdout)["asperity"]]
-    both = process("outputs", "--import", "abrupt.py", "--import", "overload.py")
-    assert both.returncode == 0, both.stderr
+    assert both.exit_code == 0, both.stderr
     assert "overload" in both.stdout
 
 

@@ -30,7 +30,6 @@ UNCOUNTED = {
     "film": ("oil_film",),
     "table": ("dusty_ball_screw", "--out", "table.csv", "--tolerance", "1e-2"),
     "explicit": LONG["explicit"],
-    "design": ("additive", *QUICK_DESIGN),
 }
 """Commands that show no parts of their work, or only on a terminal."""
 

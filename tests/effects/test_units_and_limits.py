@@ -20,7 +20,7 @@ from thirdbody.contact.interface import interface
 from thirdbody.contact.output import column
 from thirdbody.quantities.value import Value
 
-UNITS = pint.UnitRegistry()
+UNITS = pint.get_application_registry()
 BASES = ("[length]", "[mass]", "[time]", "[temperature]", "[current]")
 BODY = dict(thermal_conductivity=50, density=7850, specific_heat=480, resistivity=2e-7)
 STEEL = tb.materials["S45C"].replace(**BODY)

@@ -28,7 +28,7 @@ from thirdbody.quantities.carried import (
 from thirdbody.quantities.value import Value
 from thirdbody.study.whole import check
 
-u = pint.UnitRegistry()
+u = pint.get_application_registry()
 WRONG = pint.Quantity(3.0, "candela * kg^3")
 """What no argument of this library is measured in."""
 

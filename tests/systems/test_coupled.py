@@ -310,6 +310,7 @@ def test_particles_of_the_page(density):
     assert round(found.seizure_speed, 1) == speed
 
 
+@pytest.mark.slow
 def test_constants_of_the_page():
     rows = [
         ({"exponent": 0.7}, {}, 4.9),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -71,19 +72,24 @@ class Describer(Reader):
         """The schema of a table with these keys and no others."""
         if path.count(".") >= DEEPEST:
             return {}
+        self.known.keys[path] = {name: key.about for name, key in keys.items()}
         properties = {}
         for name, key in keys.items():
+            where = f"{path}.{name}" if path else name
+            ways = self._ways(key, where, get(data, name))
+            if not self.every_way:  # of which the keys alone are wanted
+                deque(ways, maxlen=0)
+                continue
             described: dict[str, Any] = {"description": key.about} if key.about else {}
             if _in_json(key.default):
                 described["default"] = key.default
-            where = f"{path}.{name}" if path else name
-            properties[name] = described | _any_of(self._ways(key, where, get(data, name)))
-        self.known.keys[path] = {name: key.about for name, key in keys.items()}
+            properties[name] = described | _any_of(ways)
         return _schema_of(properties, [name for name, key in keys.items() if key.required])
 
     def read_each(self, items: Mapping[str, Any], read: ReadOne) -> Any:
         """The schema of a list."""
-        return {"type": "array", "items": _any_of(read(self, *item) for item in items.items())}
+        ways = [read(self, *item) for item in items.items()]
+        return {"type": "array", "items": _any_of(ways)} if self.every_way else {}
 
     def variant(
         self,
