@@ -59,6 +59,7 @@ from .fragments import (
     add_fragments,
     goes_by_fragments,
     lay_fragments,
+    most_above,
     pace_of,
 )
 from .gaps import SLOTS, SUMS, add_by_gaps, goes_by_gaps, lay_cells, sum_panels
@@ -376,7 +377,7 @@ def _step_from(given, laid, p, few, gap):
 def _stays_below(given, skin, work, laid, rules, target, h, out):
     """Whether the load stays below the target at separations above h, looked at step by step.
 
-    It must fall in every step until it is 3 % below, and stay there.
+    It must fall in every step until it is 3 % below, and stay there until no more can be carried.
     """
     apart()
     few, sigma_s, last = laid.shape[1] - 2, skin[0, SIGMA_S], len(given)
@@ -398,6 +399,13 @@ def _stays_below(given, skin, work, laid, rules, target, h, out):
         if not load < max(target * (1 - FALLEN), before if before > target * (1 - FALLEN) else 0.0):
             break
         before = load
+        most = out[F_SS] + out[F_SA]
+        for p in range(last):
+            gap = x * sigma_s + given[p, OFFSET]
+            most += most_above(given, work[1], p, gap)
+        good = most < target * (1 - FALLEN)
+        if good:
+            break
     laid[last, COARSE, QUICK] = 0
     return good
 

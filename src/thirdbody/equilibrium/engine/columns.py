@@ -80,7 +80,7 @@ def rules(breaks: bool = False) -> Array:
         if breaks and i < len(BREAKING):
             asked = (BREAKING[i], *asked[1:])
         narrow, half = asked[0] // 2, asked[6] // 2
-        out[i, 0, : f.HALF_NODES + 1] = *asked, narrow, half
+        out[i, 0, : f.ALL_KINKS + 1] = *asked, narrow, half, i >= len(NODES[0])
         each = (f.RULE, asked[0]), (f.SIZE_RULE, asked[2]), (f.NARROW_RULE, narrow)
         for row, count in (*each, (f.PANEL_RULE, asked[6]), (f.HALF_RULE, half)):
             out[i, row, :count], out[i, row + 1, :count] = gauss_legendre(count)

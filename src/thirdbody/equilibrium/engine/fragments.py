@@ -38,8 +38,10 @@ from .densities import scale_of
 from .fields import (
     A_SA,
     A_SA2,
+    ALL_KINKS,
     BREADTH,
     BREAKS,
+    COVERAGE,
     DENSITY,
     EQUAL,
     EXPONENT,
@@ -62,6 +64,7 @@ from .fields import (
     PLANE,
     PLANE_SPAN,
     POWER,
+    PRINTED,
     PROJECTED,
     RATIO,
     SEAT,
@@ -104,6 +107,7 @@ __all__ = [
     "add_fragments",
     "goes_by_fragments",
     "lay_fragments",
+    "most_above",
     "pace_of",
 ]
 
@@ -411,6 +415,26 @@ def pace_of(given, p, gap):
     return max(min(own, NEAR * 5 * scale_of(given, p, given[p, HIGH])), 0.4 * given[p, WIDTH])
 
 
+@scalar
+def most_above(given, sides, p, gap):
+    """What part p may carry at this gap and above, at most, if it breaks [Pa].
+
+    What bears is larger than the gap, fragments have no more volume than the particles had, and
+    none carries more over x² than the softer side allows.
+    """
+    apart()
+    if given[p, SEAT] == PRINTED:
+        return math.inf
+    if given[p, BREAKS] != 1:
+        return 0.0  # it only falls
+    least = max(gap - REACH * given[p, WIDTH], given[p, LEAST])
+    most = sides[2 * p, LIMIT]
+    if given[p, EQUAL] != 1:
+        most = min(most, sides[2 * p + 1, LIMIT])
+    squared = given[p, COVERAGE] / (0.25 * math.pi * given[p, BREADTH])
+    return squared * given[p, HIGH] / least * most
+
+
 # ------------------------------------------------------------------------------ cells over gaps
 @scalar
 def lay_fragments(given, panels, p, count, grid, own, rule, ends):
@@ -424,7 +448,7 @@ def lay_fragments(given, panels, p, count, grid, own, rule, ends):
     for k in range(marked):
         number = _note_gap(ends[: len(ends) // 2], number, marks[k])
         for n in range(count):
-            if panels[p, n, KINKED] == 1:
+            if rule[0, ALL_KINKS] == 1 and panels[p, n, KINKED] == 1:
                 gap = marks[k] * (1 - panels[p, n, TO])
                 number = _note_gap(ends[: len(ends) // 2], number, gap)
     if number == len(ends) // 2:
