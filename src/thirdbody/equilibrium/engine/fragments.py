@@ -48,6 +48,8 @@ from .fields import (
     F_SA,
     FOOTPRINT,
     GAUSSIAN,
+    HALF_NODES,
+    HALF_RULE,
     HIGH,
     KEPT,
     KIND,
@@ -57,6 +59,8 @@ from .fields import (
     LOGNORMAL,
     LOW,
     MODULUS,
+    NARROW_NODES,
+    NARROW_RULE,
     NORM,
     PANEL_NODES,
     PANEL_RULE,
@@ -128,6 +132,8 @@ ROOTED, PARTS, CELL = NODE, SIZE, SIZE_END
 """Of segments, beside their ends: whether the upper one is where sizes begin to be squeezed, their
 number of cells, and that of all before."""
 SLOTS = 256
+SHORT, NEAR_END = 0.6, 1.3
+"""Widths of the seat, and ratio of its ends, up to which fewer nodes do for a cell."""
 
 
 @scalar
@@ -145,6 +151,16 @@ def goes_by_fragments(given, panels, p, count):
 def lowest_gap(given, panels, p, count):
     """Gap below which nothing changes: all is squeezed as far as it goes."""
     return given[p, LEAST] * (1 - panels[p, count - 1, TO])
+
+
+@scalar
+def rule_of(rule, short):
+    """Row of a Gauss rule, and its nodes: where every kink ends a panel no more than elsewhere."""
+    if short:
+        return NARROW_RULE, int(rule[0, NARROW_NODES])
+    if rule[0, ALL_KINKS] == 1:
+        return HALF_RULE, int(rule[0, HALF_NODES])
+    return PANEL_RULE, int(rule[0, PANEL_NODES])
 
 
 # ------------------------------------------------------------------------------ under one gap
@@ -332,8 +348,8 @@ def _add_panel(
 ):  # fmt: skip
     """Add all generations of the sizes between two ends over u, from the largest down."""
     apart()
-    nodes, step = int(rule[0, PANEL_NODES]), -math.log(given[p, RATIO])
-    gauss, weights = rule[PANEL_RULE, :nodes], rule[PANEL_RULE + 1, :nodes]
+    row, nodes = rule_of(rule, False)
+    gauss, weights, step = rule[row, :nodes], rule[row + 1, :nodes], -math.log(given[p, RATIO])
     phase, mass, number = way[PHASE, :nodes], way[PART, :nodes], way[NUMBER, :nodes]
     whole, met, x = way[WHOLE, :nodes], way[TENSIONS, :nodes], way[SIZES, :nodes]
     room, gain = panels[p, len(panels[p]) - ROOM :], given[p, KEPT] * given[p, RATIO] ** -4
@@ -492,8 +508,9 @@ def _note_gap(ends, count, gap):
 def _fill_cell(given, sides, panels, p, count, grid, a, b, rooted, place, rule, way):
     """Fill the nodes of a cell between two gaps; where they end, or −1."""
     apart()
-    nodes = int(rule[0, PANEL_NODES])
-    gauss, weights, found = rule[PANEL_RULE], rule[PANEL_RULE + 1], way[FOUND, :COLUMNS]
+    short = rooted == 0 and b - a <= SHORT * given[p, WIDTH] and b <= NEAR_END * a
+    row, nodes = rule_of(rule, short)
+    gauss, weights, found = rule[row], rule[row + 1], way[FOUND, :COLUMNS]
     norm = 1 / (ROOT_2PI * given[p, WIDTH])
     for j in range(nodes):
         z = 0.5 * (1 + gauss[j])
