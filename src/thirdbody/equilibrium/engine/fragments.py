@@ -121,7 +121,7 @@ numbers, the part that is whole, ln of the largest tension, and sizes; the colum
 MOST_ENDS, MOST_GENERATIONS = 1024, 80
 COLUMNS = 6
 """Of a gap: load, areas on the second surface and the larger one, on the first by regime."""
-BROAD = 150.0
+BROAD = 200.0
 """Largest size over the width of the seat from which on sums go by gaps."""
 STEEPEST = 5.0
 """By how much the logarithm of the hazard may change over a panel because of the sizes."""
