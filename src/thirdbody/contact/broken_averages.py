@@ -42,8 +42,8 @@ __all__ = ["BrokenAverage", "Pieces", "broken_average", "is_rough", "roughly"]
 
 NEGLIGIBLE = 1e-15
 """Part of the load that sizes may leave out."""
-TOLERANCE = 1e-10
-"""Of the tables, relative to the largest value on a panel."""
+TOLERANCE, DEGREE, MOST_HALVINGS = 1e-10, 17, 8
+"""Of the tables: relative to the largest value on a panel, of each series, and of a panel."""
 MOST_GENERATIONS, MOST_STRETCHES, SMALLEST = 40, 80, 1e-60
 """Times that the smallest particle may break into pieces which break again, steps by the ratio of
 pieces over all sizes, and size of pieces over the largest particle, that are followed."""
@@ -83,7 +83,7 @@ class BrokenAverage(SizeAverage):
     begins to be squeezed, each stretch in the root of the distance to its upper end.
     """
 
-    tolerance, panel_nodes = TOLERANCE, NODES
+    tolerance, degree, halvings, panel_nodes = TOLERANCE, DEGREE, MOST_HALVINGS, NODES
 
     def __init__(self, particle: OneParticle, sizes: Distribution, breakage: Breakage):
         self.particle, self.sizes, self.breakage = particle, sizes, breakage
@@ -307,7 +307,14 @@ class BrokenAverage(SizeAverage):
             found = self.average(high - u * u, (self.top - high) + u * u)
             return found / u[:, None] ** self.powers if last else found
 
-        return PiecewiseChebyshev(values, edges, tolerance=self.tolerance, kinds=KINDS, max_depth=8)
+        return PiecewiseChebyshev(
+            values,
+            edges,
+            degree=self.degree,
+            tolerance=self.tolerance,
+            kinds=KINDS,
+            max_depth=self.halvings,
+        )
 
     @property
     def edges(self) -> Array:
@@ -410,25 +417,25 @@ class BrokenAverage(SizeAverage):
 
 
 class RoughBrokenAverage(BrokenAverage):
-    """A coarser `BrokenAverage`: within 1e-3 of the load, mostly 1e-6, at a sixth of the cost.
+    """A coarser `BrokenAverage`: within 1e-3 of the load, mostly 1e-5, at a sixth of the cost.
 
-    Under a rough seat the sum is taken at a few gaps, without a table over gaps.
+    Under a rough seat that is narrow against the sizes it is read from a coarse table over gaps,
+    under others summed at the few gaps there are.
     """
 
-    tolerance, panel_nodes = 1e-6, 10
+    tolerance, degree, halvings, panel_nodes = 1e-3, 7, 2, 6
 
     def nodes(self, width: float) -> tuple[Array, Array, Array]:
-        """Gauss nodes in the gap, weights and P there by quadrature over sizes."""
+        """Gauss nodes in the gap, weights and P there."""
         edges = self._roots_of_stretches()
         gaps, rise, weights = self._of_stretches(edges, 2 * width, ROUGH_GAPS)
-        if len(gaps) > DEARER * sum(map(len, edges)):
-            return super().nodes(width)
-        return gaps, weights, np.maximum(self.average(gaps, rise), 0.0)
+        dearer = len(gaps) > 2 * self.degree * sum(map(len, edges))
+        values = self(gaps) if dearer else self.average(gaps, rise)
+        return gaps, weights, np.maximum(values, 0.0)
 
 
-ROUGH_GAPS, DEARER = (14, 10), 150
-"""Nodes of a panel over gaps where samples are summed roughly, and gaps for each edge of a table
-from which the table is cheaper."""
+ROUGH_GAPS = (14, 10)
+"""Nodes of a panel over gaps where samples are summed roughly."""
 _ROUGHLY: ContextVar[bool] = ContextVar("roughly", default=False)
 
 

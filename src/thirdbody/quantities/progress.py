@@ -121,9 +121,10 @@ class Stages:
     def __init__(self, title: str):
         self.title, self.name, self.begun = title, "", -1
         self.expected, self.said = 0, False
-        self.seen = self.start = self.one_done = time.monotonic()
-        """When something was shown last, the work began that takes so long, and the first contact
-        of the present part was done: before that, something may have been compiled."""
+        self.seen = self.start = self.counted_from = time.monotonic()
+        self.uncounted = 0
+        """When something was shown last, the work began that takes so long, and from when on
+        contacts are counted, but for so many: before the first something may have been compiled."""
 
     def __call__(self, name: str) -> None:
         self.name, self.begun = name, self.begun + 1
@@ -135,13 +136,15 @@ class Stages:
     def expect(self, contacts: int) -> None:
         """Announce contacts that will need tables; their cost is reported once it is known."""
         self.expected, self.start = contacts, time.monotonic()
+        self.counted_from, self.uncounted = self.start, 0
 
     def within(self, done: int, total: int) -> None:
         """Report the number of contacts done in the present part, of about so many."""
         if done == 1:
-            self.one_done = time.monotonic()
+            self.counted_from, self.uncounted = time.monotonic(), 1
         if self.expected and not self.said and done >= MEASURED:
-            self.cost(self.expected, (time.monotonic() - self.one_done) / (done - 1), "contacts")
+            each = (time.monotonic() - self.counted_from) / (done - self.uncounted)
+            self.cost(self.expected, each, "contacts")
             self.said = True
         self.moved(done, total)
 

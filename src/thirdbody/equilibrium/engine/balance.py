@@ -53,9 +53,19 @@ from .fields import (
     UNSOLVED,
     WIDTH,
 )  # fmt: skip
+from .fragments import (
+    FRAGMENT_ROWS,
+    MOST_ENDS,
+    add_fragments,
+    goes_by_fragments,
+    lay_fragments,
+    most_above,
+    pace_of,
+)
 from .gaps import SLOTS, SUMS, add_by_gaps, goes_by_gaps, lay_cells, sum_panels
 from .laid import (
     BASE,
+    BY_FRAGMENTS,
     BY_GAPS,
     COUNT,
     FREE,
@@ -66,6 +76,7 @@ from .laid import (
     PIECE_BEGIN,
     PIECE_END,
     PIECES,
+    QUICK,
     SIZED,
     SIZED_END,
     SLOT,
@@ -124,10 +135,12 @@ def _add_part(given, work, laid, p, own, d, rule, out):
     ``own`` is what is laid of it on this level, and ``laid`` of all.
     """
     apart()
-    _, sides, panels, grid, sizes, shares, _, _, sums = work
+    _, sides, panels, grid, sizes, shares, _, _, sums, way = work
     gap = d + given[p, OFFSET]
     if given[p, SHADOW] == COVERED:
         out[SHADE] += given[p, COVERAGE]
+    if own[WAY] == BY_FRAGMENTS:
+        return add_fragments(given, sides, panels, p, own, laid, grid, gap, rule, way, out)
     if given[p, SEAT] == PLANE:
         return add_plane(given, sides, panels, p, own[COUNT], gap, rule, out)
     if own[WAY] == BY_GAPS:
@@ -169,7 +182,7 @@ def total(given, skin, work, laid, rules, level, h, out):
 def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _, coating, _ = work
+    heights, sides, panels, grid, sizes, shares, _, coating, _, way = work
     last, good = len(given), True
     place = size = begin = kept = piece = 0
     if level == FINE:
@@ -194,6 +207,13 @@ def lay(given, skin, work, laid, rules, level):
                 given, panels, p, own[COUNT], grid, own, sizes, size, rules[level]
             )
             good &= piece >= 0 and size >= 0
+        elif own[WAY] == BY_FRAGMENTS:
+            own[SLOT] = (2 * p + level) * SLOTS
+            if given[p, SEAT] == ROUGH:
+                piece = lay_fragments(
+                    given, panels, p, own[COUNT], grid, own, rules[level], way[0]
+                )
+            good &= piece >= 0
         elif given[p, SEAT] == ROUGH and good:
             if given[p, BREAKS] == 1:
                 place, size = lay_broken(
@@ -346,26 +366,48 @@ def _breaks_up(given):
 
 
 @scalar
+def _step_from(given, laid, p, few, gap):
+    """Step over seats in which what part p carries hardly rises [m]."""
+    if laid[p, few, WAY] == BY_FRAGMENTS:
+        return pace_of(given, p, gap)
+    return BETWEEN * given[p, WIDTH] if given[p, SEAT] == ROUGH else 0.0
+
+
+@scalar
 def _stays_below(given, skin, work, laid, rules, target, h, out):
-    """Whether the load is below the target at separations above h, a fraction of a seat apart."""
+    """Whether the load stays below the target at separations above h, looked at step by step.
+
+    It must fall in every step until it is 3 % below, and stay there until no more can be carried.
+    """
     apart()
-    few, sigma_s, step = laid.shape[1] - 2, skin[0, SIGMA_S], BETWEEN
-    for p in range(len(given)):
-        if given[p, SEAT] == PLANE:
-            return False
-        if given[p, SEAT] == ROUGH:
-            step = min(step, BETWEEN * given[p, WIDTH] / sigma_s)
+    few, sigma_s, last = laid.shape[1] - 2, skin[0, SIGMA_S], len(given)
     top = top_of(given, skin)
-    for p in range(len(given)):
+    for p in range(last):
         top = min(top, (given[p, HIGH] - given[p, OFFSET] + 9.5 * given[p, WIDTH]) / sigma_s)
-    x = h
+    x, before, good = h, target * (1 + 1e-6), False
+    laid[last, COARSE, QUICK] = 1
     for _ in range(STEPS):
-        x += step
-        if x >= top:
-            return True
-        if not total(given, skin, work, laid, rules, few, x, out) < target * (1 - FALLEN):
-            return False
-    return False
+        step = math.inf
+        for p in range(last):
+            gap = x * sigma_s + given[p, OFFSET]
+            step = min(step, _step_from(given, laid, p, few, gap))
+        x += step / sigma_s
+        good = x >= top
+        if good or not step > 0:
+            break
+        load = total(given, skin, work, laid, rules, few, x, out)
+        if not load < max(target * (1 - FALLEN), before if before > target * (1 - FALLEN) else 0.0):
+            break
+        before = load
+        most = out[F_SS] + out[F_SA]
+        for p in range(last):
+            gap = x * sigma_s + given[p, OFFSET]
+            most += most_above(given, work[1], p, gap)
+        good = most < target * (1 - FALLEN)
+        if good:
+            break
+    laid[last, COARSE, QUICK] = 0
+    return good
 
 
 @scalar
@@ -496,6 +538,8 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
                 work[2][p, count, SHARE] += left
             if count > 0 and given[p, BREAKS] == 1:
                 count = lay_tension(given, work[1], work[2], p, count, series, work[6])
+                if count > 0 and goes_by_fragments(given, work[2], p, count):
+                    laid[p, COARSE, WAY] = BY_FRAGMENTS
             laid[p, COARSE, COUNT] = count
             if count < 0:
                 return h, 0, TOO_LONG, math.inf
@@ -560,6 +604,7 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
         inside,
         coating,
         np.empty((most, MOST_PANELS, SUMS)),
+        np.empty((FRAGMENT_ROWS, MOST_ENDS if inside[0, 0] > 0 else 1)),
     )
     laid = np.zeros((most + 1, 2, LAID), np.int64)
     ready = np.full(1, NOTHING)

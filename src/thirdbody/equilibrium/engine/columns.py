@@ -80,7 +80,7 @@ def rules(breaks: bool = False) -> Array:
         if breaks and i < len(BREAKING):
             asked = (BREAKING[i], *asked[1:])
         narrow, half = asked[0] // 2, asked[6] // 2
-        out[i, 0, : f.HALF_NODES + 1] = *asked, narrow, half
+        out[i, 0, : f.ALL_KINKS + 1] = *asked, narrow, half, i >= len(NODES[0])
         each = (f.RULE, asked[0]), (f.SIZE_RULE, asked[2]), (f.NARROW_RULE, narrow)
         for row, count in (*each, (f.PANEL_RULE, asked[6]), (f.HALF_RULE, half)):
             out[i, row, :count], out[i, row + 1, :count] = gauss_legendre(count)
@@ -394,7 +394,7 @@ class Numbers:
         )
         squared = self._add_sizes(rows, *section)
         if one.strength is not None:
-            self._add_strength(rows, one.strength, changed, section[0], law.seat)
+            self._add_strength(rows, one.strength, changed, section[0])
         rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * squared
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
@@ -421,10 +421,10 @@ class Numbers:
         rows[:, f.STIFFEST], rows[:, f.SOFTEST] = np.minimum(E, E_2), np.minimum(H, H_2)
         rows[:, f.EQUAL] = np.all(here == other, axis=1)
 
-    def _add_strength(self, rows: Array, one: Any, changed: Any, size: Any, seat: str) -> None:
+    def _add_strength(self, rows: Array, one: Any, changed: Any, size: Any) -> None:
         """Fill in how particles break."""
-        if seat != "rough" or type(size) is sizes.Monodisperse:
-            raise NotCompiled("particles that break on a plane, or that are of one size")
+        if type(size) is sizes.Monodisperse:
+            raise NotCompiled("particles that break, of one size")
         strength, body = changed.strength, changed.material
         nu = np.unique(np.broadcast_to(body.nu, self.count))
         confines = one.confinement == "sphere"

@@ -102,6 +102,6 @@ NOT_MONOTONE, NOT_RESOLVED, TOO_LONG = 10, 11, 12
 
 # ------------------------------------------------------------------ the rules of a level
 NODES, SPAN, SIZE_NODES, SIZE_SPAN, SEAT_NODES, SEAT_SPAN = range(6)
-PANEL_NODES, PANEL_SPAN, PLANE_SPAN, NARROW_NODES, HALF_NODES = range(6, 11)
+PANEL_NODES, PANEL_SPAN, PLANE_SPAN, NARROW_NODES, HALF_NODES, ALL_KINKS = range(6, 12)
 RULE, SIZE_RULE, NARROW_RULE, PANEL_RULE, HALF_RULE, POLYNOMIAL = 1, 3, 5, 7, 9, 11
 """Rows of Gauss nodes, each before one of weights, and of Chebyshev nodes before their series."""

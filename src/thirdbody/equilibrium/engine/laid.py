@@ -7,7 +7,8 @@ COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECE_BEGIN, PIECE_EN
 row after the last part is of the asperities."""
 WAY, SLOT, LAID = range(10, 13)
 """How a part is summed, and the first slot of its cells."""
-PIECES, BY_GAPS = range(2)
-"""Ways: by pieces of the squeeze, or over gaps."""
-BASE, FREE = SIZED, SIZED_END
-"""In the row of the asperities: from where nodes are free for cells, and where the next is."""
+PIECES, BY_GAPS, BY_FRAGMENTS = range(3)
+"""Ways: by pieces of the squeeze, over gaps, or by fragments under each gap."""
+BASE, FREE, QUICK = SIZED, SIZED_END, WAY
+"""In the row of the asperities: from where nodes are free for cells, where the next is, and whether
+it is enough to say roughly what is carried far away."""
