@@ -9,9 +9,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
+from scipy.linalg import expm
 
 from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
+from .code_times import times_within
 from .contact_course import coverage
 from .dry_loop import DryLoop
 from .film_loop import FilmLoop
@@ -185,8 +187,7 @@ def _steady_at(loop: Loop, y: Array, place: float) -> SteadyContact:
     loop.last = place
     rates = loop.rates(state, d)
     change = rates.matrix @ state + rates.constant
-    time = loop.now if isinstance(loop, FilmLoop) else 0.0
-    slowest = float(np.max(np.linalg.eigvals(loop.jacobian(time, state)[pool, pool]).real))
+    slowest = float(np.max(np.linalg.eigvals(_jacobian(loop, state)).real))
     numbers = loop.shaped(state[pool]).T / _per(loop)
     code = ""
     if isinstance(loop, FilmLoop):
@@ -202,6 +203,12 @@ def _steady_at(loop: Loop, y: Array, place: float) -> SteadyContact:
         stable=slowest < 0,
         time=math.log(SETTLES_TO) / slowest if slowest < 0 else math.inf,
     )
+
+
+def _jacobian(loop: Loop, state: Array) -> Array:
+    """How the rates of the numbers change with them [1/s], (J, J)."""
+    time, pool = loop.now if isinstance(loop, FilmLoop) else 0.0, loop.layout[loop.pool]
+    return loop.jacobian(time, state)[pool, pool]
 
 
 def _per(loop: Loop) -> float:
@@ -266,6 +273,30 @@ class ContactHistory(LifeHistory):
         None where particles grow for ever.
         """
         return self._steady
+
+    @cached_property
+    def code_times(self) -> tuple[float, ...]:
+        """As of `LifeHistory`, with the contact as it is near the steady state."""
+        if not self.steady():
+            return LifeHistory.code_times.func(self)  # type: ignore[attr-defined]
+        loop, steady = self.loop, self.steady()[0]
+        end = steady.numbers.T.ravel()
+        state = self.last_state.copy()
+        state[loop.layout[loop.pool]] = end * _per(loop)
+        jacobian = _jacobian(loop, state)
+        away = self.numbers[0].T.ravel() - end
+        known: dict[float, Array] = {}
+
+        def counts(time: float) -> Array:
+            if (half := known.get(time / 2)) is not None:
+                known[time] = half @ half
+            elif time not in known:
+                known[time] = expm(jacobian * time)
+            now = loop.shaped(end + known[time] @ away).T
+            return self.terms.classes.counted(now.sum(axis=1))
+
+        ends = self.terms.classes.counted(steady.numbers.sum(axis=1))
+        return times_within(counts, ends, first=self._first_time)
 
     @property
     def time_scales(self) -> dict[str, float]:
