@@ -17,7 +17,14 @@ from ..systems.life.circuit import OilCircuit
 from ..systems.life.reports import oil_reports
 from ..systems.oil_filter import Filter
 from .described import BareNumber, Described
-from .life_contact import CONTACT_KEYS, HARDNESS, LifeContact, contact_of
+from .life_contact import (
+    CONTACT_KEYS,
+    HARDNESS,
+    LifeContact,
+    Rolling,
+    contact_of,
+    rolling_of,
+)
 from .life_contact import QUANTITIES as OF_CONTACT
 from .life_design import AskedDesign, design_key, design_of
 from .life_dirt import CLEAN, CODE, DIRT, INGRESS, dirts_of, sized_numbers
@@ -81,6 +88,8 @@ class AskedLife:
         What is known of the numbers of the circuit and of its contacts.
     contact : LifeContact, optional
         The contacts that the oil goes through.
+    rolling : Rolling, optional
+        The contact in whose tracks dents are counted.
     design : AskedDesign, optional
         What is to be chosen.
     notes : tuple of str
@@ -95,6 +104,7 @@ class AskedLife:
     until: tuple[until.Until, ...] = ()
     uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
     contact: LifeContact | None = None
+    rolling: Rolling | None = None
     design: AskedDesign | None = None
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
@@ -331,7 +341,8 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     for path, entry in reported:
         circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
-    contact = contact_of(reader, values)
+    rolling = rolling_of(reader, values)
+    contact = contact_of(reader, values, rolling)
     known = _uncertainty(reader, given.get("uncertainty", {}), circuit, contact)
     design = None
     if "design" in given:
@@ -343,6 +354,7 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         until=given.get("until", ()),
         uncertainty=known,
         contact=contact,
+        rolling=rolling,
         design=design,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),

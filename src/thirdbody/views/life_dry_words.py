@@ -71,7 +71,7 @@ def _tends(history: DryHistory) -> str:
     said = f"The contact comes to {_count(history, first.numbers)} particles"
     if not first.stable:
         return f"{said}, a state that is not stable"
-    said += f", all but a hundredth of the way in {duration_of(first.time)}"
+    said += f", and is within a hundredth of them after {duration_of(first.time)}"
     if len(steady) > 1:
         said += f" (one of {len(steady)} steady states)"
     return said

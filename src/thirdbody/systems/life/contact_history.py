@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -13,13 +13,14 @@ from scipy.linalg import expm
 
 from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
+from .breeding import reproduction_of, why_none, why_unknown
 from .code_times import times_within
 from .contact_course import coverage
 from .dry_loop import DryLoop
 from .film_loop import FilmLoop
 from .history import SETTLES_TO, LifeEvent, LifeHistory
 from .ledger import IN_OIL, Ledger
-from .linear_flow import dirt_gain, generations, reproduction
+from .linear_flow import dirt_gain, generations
 from .loop import SURFACES, Loop
 from .steady import describe_reproduction
 
@@ -216,25 +217,26 @@ def _per(loop: Loop) -> float:
     return loop.volume_at(loop.now) if isinstance(loop, FilmLoop) else loop.setting.area
 
 
-# ------------------------------------------------------------------ who breeds whom
-def births_and_losses(loop: Loop, y: Array) -> tuple[Array, Array]:
-    """𝒢 and 𝓛 of a state [1/s] (J, J), in the order of the loop."""
-    rates = loop.rates(y, loop.find_gap(y).d)
-    pool = loop.layout[loop.pool]
-    return rates.births, rates.births - rates.matrix[pool, pool]
+class _Breeding:
+    """What the histories of contacts say of who breeds whom."""
 
+    loop: Any
+    last_state: Array
+    births: Any
+    losses: Array
+    R0: Any
 
-def reproduction_of(births: Array, losses: Array) -> float:
-    """R_0; NaN where some particles are never removed."""
-    if not np.any(births):
-        return 0.0
-    if float(np.min(np.linalg.eigvals(losses).real)) <= 0:
-        return math.nan
-    return reproduction(losses, births=births)
+    def _describe(self, edges: Sequence[float], materials: tuple[str, ...]) -> str:
+        why = ""
+        if self.R0 == 0:
+            why = why_none(self.loop, self.last_state)
+        elif math.isnan(self.R0):
+            why = why_unknown(self.births, self.losses, np.array(edges), materials)
+        return describe_reproduction(self.R0, why=why)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ContactHistory(LifeHistory):
+class ContactHistory(_Breeding, LifeHistory):
     """A history of an oil and of contacts in it; made by `thirdbody.life`.
 
     As `LifeHistory`, with `COLUMNS` of the contact in ``more``; ``births`` and ``losses`` are
@@ -260,7 +262,7 @@ class ContactHistory(LifeHistory):
     @property
     def reproduction(self) -> str:
         """What R_0 means, in words."""
-        return describe_reproduction(self.R0)
+        return self._describe(self.terms.classes.edges, tuple(self.terms.materials))
 
     @cached_property
     def _steady(self) -> tuple[SteadyContact, ...]:
@@ -309,11 +311,6 @@ class ContactHistory(LifeHistory):
         out |= LifeHistory.time_scales.fget(self)  # type: ignore[attr-defined]
         return out | wear_times(loop, self.last_state, self.more)
 
-    def to_dict(self) -> dict[str, object]:
-        """Everything, ready for JSON: None for what is not a finite number."""
-        out = LifeHistory.to_dict(self)
-        return out | {"reproduction": self.reproduction}
-
 
 def wear_times(loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]) -> dict[str, float]:
     """How long it takes to wear σ, and to run in [s]."""
@@ -329,7 +326,7 @@ def wear_times(loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]) -
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class DryHistory(Record):
+class DryHistory(_Breeding, Record):
     """A history of a dry or greased contact; made by `thirdbody.life`.
 
     Attributes
@@ -370,7 +367,7 @@ class DryHistory(Record):
     @property
     def reproduction(self) -> str:
         """What R_0 means, in words."""
-        return describe_reproduction(self.R0)
+        return self._describe(self.loop.tables.classes.edges, self.materials)
 
     @property
     def generations(self) -> Array:

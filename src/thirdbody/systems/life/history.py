@@ -19,6 +19,7 @@ from .circuit import OilCircuit, OilTerms
 from .code_times import SlowSizes, slow_sizes, times_within
 from .ledger import Ledger
 from .linear_flow import dirt_gain, flowing, generations, reproduction
+from .steady import describe_reproduction
 
 if TYPE_CHECKING:
     import xarray
@@ -188,6 +189,12 @@ class LifeHistory(Record):
         return 0.0 if self.births is None else reproduction(self._losses, births=self.births)
 
     @property
+    def reproduction(self) -> str:
+        """What R_0 means, in words."""
+        why = "the study has no contact that returns any to the oil"
+        return describe_reproduction(self.R0, why="" if self.R0 else why)
+
+    @property
     def generations(self) -> Array:
         """Next-generation matrix: daughters of row i of a particle of column j [1], (J, J)."""
         losses = self._losses
@@ -271,6 +278,7 @@ class LifeHistory(Record):
             "slow_sizes": None if slow is None else plain_data(slow._asdict()),
             "time_scales": plain_data(self.time_scales),
             "R0": plain_data(self.R0),
+            "reproduction": self.reproduction,
             "dirt_gain": plain_data(self.dirt_gain),
             "warnings": list(self.warnings),
         }
