@@ -7,38 +7,22 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli
 from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
 from thirdbody.systems.life.sizing import least_flow
 from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_words import answer
 from thirdbody.views.report import report
 
-HOUR = 3600.0
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-def said(done):
-    assert done.exit_code == 0, done.stderr
-    return " ".join(done.stdout.split())
+from .life_shell import CONTACT, HOUR, enter, run, said, setting
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+    enter(tmp_path, monkeypatch)
     assert run("new", "oil-circuit").exit_code == 0
     return tmp_path
-
-
-def setting(*keys):
-    return [word for key in keys for word in ("--set", key)]
 
 
 # ------------------------------------------------------------------------------ the history
@@ -295,28 +279,6 @@ def test_the_report_has_a_page_on_the_oil():
 
 
 # ------------------------------------------------------------------------------ contacts in the oil
-CONTACT = """
-[outputs.friction]
-tau_ss = "100 MPa"
-tau_sa = "100 MPa"
-[outputs.wear]
-K_ss = 1e-7
-K_sa = 0
-f_ab = 0.1
-f_roll = 0
-[film]
-conjunction = { shape = "point", R = "9.5 mm" }
-oil = { eta = "30 mPa s", alpha = "20 / GPa" }
-load = "50 N"
-speed = "1 m/s"
-slide_roll = 0.05
-[life.debris]
-sizes = "boundary-lubricated"
-[life.contact]
-contacts = 20
-"""
-
-
 def with_contact(*lines):
     text = Path("oil-circuit.toml").read_text("utf-8") + CONTACT + "\n".join(lines)
     Path("contact.toml").write_text(text.replace('oil_changes = "1500 h"', "# "), "utf-8")

@@ -7,18 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli
 from thirdbody.study import life_bands
 from thirdbody.study.life_bands import propagate_dry, propagate_life
 from thirdbody.study.life_kept import KeptEnds
 from thirdbody.study.run_life import load_life, load_oil
 
-from .test_life import CONTACT
+from .life_shell import CONTACT, HOUR, enter, run, said, study
 
-HOUR = 3600.0
 OIL = """
 [life.until]
 iso4406 = "13/11/7"
@@ -36,25 +33,9 @@ arrivals = { median = 1, gsd = 3 }
 SHORT = ["--set", 'life.duration="2 h"', "--set", "life.oil.oil_changes=[]"]
 
 
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-def said(done):
-    assert done.exit_code == 0, done.stderr
-    return " ".join(done.stdout.split())
-
-
-def study(kind, more):
-    assert run("new", kind, "--out", "bare.toml").exit_code == 0
-    Path("study.toml").write_text(Path("bare.toml").read_text("utf-8") + more, "utf-8")
-    return "study.toml"
-
-
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+    enter(tmp_path, monkeypatch)
     return tmp_path
 
 

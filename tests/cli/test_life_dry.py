@@ -8,33 +8,22 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli
 from thirdbody.study.run_life import load_life, run_life
 from thirdbody.systems.life.debris import Debris
 from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_dry_words import answer
 from thirdbody.views.report.tables import life_section
 
-HOUR = 3600.0
+from .life_shell import HOUR, enter, run, said
+
 SHORT = ("--set", 'life.duration="1 h"')
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-def said(done):
-    assert done.exit_code == 0, done.stderr
-    return " ".join(done.stdout.split())
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+    enter(tmp_path, monkeypatch)
     assert run("new", "dry-contact").stdout == "thirdbody life dry-contact.toml\n"
     return tmp_path
 

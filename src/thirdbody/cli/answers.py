@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..quantities.tables import Table
 from ..version import __version__
-from .show import ALL, MOST_ROWS, some, terminal
+from .show import ALL, MOST_ROWS, some, some_times, terminal
 from .streams import STDOUT, TableFiles, remark, tell_written, warn_of
 
 if TYPE_CHECKING:
@@ -52,10 +52,12 @@ def give_answer(
     means: Mapping[str, str],
     last: Sequence[str],
     more: Sequence[More] = (),
+    times: Sequence[float] | None = None,
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end.
 
-    ``more`` are tables that follow the first one, each with the sentence above it.
+    ``more`` are tables that follow the first one, each with the sentence above it. With the times
+    of its rows, the first table shows more of the beginning.
     """
     files.write(
         *found.table(),
@@ -69,11 +71,12 @@ def give_answer(
         for sentence in answer:
             console.print(sentence)
         table = Table(heads, right=True, more=ALL, legend=means)
-        for i in some(len(rows)):
+        shown = some(len(rows)) if times is None else some_times(times)
+        for i in shown:
             table.add_row(*rows[i])
         console.print(table)
         if len(rows) > MOST_ROWS:
-            console.print(f"{MOST_ROWS} of {len(rows)} rows shown; --csv FILE writes all")
+            console.print(f"{len(shown)} of {len(rows)} rows shown; --csv FILE writes all")
         for sentence, own_heads, own_rows, own_means in more:
             console.print(sentence)
             another = Table(own_heads, words=own_heads[:1], right=True, more=ALL, legend=own_means)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, partial
@@ -11,6 +12,7 @@ from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
+from ..quantities.say import value_of
 from ..quantities.value import Value, quantity
 from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
@@ -123,6 +125,16 @@ class AskedLife:
             bodies |= bodies_of(self.contact.contact)
         rows = (BareNumber("life.duration", DURATION, self.duration),)
         return Described(values, bodies, rows)
+
+
+def _duration(reader: Reader, path: str, value: Any) -> float:
+    """A duration; without a unit it is in seconds, which is said."""
+    found = read_number(DURATION, reader, path, value)
+    bare = str(value).strip()
+    if re.fullmatch(r"[\d.+]+([eE][+-]?\d+)?", bare):
+        said = f"{path} = {bare} has no unit and is taken as {value_of(found, 's')}"
+        reader.assumed.append(f'{said}; for hours write "{bare} h"')
+    return found
 
 
 def _times(reader: Reader, path: str, value: Any) -> tuple[float, ...]:
@@ -267,7 +279,7 @@ def _keys() -> dict[str, Key]:
     """Keys of [life]."""
     duration = quantity_key("duration", DURATION)
     return {
-        "duration": duration._replace(required=True),
+        "duration": duration._replace(required=True, read=_duration),
         "oil": Key(None, True, 'the oil, with volume = "200 L", start and ingress', NOTHING, _oil),
         "filters": FILTERS,
         "dry": DRY,

@@ -18,8 +18,8 @@ __all__ = ["HEADS", "MEANS", "answer", "last_words", "rows"]
 
 HEADS = ("time", "particles", "loaded", "share", "wear 1", "wear 2", "friction")
 MEANS = {
-    "particles": "in the contact, debris with them, per mm²",
-    "loaded": "particles in the contact that bear load",
+    "particles": "per mm² of the contact, debris with them",
+    "loaded": "those of them that bear load, per mm² too",
     "share": "part of the load that particles carry",
     "wear 1": "mean wear depth of the first surface",
     "friction": "of the solids, over the load",
@@ -68,7 +68,8 @@ def _tends(history: DryHistory) -> str:
         said = f"The contact comes to no steady state: it holds {now} particles at the end"
         return said + _why(history)
     first = steady[0]
-    said = f"The contact comes to {_count(history, first.numbers)} particles"
+    per_area = number(float(first.numbers.sum()) / 1e6, 3)
+    said = f"The contact comes to {_count(history, first.numbers)} particles, {per_area} per mm²"
     if not first.stable:
         return f"{said}, a state that is not stable"
     said += f", and is within a hundredth of them after {duration_of(first.time)}"
@@ -80,6 +81,11 @@ def _tends(history: DryHistory) -> str:
 def _why(history: DryHistory) -> str:
     """Why there is no steady state, where particles never leave."""
     slowest = float(np.min(np.linalg.eigvals(history.losses).real))
+    if history.loop.loss == 0:
+        return (
+            ", and none ever leaves it, because life.dry.loss = 0 brings all of them round again; "
+            "a loss above 0, 0.01 for one in a hundred, has an end"
+        )
     return ", and some of them never leave it" if slowest <= 0 else ""
 
 
@@ -93,7 +99,7 @@ def rows(found: DryResult) -> list[list[str]]:
             [
                 duration_of(float(time)),
                 number(float(history.numbers[i].sum()) / 1e6, 3),
-                number(float(more["present"][i]), 3),
+                number(float(more["present"][i]) / history.loop.setting.area / 1e6, 3),
                 percent(float(more["sa_share"][i])),
                 value_of(float(more["wear_1"][i]), "m", 3) if more["wear_1"][i] else "0",
                 value_of(float(more["wear_2"][i]), "m", 3) if more["wear_2"][i] else "0",

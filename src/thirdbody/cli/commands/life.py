@@ -121,6 +121,7 @@ def _tell_history(options: Options) -> None:
         rows=words.rows(found),
         means=words.MEANS,
         last=words.last_words(found),
+        times=found.history.times.tolist(),
         more=tables_of_dents(found.dents) if isinstance(found, LifeResult) else (),
     )
     if options.figure is not None and drawn is not None:
