@@ -122,6 +122,8 @@ def bands_of_dry(
         vary=asked.uncertainty,
         duration=asked.duration,
         until=asked.until,
+        samples=asked.drawn.samples,
+        seed=asked.drawn.seed,
         conditions=_arguments(asked),
         progress=progress,
         keep=keep,

@@ -122,8 +122,8 @@ class ReportsResult(QuestionResult):
 
     @property
     def run_notes(self) -> tuple[str, ...]:
-        """Those of the circuit."""
-        return tuple(self.asked.circuit.notes())
+        """Those of the circuit with what enters it."""
+        return tuple(self.asked.circuit.replace(ingress=(self.reports.ingress,)).notes())
 
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
         """Columns, a row a size, and their units."""
@@ -276,6 +276,8 @@ def bands_of(
         vary=asked.uncertainty,
         duration=asked.duration,
         until=asked.until,
+        samples=asked.drawn.samples,
+        seed=asked.drawn.seed,
         contact=_arguments(asked),
         progress=progress,
         keep=keep,

@@ -84,8 +84,8 @@ def summary(result: FilmResult) -> list[str]:
     ends = sorted({0, len(states["speed"]) - 1})
     narrower = [part for part in result.passing if any(part.share[i] > 0 for i in ends)]
     if result.passing and not narrower:
-        gap = max(states["h"][i] for i in ends)
-        out.append(f"No particle is narrower than the gap of {value_of(gap, 'm')}.")
+        gap = value_of(max(states["h"][i] for i in ends), "m")
+        out.append(f"No particle is narrower than the gap of {gap}{' at most' * (len(ends) > 1)}.")
     for part in narrower:
         at = [
             f"{share(part.share[i])} of the particles are narrower than the gap of "

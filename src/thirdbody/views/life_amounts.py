@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..quantities.say import number, value_of
 
-__all__ = ["duration_of", "flow_of", "mass_of"]
+__all__ = ["duration_of", "flow_of", "flows_of", "mass_of", "masses_of"]
 
 MINUTE, HOUR, DAY, YEAR = 60.0, 3600.0, 86400.0, 365.25 * 86400
 ENDS = ((2 * MINUTE, 1.0, "s"), (2 * HOUR, MINUTE, "min"), (20_000 * HOUR, HOUR, "h"))
+UNITS = (("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("µg", 1e-9))
 NEVER = "for ever"
 MOST_WHOLE = 1e5
 """Number from which a time is said by a power of ten."""
@@ -43,6 +45,26 @@ def mass_of(kilograms: float) -> str:
     ('50 g', '1.3 mg', '2 kg', '0 g')
     """
     return value_of(kilograms, "kg", 3) if kilograms else "0 g"
+
+
+def masses_of(kilograms: Sequence[float]) -> list[str]:
+    """Masses in one unit, that of the largest.
+
+    >>> masses_of([1.21e-3, 5.57e-4])
+    ['1.21 g', '0.557 g']
+    """
+    largest = max(kilograms, default=0.0)
+    unit, size = next(((unit, size) for unit, size in UNITS if largest >= size), UNITS[-1])
+    return [f"{number(each / size, 3)} {unit}" if each else "0 g" for each in kilograms]
+
+
+def flows_of(kilograms_per_second: Sequence[float]) -> list[str]:
+    """Masses per hour in one unit.
+
+    >>> flows_of([2e-7, 3e-7])
+    ['0.72 g/h', '1.08 g/h']
+    """
+    return [f"{each}/h" for each in masses_of([HOUR * each for each in kilograms_per_second])]
 
 
 def flow_of(kilograms_per_second: float) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..quantities.say import join_words, number, percent, value_of
-from .life_words import band_words, duration_of, events, mass_of
+from .life_amounts import masses_of
+from .life_words import band_words, duration_of, events
 
 if TYPE_CHECKING:
     from ..study.run_dry import DryResult
@@ -113,7 +114,8 @@ def last_words(found: DryResult) -> list[str]:
     """Flows, events, time scales, and what was not known."""
     history = found.history
     some = [row for row in history.flows() if row[2] > 0][:3]
-    shown = [f"{mass_of(mass)} from {start} to {end}" for start, end, mass in some]
+    masses = masses_of([mass for _, _, mass in some])
+    shown = [f"{m} from {start} to {end}" for m, (start, end, _) in zip(masses, some, strict=True)]
     out = [f"Most of the particles: {join_words(shown)}."] if shown else []
     out += [*band_words(found), *events(history)]
     scales = [

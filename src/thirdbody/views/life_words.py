@@ -14,7 +14,7 @@ from ..systems.life.circuit import LEAKED, SETTLED
 from ..systems.life.contact_history import ContactHistory, DryHistory, SteadyContact
 from ..systems.life.history import LifeHistory
 from ..systems.life.sizing import least_flow
-from .life_amounts import duration_of, flow_of, mass_of
+from .life_amounts import duration_of, flows_of, mass_of, masses_of
 from .life_dents_words import dent_answer
 
 if TYPE_CHECKING:
@@ -154,7 +154,8 @@ def _largest_flows(history: LifeHistory) -> str:
     some = [row for row in history.flows() if row[2] > 0][:LARGEST_FLOWS]
     if not some:
         return "No dirt moves."
-    shown = [f"{mass_of(mass)} from {start} to {end}" for start, end, mass in some]
+    masses = masses_of([mass for _, _, mass in some])
+    shown = [f"{m} from {start} to {end}" for m, (start, end, _) in zip(masses, some, strict=True)]
     return f"Most of the dirt: {join_words(shown)}."
 
 
@@ -286,10 +287,11 @@ def facts(history: LifeHistory) -> dict[str, str]:
 # ------------------------------------------------------------------------------ reports
 def report_answer(found: OilReports) -> list[str]:
     """What the reports say, in sentences."""
+    best, low, high = flows_of([found.mass_rate, found.mass_low, found.mass_high])
     out = [
-        f"Between the reports {flow_of(found.mass_rate)} of dirt from "
-        f"{value_of(float(found.sizes[0]), 'm')} on entered the oil: {flow_of(found.mass_low)} to "
-        f"{flow_of(found.mass_high)}, if every count lies somewhere in the range of its code."
+        f"Between the reports {best} of dirt from "
+        f"{value_of(float(found.sizes[0]), 'm')} on entered the oil: {low} to "
+        f"{high}, if every count lies somewhere in the range of its code."
     ]
     if found.is_constant is None:
         out.append("Two reports fit any ingress: whether it is constant, a third one says.")
