@@ -175,7 +175,7 @@ def test_what_does_not_go_together_is_refused():
         run("assess", file, "--html", "a.html").stderr.split()
     )
     for command in ("life", "assess"):
-        done = run(command, "bare.toml", "--keep", "kept.jsonl")
+        done = run(command, "bare-oil-circuit.toml", "--keep", "kept.jsonl")
         assert done.exit_code == 2
         assert "the study has none" in done.stderr
     assert not Path("kept.jsonl").exists()

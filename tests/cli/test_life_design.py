@@ -118,7 +118,7 @@ def test_the_time_of_a_contact_is_that_of_its_history():
 
 
 MISTAKES = [
-    (FILTERS.replace('code = "14/12/8"', ""), "needs code, or choices"),
+    (FILTERS.replace('code = "14/12/8"', ""), 'needs either code, e.g. code = "16/14/11"'),
     (FILTERS.replace("14/12/8", "18"), "must be three numbers"),
     (FILTERS.replace("4 um", "4 kg"), "life.design.filters"),
     (CHOICES.replace("filter_full = true", ""), "needs one event in [life.until]"),

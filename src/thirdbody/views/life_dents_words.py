@@ -27,7 +27,8 @@ MEANS = {
 def _heading(found: LifeDents) -> str:
     """What the table is of."""
     said = "taken as" if found.assumed else "given as"
-    return f"Dents in the tracks, entry ratio {said} {number(found.entry_ratio, 3)}:"
+    ratio = number(found.entry_ratio, 3)
+    return f"Dents in the tracks by each oil as it ends, entry ratio {said} {ratio}:"
 
 
 def _rows(found: LifeDents) -> list[list[str]]:

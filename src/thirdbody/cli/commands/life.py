@@ -101,7 +101,10 @@ def _tell_history(options: Options) -> None:
         files.need(options.figure, force=options.force)
     bands = bool(asked.uncertainty)
     if options.keep is not None and not bands:
-        raise InvalidValue("--keep keeps the histories of [life.uncertainty]; the study has none")
+        raise InvalidValue(
+            "--keep keeps the many histories of [life.uncertainty], and the study has none: one "
+            "history takes seconds"
+        )
     with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep):
         found = run_life(asked, progress=bands, keep=options.keep, filter=fine)
     drawn = None

@@ -64,7 +64,8 @@ def times_within(
 
     Examples
     --------
-    >>> halves = times_within(lambda t: np.array([1 + 9 * 0.5**t]), np.array([1.0]), first=0.01)
+    >>> end = np.array([1e9])
+    >>> halves = times_within(lambda t: end * (1 + 9 * 0.5**t), end, first=0.01)
     >>> f"{halves[0]:.5f}", f"{math.log2(9 / (math.sqrt(2) - 1)):.5f}"
     ('4.44147', '4.44147')
     """
