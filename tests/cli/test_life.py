@@ -3,6 +3,7 @@
 import csv
 import dataclasses
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_words import answer
 from thirdbody.views.report import report
 
-from .life_shell import CONTACT, HOUR, enter, run, said, setting
+from .life_shell import CONTACT, HOUR, complained, enter, run, said, setting
 
 
 @pytest.fixture(autouse=True)
@@ -142,6 +143,47 @@ def test_a_study_takes_its_ingress_from_reports():
     done = run("life", "from.toml")
     assert "it ends at 16/1" in said(done)
     assert "from its reports" in done.stderr
+
+
+def test_reports_that_are_not_later_are_named_with_their_lines():
+    Path("oil.csv").write_text(CODES + "750,16/13/10\n")
+    told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    assert "oil.csv, line 6: " in told
+    assert "is not later than the report of line 5" in told
+
+
+def test_an_ingress_of_reports_that_fills_the_filter_at_once_is_doubted():
+    Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\n250,26/24/21\n")
+    done = run("life", "oil-circuit.toml", "--reports", "oil.csv")
+    assert "where filters last for months" in " ".join(done.stderr.split())
+    first, low, high = re.findall(r"([\d.]+) (?:k?g)/h", said(done))[:3]
+    assert float(low) < float(first) < float(high)  # in one unit
+
+
+def test_a_duration_without_a_unit_is_said():
+    for value in ("100", '"100"'):
+        done = run("life", "oil-circuit.toml", *setting(f"life.duration={value}"))
+        told = " ".join(done.stderr.split())
+        assert (
+            'life.duration = 100 has no unit and is taken as 100 s; for hours write "100 h"' in told
+        )
+    done = run("life", "oil-circuit.toml", *setting('life.duration="100 h"'))
+    assert "has no unit" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "key", ['oil.volume="200"', 'filters.0.flow="60"', 'filters.0.capacity="50"']
+)
+def test_numbers_without_a_unit_that_no_oil_has_are_refused(key):
+    told = complained(run("life", "oil-circuit.toml", *setting(f"life.{key}")))
+    assert "has no unit, so it would be" in told
+
+
+def test_rows_are_shown_where_much_happens():
+    """A filter that is full every few hours: its rows do not hide the first minutes."""
+    keys = setting('life.filters.0.capacity="1 g"')
+    shown = run("life", "oil-circuit.toml", *keys).stdout.split("─── \n")[1].splitlines()[:20]
+    assert sum(" s " in line or " min " in line for line in shown) >= 5
 
 
 # ------------------------------------------------------------------------------ mistakes

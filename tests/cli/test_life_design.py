@@ -11,7 +11,7 @@ from thirdbody.study.run_life import load_oil, run_life
 from thirdbody.study.run_life_design import design_life
 from thirdbody.systems.life.oil_history import run_oil_history
 
-from .life_shell import CONTACT, enter, run, said, study
+from .life_shell import CONTACT, complained, enter, run, said, study
 
 FILTERS = """
 [life.design]
@@ -143,3 +143,15 @@ def test_a_dry_contact_has_no_filters_to_choose():
     done = run("design", "dry-contact.toml", "--set", 'life.design.code="14/12/8"')
     assert done.exit_code == 2
     assert "life.dry is a dry contact" in done.stderr
+
+
+def test_an_empty_table_is_answered_with_examples():
+    told = complained(run("design", study("oil-circuit", "[life.design]\n")))
+    assert 'code = "16/14/11"' in told
+    assert "[[life.design.choices]]" in told
+
+
+def test_a_choice_says_that_beta_is_taken_as_constant():
+    assert "The beta ratios are taken as constant" in said(
+        run("design", study("oil-circuit", FILTERS))
+    )

@@ -75,6 +75,24 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
+def test_particles_and_those_with_load_stand_on_one_basis():
+    """Both per mm²: no more bear load than are there; the JSON holds those of the whole contact."""
+    done = run("life", "dry-contact.toml", *SHORT, "--json")
+    data = json.loads(done.stdout)
+    rows = run("life", "dry-contact.toml", *SHORT).stdout.split("─── \n")[1].splitlines()
+    last = next(each for each in rows if each.startswith("   60 min"))
+    there, loaded = (float(each.replace("×10⁴", "e4")) for each in last.split()[2:4])
+    assert loaded <= there
+    assert loaded == pytest.approx(data["more"]["present"][-1] / 100, rel=0.01)  # 1 cm² in mm²
+    assert there == pytest.approx(np.sum(data["numbers"][-1]) / 1e6, rel=0.01)
+
+
+def test_nothing_leaves_where_all_comes_round_again():
+    keys = ("--set", "life.dry.loss=0", "--set", 'life.duration="2 s"')
+    told = said(run("life", "dry-contact.toml", *keys))
+    assert "none ever leaves it, because life.dry.loss = 0 brings all of them round again" in told
+
+
 def test_json_csv_and_workbook_hold_the_same_numbers():
     openpyxl = pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
     done = run("life", "dry-contact.toml", *SHORT, "--json", "--csv", "a.csv", "--xlsx", "a.xlsx")

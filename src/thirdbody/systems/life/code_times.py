@@ -67,7 +67,7 @@ def times_within(
     >>> end = np.array([1e9])
     >>> halves = times_within(lambda t: end * (1 + 9 * 0.5**t), end, first=0.01)
     >>> f"{halves[0]:.5f}", f"{math.log2(9 / (math.sqrt(2) - 1)):.5f}"
-    ('4.44147', '4.44147')
+    ('4.44148', '4.44148')
     """
     within = [first * 2.0 ** (j / PER_OCTAVE) for j in range(PER_OCTAVE)]
     # times a power of two is exact: half of a time is one of them

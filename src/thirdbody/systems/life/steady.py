@@ -45,7 +45,7 @@ def describe_reproduction(R0: float, *, why: str = "") -> str:
 
     Examples
     --------
-    >>> describe_reproduction(7e-5)[:56]
+    >>> describe_reproduction(7e-5)[:53]
     'one particle of debris breeds 7×10⁻⁵ others before it'
     >>> describe_reproduction(0.0, why="there is none")
     'debris makes no new debris (R₀ = 0): there is none'
