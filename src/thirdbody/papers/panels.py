@@ -131,7 +131,9 @@ def _dress(ax: Axes, panel: Panel) -> None:
             ax.yaxis.set_major_formatter(FormatStrFormatter("%g"))
             ax.yaxis.set_minor_formatter(NullFormatter())
     x = np.concatenate([line.x for line in panel.lines])
-    ax.set_xlim(x.min(), x.max())
+    few = all(len(line.x) <= FEW for line in panel.lines)
+    margin = 1.1 if few and panel.xlog else 1.0  # for the marks at the ends
+    ax.set_xlim(x.min() / margin, x.max() * margin)
     ax.set_ylim(*panel.ylim)
     ax.set_xlabel(panel.xlabel)
     ax.set_ylabel(panel.ylabel)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..quantities.say import join_words, number
-from .life_words import duration_of
+from .life_amounts import duration_of
 
 if TYPE_CHECKING:
     from ..study.run_life_design import LifeDesign

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..quantities.say import join_words, number, percent, value_of
-from .life_amounts import masses_of
-from .life_words import band_words, duration_of, events
+from .life_amounts import duration_of, masses_of
+from .life_words import band_words, events
 
 if TYPE_CHECKING:
     from ..study.run_dry import DryResult

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
-    *("answer", "band_words", "duration_of", "events", "facts", "flow_of"),
-    *("last_words", "least_flow_words", "mass_of", "report_answer", "report_rows", "rows"),
+    *("answer", "band_words", "events", "facts", "hidden_words", "last_words"),
+    *("least_flow_words", "report_answer", "report_rows", "rows", "slow_words"),
     "words_of_bands",
 ]
 

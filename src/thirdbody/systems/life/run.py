@@ -165,8 +165,8 @@ def life(
     >>> history.codes[-1], history.steady()[0].code
     ('17/15/11', '17/15/11')
     """
-    single = isinstance(until, Until | str) or not isinstance(until, Iterable)
-    waits = (until,) if single else tuple(until)
+    several = isinstance(until, Iterable) and not isinstance(until, Until | str)
+    waits: tuple[Until, ...] = tuple(until) if several else (until,)  # type: ignore[assignment,arg-type]
     if wrong := [each for each in waits if not isinstance(each, Until)]:
         rule = 'must hold what a history waits for, e.g. tb.until.iso4406("21/19/16")'
         raise InvalidValue(Problem("until", rule, repr(wrong[0])))
