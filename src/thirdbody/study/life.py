@@ -250,7 +250,7 @@ def _uncertainty(
         more[BANDS_HARDNESS] = HARDNESS
     some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
     if circuit.filters:
-        some += f', "filters.0.beta.{1e6 * circuit.filters[0].sizes[0]:g} um"'
+        some += f', "filters.0.beta.{value_of(circuit.filters[0].sizes[0], "m")}"'
     some += "".join(f', "{name}"' for name in more)
 
     def about(label: str) -> tuple[str, dict[str, Any] | None]:
