@@ -3,6 +3,7 @@
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from thirdbody.study.dirty_oil import dirty_oil
 from thirdbody.study.life_dents import dents_of_life
 from thirdbody.study.run_life import history_of, load_oil, run_life
 from thirdbody.systems.oil_filter import Filter
+from thirdbody.views.report.tables import life_section
 
 from .life_shell import CONTACT, complained, enter, quarry, run, said, setting, study
 
@@ -134,6 +136,13 @@ def test_it_is_printed_and_in_json():
     assert data["oils"][1]["tracks"][1]["per_hour"] == found.oils[1].tracks[1].per_hour
     assert data["oils"][1]["time"] is None  # no end of it
     assert math.isinf(found.oils[1].time)
+
+
+def test_the_report_holds_the_table():
+    found = run_life(load_oil(quarry()))
+    (part,) = life_section(SimpleNamespace(life=found))
+    assert "Dents in the tracks by each oil as it ends" in part
+    assert "without the return filter" in part
 
 
 def test_a_workbook_holds_the_table():

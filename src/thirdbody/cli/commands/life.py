@@ -11,7 +11,6 @@ from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
 from ..interrupt import resumable
 from ..options import (
-    FilterText,
     Force,
     JsonFile,
     KeepFile,
@@ -48,7 +47,12 @@ class Options:
         "Print the least flow of each filter that brings the oil to a code, e.g. 16/14/11.",
         "CODE",
     )
-    filter_text: FilterText = None
+    filter_text: str | None = option(
+        "--filter",
+        "Count dents with another filter too, by the beta ratios of its data sheet, sizes in "
+        'um(c), e.g. "5=75, 10=1000".',
+        "SIZE=BETA,...",
+    )
     json: JsonFile = None
     csv: Path | None = option("--csv", "Write a table, one row per time, e.g. a.csv.", "FILE")
     xlsx: XlsxFile = None
