@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,11 +10,9 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
-from ..errors import RangeWarning
 from ..quantities.plain_data import plain_data
 from ..systems.life.history import LifeHistory
 from ..systems.life.reports import OilReports, oil_reports, read_reports
-from ..systems.life.run import life
 from ..systems.oil_filter import Filter
 from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife, life_of, oil_of
@@ -23,7 +20,7 @@ from .life_bands import LifeBands, propagate_life
 from .life_dents import LifeDents, dents_of_life
 from .life_dirt import CLEAN
 from .overrides import override
-from .run_dry import DryResult, bands_of_dry, run_dry
+from .run_dry import DryResult, bands_of_dry, life_of_asked, run_dry
 from .toml import read
 from .whole import load_tables, read_tables
 
@@ -237,12 +234,8 @@ class LifeResult(QuestionResult):
 
 def history_of(asked: AskedLife) -> LifeHistory:
     """The history of the oil, with the contacts that it goes through where there are some."""
-    shared: dict[str, Any] = {
-        "oil": asked.circuit, "duration": asked.duration, "until": asked.until
-    }  # fmt: skip
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
-        return life(**(_arguments(asked) or {}), **shared)
+    found: LifeHistory = life_of_asked(asked, oil=asked.circuit, **(_arguments(asked) or {}))
+    return found
 
 
 def _arguments(asked: AskedLife) -> dict[str, Any] | None:
