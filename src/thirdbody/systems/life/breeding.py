@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...quantities.carried import takes_units
 from ...quantities.say import value_of
 from .film_loop import FilmLoop
 from .linear_flow import reproduction
@@ -79,6 +80,7 @@ def why_none(loop: Loop, y: Array) -> str:
     return "what of it is pressed cuts no groove"
 
 
+@takes_units
 def why_unknown(births: Array, losses: Array, edges: Array, materials: tuple[str, ...]) -> str:
     """Which particles breed and are never removed, as a clause.
 

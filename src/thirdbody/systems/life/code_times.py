@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from ...quantities.carried import takes_units
 from .circuit import LEAKED, SETTLED, OilTerms
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ class SlowSizes(NamedTuple):
     """What alone takes them out: "settled", "leaked", the name of a filter, or "" for nothing."""
 
 
+@takes_units
 def times_within(
     counts: Callable[[float], Array], end: Array, *, first: float, factor: float = HALF_CODE
 ) -> tuple[float, ...]:
@@ -99,6 +101,7 @@ def times_within(
     return tuple(out)
 
 
+@takes_units
 def slow_sizes(terms: OilTerms, *, volume: float, than: float) -> SlowSizes | None:
     """The small sizes of an oil that take far longer than a time; None where there are none.
 
