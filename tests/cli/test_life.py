@@ -3,42 +3,27 @@
 import csv
 import dataclasses
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli
 from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
 from thirdbody.systems.life.sizing import least_flow
 from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_words import answer
 from thirdbody.views.report import report
 
-HOUR = 3600.0
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-def said(done):
-    assert done.exit_code == 0, done.stderr
-    return " ".join(done.stdout.split())
+from .life_shell import CONTACT, HOUR, complained, enter, run, said, setting
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+    enter(tmp_path, monkeypatch)
     assert run("new", "oil-circuit").exit_code == 0
     return tmp_path
-
-
-def setting(*keys):
-    return [word for key in keys for word in ("--set", key)]
 
 
 # ------------------------------------------------------------------------------ the history
@@ -46,7 +31,7 @@ def test_codes_flows_and_events_are_told():
     told = said(run("life", "oil-circuit.toml"))
     history = run_life(load_life("oil-circuit.toml")).history
     assert f"The oil goes from {history.codes[0]} to {history.codes[-1]} in 2000 h" in told
-    assert f"it comes to {history.steady()[0].code}" in told
+    assert f"it ends at {history.steady()[0].code}, and is within half a number of it" in told
     assert "return filter is full with 50 g, and is changed" in told
     assert "After 1500 h: the oil is changed" in told
     assert "oil through the filters once 3.33 min" in told
@@ -156,8 +141,49 @@ def test_a_study_takes_its_ingress_from_reports():
     assert old in text
     Path("from.toml").write_text(text.replace(old, 'ingress = { reports = "oil.csv" }'), "utf-8")
     done = run("life", "from.toml")
-    assert "it comes to 16/1" in said(done)
+    assert "it ends at 16/1" in said(done)
     assert "from its reports" in done.stderr
+
+
+def test_reports_that_are_not_later_are_named_with_their_lines():
+    Path("oil.csv").write_text(CODES + "750,16/13/10\n")
+    told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    assert "oil.csv, line 6: " in told
+    assert "is not later than the report of line 5" in told
+
+
+def test_an_ingress_of_reports_that_fills_the_filter_at_once_is_doubted():
+    Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\n250,26/24/21\n")
+    done = run("life", "oil-circuit.toml", "--reports", "oil.csv")
+    assert "where filters last for months" in " ".join(done.stderr.split())
+    first, low, high = re.findall(r"([\d.]+) (?:k?g)/h", said(done))[:3]
+    assert float(low) < float(first) < float(high)  # in one unit
+
+
+def test_a_duration_without_a_unit_is_said():
+    for value in ("100", '"100"'):
+        done = run("life", "oil-circuit.toml", *setting(f"life.duration={value}"))
+        told = " ".join(done.stderr.split())
+        assert (
+            'life.duration = 100 has no unit and is taken as 100 s; for hours write "100 h"' in told
+        )
+    done = run("life", "oil-circuit.toml", *setting('life.duration="100 h"'))
+    assert "has no unit" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "key", ['oil.volume="200"', 'filters.0.flow="60"', 'filters.0.capacity="50"']
+)
+def test_numbers_without_a_unit_that_no_oil_has_are_refused(key):
+    told = complained(run("life", "oil-circuit.toml", *setting(f"life.{key}")))
+    assert "has no unit, so it would be" in told
+
+
+def test_rows_are_shown_where_much_happens():
+    """A filter that is full every few hours: its rows do not hide the first minutes."""
+    keys = setting('life.filters.0.capacity="1 g"')
+    shown = run("life", "oil-circuit.toml", *keys).stdout.split("─── \n")[1].splitlines()[:20]
+    assert sum(" s " in line or " min " in line for line in shown) >= 5
 
 
 # ------------------------------------------------------------------------------ mistakes
@@ -295,28 +321,6 @@ def test_the_report_has_a_page_on_the_oil():
 
 
 # ------------------------------------------------------------------------------ contacts in the oil
-CONTACT = """
-[outputs.friction]
-tau_ss = "100 MPa"
-tau_sa = "100 MPa"
-[outputs.wear]
-K_ss = 1e-7
-K_sa = 0
-f_ab = 0.1
-f_roll = 0
-[film]
-conjunction = { shape = "point", R = "9.5 mm" }
-oil = { eta = "30 mPa s", alpha = "20 / GPa" }
-load = "50 N"
-speed = "1 m/s"
-slide_roll = 0.05
-[life.debris]
-sizes = "boundary-lubricated"
-[life.contact]
-contacts = 20
-"""
-
-
 def with_contact(*lines):
     text = Path("oil-circuit.toml").read_text("utf-8") + CONTACT + "\n".join(lines)
     Path("contact.toml").write_text(text.replace('oil_changes = "1500 h"', "# "), "utf-8")
@@ -354,7 +358,9 @@ def test_parts_of_a_contact_that_are_missing_are_named():
     Path("part.toml").write_text(text, "utf-8")
     done = run("life", "part.toml")
     assert done.exit_code == 2
-    assert "life.contact needs [outputs], [film] with conjunction" in " ".join(done.stderr.split())
+    assert "life.contact needs [outputs], [film] with oil, and with conjunction" in " ".join(
+        done.stderr.split()
+    )
     Path("part.toml").write_text(
         text.split("[life.contact]")[0] + '[life.debris]\nsizes = "boundary-lubricated"\n'
     )

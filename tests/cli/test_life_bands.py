@@ -7,18 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli
 from thirdbody.study import life_bands
 from thirdbody.study.life_bands import propagate_dry, propagate_life
 from thirdbody.study.life_kept import KeptEnds
 from thirdbody.study.run_life import load_life, load_oil
 
-from .test_life import CONTACT
+from .life_shell import CONTACT, HOUR, complained, enter, run, said, study
 
-HOUR = 3600.0
 OIL = """
 [life.until]
 iso4406 = "13/11/7"
@@ -36,25 +33,9 @@ arrivals = { median = 1, gsd = 3 }
 SHORT = ["--set", 'life.duration="2 h"', "--set", "life.oil.oil_changes=[]"]
 
 
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-def said(done):
-    assert done.exit_code == 0, done.stderr
-    return " ".join(done.stdout.split())
-
-
-def study(kind, more):
-    assert run("new", kind, "--out", "bare.toml").exit_code == 0
-    Path("study.toml").write_text(Path("bare.toml").read_text("utf-8") + more, "utf-8")
-    return "study.toml"
-
-
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+    enter(tmp_path, monkeypatch)
     return tmp_path
 
 
@@ -117,6 +98,92 @@ def test_an_event_that_never_comes_is_censored_throughout():
     )  # fmt: skip
     assert np.all(np.isinf(found.times["code 28/26/24"]))
     assert found.missed("code 28/26/24") == 16
+
+
+IN_UNCERTAINTY = """
+[life.until]
+iso4406 = "13/11/7"
+[uncertainty]
+samples = 64
+seed = 3
+[uncertainty.inputs]
+"roughness.sigma" = { low = "80 nm", high = "120 nm" }
+"life.ingress" = { median = 1, gsd = 2 }
+"life.oil.volume" = { low = "180 L", high = "220 L" }
+"life.filters.0.beta.7 um" = { low = 40, high = 100 }
+"""
+
+
+def test_uncertainty_varies_a_life():
+    """What [uncertainty] names of [life] is varied as in [life.uncertainty], β ratios too."""
+    file = study("oil-circuit", IN_UNCERTAINTY)
+    asked = load_oil(file, [SHORT[1], SHORT[3]])
+    assert list(asked.uncertainty) == ["ingress", "volume", "filters.0.beta.7 um"]
+    assert (asked.drawn.samples, asked.drawn.seed) == (64, 3)
+    done = run("assess", file, *SHORT, "--json")
+    assert done.exit_code == 0, done.stderr
+    assert '"roughness.sigma" has no effect on [life]' in " ".join(done.stderr.split())
+    data = json.loads(done.stdout)
+    assert 0 < data["missed"]["code 13/11/7"] < data["samples"] == 64
+    by_hand = propagate_life(
+        asked.circuit, vary=asked.uncertainty, duration=2 * HOUR, samples=64, seed=3,
+        until=[tb.until.iso4406("13/11/7")],
+    )  # fmt: skip
+    assert data["counts"] == by_hand.counts.tolist()
+    # the rest of the table is of the contact, for the other commands
+    assert list(tb.load_study(file).uncertainty.inputs) == ["roughness.sigma"]
+
+
+def test_a_beta_ratio_moves_what_it_holds():
+    """β of one size up and down, the others as they are, as in circuits made by hand."""
+    oil = load_oil(study("oil-circuit", "")).circuit
+    found = propagate_life(
+        oil, vary={"filters.0.beta.7 um": tb.Uncertain.uniform(low=20, high=200)},
+        duration=HOUR, samples=2, probabilities=(0.0, 1.0),
+    )  # fmt: skip
+    (swing,) = found.swings
+    for beta, end in ((20.0, swing.low), (200.0, swing.high)):
+        betas = (2.0, 5.0, beta, 1000.0)
+        own = oil.replace(filters=oil.filters[0].replace(betas=betas))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            assert end == pytest.approx(tb.life(oil=own, duration=HOUR).counts[-1, 1], rel=1e-9)
+    assert swing.low > swing.high
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        ('"life.filters.0.beta.8 um" = { low = 40, high = 100 }', "is not a number of the circuit"),
+        ('"life.oil.volumes" = { low = 1, high = 2 }', "is not a number of the circuit"),
+        ('"life.ingress" = { low = 1 }', "must be one of"),
+    ],
+)
+def test_wrong_names_in_uncertainty_are_told(entry, words):
+    told = complained(run("assess", study("oil-circuit", f"[uncertainty.inputs]\n{entry}\n")))
+    assert "uncertainty.inputs." in told
+    assert words in told
+
+
+def test_numbers_of_a_life_need_a_life():
+    file = study("two-body", '[uncertainty.inputs]\n"life.ingress" = { low = 1, high = 2 }\n')
+    assert "names numbers of [life], and there is no such table" in complained(run("assess", file))
+
+
+@pytest.mark.slow
+def test_numbers_inside_a_contact_are_varied(few):
+    """Wear of asperities alone is K times what is slid: four times K wears four times as much."""
+    file = study("dry-contact", "")
+    keys = ["life.duration=2 s", "life.dry.arrivals=clean", "outputs.wear.f_ab=0",
+            "outputs.wear.f_roll=0"]  # fmt: skip
+    asked = load_life(file, keys)
+    clean = asked.contact.replace(particles=None)
+    found = propagate_dry(
+        clean, vary={"outputs.wear.K_ss": tb.Uncertain.uniform(low=1e-10, high=4e-10)},
+        duration=2.0, conditions=dict(asked.conditions) | {"debris": asked.debris},
+        samples=2, probabilities=(0.0, 1.0),
+    )  # fmt: skip
+    assert found.swings[0].high / found.swings[0].low == pytest.approx(4, rel=1e-2)
 
 
 # ------------------------------------------------------------------------------ of contacts
@@ -194,9 +261,9 @@ def test_what_does_not_go_together_is_refused():
         run("assess", file, "--html", "a.html").stderr.split()
     )
     for command in ("life", "assess"):
-        done = run(command, "bare.toml", "--keep", "kept.jsonl")
+        done = run(command, "bare-oil-circuit.toml", "--keep", "kept.jsonl")
         assert done.exit_code == 2
-        assert "the study has none" in done.stderr
+        assert "the study has none" in " ".join(done.stderr.split())
     assert not Path("kept.jsonl").exists()
 
 

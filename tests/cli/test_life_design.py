@@ -5,13 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli
 from thirdbody.study.run_life import load_oil, run_life
 from thirdbody.study.run_life_design import design_life
 from thirdbody.systems.life.oil_history import run_oil_history
+
+from .life_shell import CONTACT, complained, enter, run, said, study
 
 FILTERS = """
 [life.design]
@@ -40,26 +40,9 @@ name = "less oil"
 """
 
 
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-def said(done):
-    assert done.exit_code == 0, done.stderr
-    return " ".join(done.stdout.split())
-
-
-def study(more):
-    if not Path("bare.toml").exists():
-        run("new", "oil-circuit", "--out", "bare.toml")
-    Path("study.toml").write_text(Path("bare.toml").read_text("utf-8") + more, "utf-8")
-    return "study.toml"
-
-
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+    enter(tmp_path, monkeypatch)
     return tmp_path
 
 
@@ -68,7 +51,7 @@ def within(code, most):
 
 
 def test_the_first_filter_that_is_enough_and_the_least_flow_of_each():
-    file = study(FILTERS)
+    file = study("oil-circuit", FILTERS)
     told = said(run("design", file))
     found = design_life(load_oil(file))
     enough = [name for name, code in zip(found.names, found.codes, strict=True)
@@ -88,12 +71,12 @@ def test_the_first_filter_that_is_enough_and_the_least_flow_of_each():
 
 
 def test_none_is_enough():
-    told = said(run("design", study(FILTERS), "--set", 'life.design.code="8/6/0"'))
+    told = said(run("design", study("oil-circuit", FILTERS), "--set", 'life.design.code="8/6/0"'))
     assert "None of the 3 is enough for 8/6/0; with" in told
 
 
 def test_the_choice_with_the_longest_time_to_an_event():
-    file = study(CHOICES)
+    file = study("oil-circuit", CHOICES)
     told = said(run("design", file))
     assert "With a larger filter it takes longest until a filter is full" in told
     data = json.loads(run("design", file, "--json").stdout)
@@ -108,7 +91,7 @@ def test_the_choice_with_the_longest_time_to_an_event():
 
 
 def test_events_that_do_not_come_are_censored():
-    file = study(CHOICES)
+    file = study("oil-circuit", CHOICES)
     told = said(run("design", file, "--set", 'life.duration="500 h"'))
     assert "With a larger filter it takes more than 500 h until a filter is full" in told
     assert "more than 500 h" in told.split("choice time")[1]
@@ -121,12 +104,11 @@ def test_events_that_do_not_come_are_censored():
 @pytest.mark.slow
 def test_the_time_of_a_contact_is_that_of_its_history():
     """The depth that a history has after an hour is reached after an hour."""
-    from .test_life import CONTACT
 
     keys = ["life.oil.oil_changes=[]", 'life.duration="2 h"']
     contact = CONTACT.replace("f_roll = 0", "f_roll = 0.1") + "entry_ratio = 0.1\n"
-    history = run_life(load_oil(study(contact), keys)).history
-    file = study(contact + CHOICES.split("filter_full = true\n")[1])
+    history = run_life(load_oil(study("oil-circuit", contact), keys)).history
+    file = study("oil-circuit", contact + CHOICES.split("filter_full = true\n")[1])
     deepest = np.maximum(*(history.more[f"wear_{side}"][1] for side in (1, 2)))
     depth = float(np.interp(3600.0, history.times, deepest))
     asked = load_oil(file, [*keys, f'life.until.wear_depth="{depth!r} m"'])
@@ -136,7 +118,7 @@ def test_the_time_of_a_contact_is_that_of_its_history():
 
 
 MISTAKES = [
-    (FILTERS.replace('code = "14/12/8"', ""), "needs code, or choices"),
+    (FILTERS.replace('code = "14/12/8"', ""), 'needs either code, e.g. code = "16/14/11"'),
     (FILTERS.replace("14/12/8", "18"), "must be three numbers"),
     (FILTERS.replace("4 um", "4 kg"), "life.design.filters"),
     (CHOICES.replace("filter_full = true", ""), "needs one event in [life.until]"),
@@ -149,7 +131,7 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("more", "words"), MISTAKES)
 def test_mistakes_get_one_sentence(more, words):
-    done = run("design", study(more), "--csv", "a.csv")
+    done = run("design", study("oil-circuit", more), "--csv", "a.csv")
     assert done.exit_code == 2, done.stdout
     assert words in " ".join(done.stderr.split())
     assert "Traceback" not in done.stderr
@@ -161,3 +143,15 @@ def test_a_dry_contact_has_no_filters_to_choose():
     done = run("design", "dry-contact.toml", "--set", 'life.design.code="14/12/8"')
     assert done.exit_code == 2
     assert "life.dry is a dry contact" in done.stderr
+
+
+def test_an_empty_table_is_answered_with_examples():
+    told = complained(run("design", study("oil-circuit", "[life.design]\n")))
+    assert 'code = "16/14/11"' in told
+    assert "[[life.design.choices]]" in told
+
+
+def test_a_choice_says_that_beta_is_taken_as_constant():
+    assert "The beta ratios are taken as constant" in said(
+        run("design", study("oil-circuit", FILTERS))
+    )

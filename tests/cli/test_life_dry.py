@@ -8,33 +8,22 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli
 from thirdbody.study.run_life import load_life, run_life
 from thirdbody.systems.life.debris import Debris
 from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_dry_words import answer
 from thirdbody.views.report.tables import life_section
 
-HOUR = 3600.0
+from .life_shell import HOUR, enter, run, said
+
 SHORT = ("--set", 'life.duration="1 h"')
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
-def said(done):
-    assert done.exit_code == 0, done.stderr
-    return " ".join(done.stdout.split())
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+    enter(tmp_path, monkeypatch)
     assert run("new", "dry-contact").stdout == "thirdbody life dry-contact.toml\n"
     return tmp_path
 
@@ -84,6 +73,24 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
     assert "After 60 min wear has taken surface 1 by" in second
     assert "residence of what rolls 0.2 s" in told
     assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_particles_and_those_with_load_stand_on_one_basis():
+    """Both per mm²: no more bear load than are there; the JSON holds those of the whole contact."""
+    done = run("life", "dry-contact.toml", *SHORT, "--json")
+    data = json.loads(done.stdout)
+    rows = run("life", "dry-contact.toml", *SHORT).stdout.split("─── \n")[1].splitlines()
+    last = next(each for each in rows if each.startswith("   60 min"))
+    there, loaded = (float(each.replace("×10⁴", "e4")) for each in last.split()[2:4])
+    assert loaded <= there
+    assert loaded == pytest.approx(data["more"]["present"][-1] / 100, rel=0.01)  # 1 cm² in mm²
+    assert there == pytest.approx(np.sum(data["numbers"][-1]) / 1e6, rel=0.01)
+
+
+def test_nothing_leaves_where_all_comes_round_again():
+    keys = ("--set", "life.dry.loss=0", "--set", 'life.duration="2 s"')
+    told = said(run("life", "dry-contact.toml", *keys))
+    assert "none ever leaves it, because life.dry.loss = 0 brings all of them round again" in told
 
 
 def test_json_csv_and_workbook_hold_the_same_numbers():

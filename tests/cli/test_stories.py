@@ -179,6 +179,9 @@ def test_dust_or_steel_in_my_bearing_and_would_a_finer_filter_help(run):
     assert int(dust[1]) < int(steel[1])
     assert int(dust[2]) > int(steel[2])
     assert re.search(r"The film of 288 nm carries 99.999 % of the load at 2.9 m/s", told)
+    whole = " ".join(shown.split())
+    assert "is 1.004 of the load, and not 1, because the integral spreads them evenly" in whole
+    assert whole.count("No particle is narrower than the gap of 288.3 nm") == 1
     assert "e_C = 0.073, and the life factor a_ISO is 1.6 (50 in clean oil)" in told
     most = (
         r"Most uncertain: the hardness of dust\. With 10 GPa and 14\.4 GPa, one in twenty of the "

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from thirdbody import InvalidValue
-from thirdbody.papers import PAPERS, life
+from thirdbody.papers import PAPERS, life, panels
 from thirdbody.papers.measurements.row import STANDINGS, WORDS, word_of
 
 VERDICTS = {
@@ -107,3 +107,12 @@ def test_the_files_say_the_same(done):
 def test_there_is_no_preset(tmp_path):
     with pytest.raises(InvalidValue, match="no meaning for the life"):
         life.reproduce(tmp_path, preset="a")
+
+
+def test_the_figure_marks_its_few_points_and_is_titled_in_words():
+    figure = panels.draw(life._filters())
+    lines = figure.axes[0].get_lines()
+    assert all(line.get_marker() not in ("", "None") for line in lines)
+    low, high = figure.axes[0].get_xlim()
+    assert all(low < x < high for x in lines[0].get_xdata())
+    assert figure.texts[0].get_text() == "Dirt in the oil of a bearing behind filters of 1979"

@@ -326,7 +326,7 @@ def test_the_command_tells_point_and_curve():
     assert done.exit_code == 0
     assert "128 nm" in done.stdout
     assert "0.03813" in done.stdout
-    assert "S45C: 0 % of the particles are narrower than the gap of 122.7 nm" in done.stdout
+    assert "No particle is narrower than the gap of 122.7 nm" in done.stdout
     assert "squeezed by more than 0.15 of their radius" in done.stderr
     done = run(EXAMPLE, "--set", "film.speed.points=5")
     assert (

@@ -10,15 +10,17 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..quantities.tables import Table
 from ..version import __version__
-from .show import ALL, MOST_ROWS, some, terminal
+from .show import ALL, MOST_ROWS, some, some_times, terminal
 from .streams import STDOUT, TableFiles, remark, tell_written, warn_of
 
 if TYPE_CHECKING:
-    from ..views.workbook import Sheet
+    from ..views.workbook import Grid, Sheet
 
 __all__ = ["give_answer", "read_question"]
 
 Asked = TypeVar("Asked")
+More = tuple[str, Sequence[str], Sequence[Sequence[str]], Mapping[str, str]]
+"""A table: the sentence above it, heads, rows, and what the heads mean."""
 
 
 def read_question(
@@ -49,11 +51,17 @@ def give_answer(
     rows: Sequence[Sequence[str]],
     means: Mapping[str, str],
     last: Sequence[str],
+    more: Sequence[More] = (),
+    times: Sequence[float] | None = None,
 ) -> None:
-    """The answer first, then the table, then what moves it most; warnings at the very end."""
+    """The answer first, then the table, then what moves it most; warnings at the very end.
+
+    ``more`` are tables that follow the first one, each with the sentence above it. With the times
+    of its rows, the first table shows more of the beginning.
+    """
     files.write(
         *found.table(),
-        sheets=partial(_sheets, found, answer, (heads, rows), last),
+        sheets=partial(_sheets, found, answer, (heads, rows), last, more),
         data=found.to_dict,
     )
     tell_written(*files.paths)
@@ -63,11 +71,18 @@ def give_answer(
         for sentence in answer:
             console.print(sentence)
         table = Table(heads, right=True, more=ALL, legend=means)
-        for i in some(len(rows)):
+        shown = some(len(rows)) if times is None else some_times(times)
+        for i in shown:
             table.add_row(*rows[i])
         console.print(table)
         if len(rows) > MOST_ROWS:
-            console.print(f"{MOST_ROWS} of {len(rows)} rows shown; --csv FILE writes all")
+            console.print(f"{len(shown)} of {len(rows)} rows shown; --csv FILE writes all")
+        for sentence, own_heads, own_rows, own_means in more:
+            console.print(sentence)
+            another = Table(own_heads, words=own_heads[:1], right=True, more=ALL, legend=own_means)
+            for row in own_rows:
+                another.add_row(*row)
+            console.print(another)
         for sentence in last:
             console.print(sentence)
         sys.stdout.flush()
@@ -81,15 +96,20 @@ def _sheets(
     answer: Sequence[str],
     table: tuple[Sequence[str], Sequence[Sequence[str]]],
     last: Sequence[str],
+    more: Sequence[More],
 ) -> list[Sheet]:
+    from ..views.printed_tables import grid_of_words
     from ..views.question_sheets import inputs_of, question_sheets
 
     given = found.asked.described
+    below: list[str | Grid] = []
+    for sentence, heads, rows, _ in more:
+        below += [sentence, grid_of_words(heads, rows)]
     return question_sheets(
         found.title,
         answer,
         table,
-        last,
+        [*below, *last],
         states=found.table(),
         meanings=found.meanings,
         inputs=inputs_of(given.values, given.bodies, given.numbers),

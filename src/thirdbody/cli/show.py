@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..quantities.say import value_of
@@ -13,7 +14,7 @@ from .streams import LEAST
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["ALL", "MOST_ROWS", "some", "terminal", "usual"]
+__all__ = ["ALL", "MOST_ROWS", "some", "some_times", "terminal", "usual"]
 
 MOST_ROWS = 20
 """Rows of a table that a terminal shows."""
@@ -38,6 +39,19 @@ def some(total: int) -> list[int]:
     """The rows shown of so many: all, or some evenly spread."""
     rows = min(total, MOST_ROWS)
     return [round(row * (total - 1) / max(rows - 1, 1)) for row in range(rows)]
+
+
+def some_times(times: Sequence[float]) -> list[int]:
+    """The rows shown of a history: some close to its beginning, where much happens, some evenly."""
+    total = len(times)
+    if total <= MOST_ROWS:
+        return list(range(total))
+    end, first = times[-1], next(each for each in times if each > 0)
+    half = MOST_ROWS // 2
+    wanted = [first * (end / first) ** (i / half) for i in range(half)]
+    wanted += [end * i / half for i in range(half + 1)]
+    near = {min(range(total), key=lambda k: abs(times[k] - each)) for each in wanted}
+    return sorted(near)[: MOST_ROWS + 1]
 
 
 def usual(value: object, unit: str) -> str:

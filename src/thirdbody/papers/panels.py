@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 COLOURS = ("blue", "vermilion", "green", "purple", "orange", "sky")
 DASHES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)))
 MARKS = "osD^vP*"
+FEW = 8
+"""Points of a line up to which each is marked: between them nothing was computed."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +79,9 @@ def draw(panel: Panel) -> Figure:
             color="0.75" if bare else OKABE_ITO[COLOURS[line.colour % len(COLOURS)]],
             linestyle=DASHES[line.dash % len(DASHES)],
             linewidth=4.0 if bare else 1.6,
-            marker=MARKS[line.colour % len(MARKS)] if marked and not bare else "",
+            marker=MARKS[line.colour % len(MARKS)]
+            if (marked or len(line.x) <= FEW) and not bare
+            else "",
             markevery=max(1, len(line.x) // 7),
             markersize=5,
             label=line.label,
@@ -85,9 +89,7 @@ def draw(panel: Panel) -> Figure:
         )
     _dress(ax, panel)
     tall = figure.get_figheight()
-    figure.text(
-        0.02, 1 - 0.17 / tall, f"Fig. {panel.name}: {panel.about}", fontsize=10, va="center"
-    )
+    figure.text(0.02, 1 - 0.17 / tall, _title(panel), fontsize=10, va="center")
     figure.text(0.02, 0.07 / tall, panel.note, va="bottom", fontsize=7.5, color="0.3")
     figure.legend(
         *ax.get_legend_handles_labels(),
@@ -99,6 +101,13 @@ def draw(panel: Panel) -> Figure:
         labelspacing=0.6,
     )
     return figure
+
+
+def _title(panel: Panel) -> str:
+    """What is shown, after the number of the figure where its name is one."""
+    numbered = panel.name[:1].isdigit()
+    about = panel.about[:1].upper() + panel.about[1:]
+    return f"Fig. {panel.name}: {panel.about}" if numbered else about
 
 
 def _dress(ax: Axes, panel: Panel) -> None:
@@ -122,7 +131,9 @@ def _dress(ax: Axes, panel: Panel) -> None:
             ax.yaxis.set_major_formatter(FormatStrFormatter("%g"))
             ax.yaxis.set_minor_formatter(NullFormatter())
     x = np.concatenate([line.x for line in panel.lines])
-    ax.set_xlim(x.min(), x.max())
+    few = all(len(line.x) <= FEW for line in panel.lines)
+    margin = 1.1 if few and panel.xlog else 1.0  # for the marks at the ends
+    ax.set_xlim(x.min() / margin, x.max() * margin)
     ax.set_ylim(*panel.ylim)
     ax.set_xlabel(panel.xlabel)
     ax.set_ylabel(panel.ylabel)

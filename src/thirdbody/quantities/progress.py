@@ -87,9 +87,18 @@ def _bar(title: str, total: int, done: int, what: str) -> Iterator[Report]:
 
         def report(now: int) -> None:
             rate = (now - done) / max(time.monotonic() - start, 1e-9)
-            bar.update(task, completed=now, rate=f"{rate:,.0f} {what}/s")
+            bar.update(task, completed=now, rate=f"{_rate(rate)} {what}/s")
 
         yield report
+
+
+def _rate(each_second: float) -> str:
+    """A rate; below ten with two digits, so that slow is not nothing.
+
+    >>> _rate(1234.5), _rate(0.034)
+    ('1,234', '0.034')
+    """
+    return f"{each_second:,.0f}" if each_second >= 9.5 else f"{each_second:.2g}"
 
 
 def _lines(title: str, total: int, done: int, what: str) -> Report:
@@ -104,7 +113,7 @@ def _lines(title: str, total: int, done: int, what: str) -> Report:
         rate = (now - done) / (said - start)
         left = (total - now) / rate
         print(
-            f"{title}: {now:,} of {total:,} {what}, {rate:,.0f} a second, {left:,.0f} s left",
+            f"{title}: {now:,} of {total:,} {what}, {_rate(rate)} a second, {left:,.0f} s left",
             file=sys.stderr,
             flush=True,
         )

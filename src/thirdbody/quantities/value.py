@@ -154,10 +154,14 @@ SLIPS: dict[str, tuple[float, float, str]] = {
     "Pa s": (0.0, 10.0, "mPa s"),
     "1/Pa": (0.0, 1e-5, "/ GPa"),
     "J/m^2": (0.0, 5.0, "mJ/m^2"),
+    "m^3": (0.0, 50.0, "L"),
+    "m^3/s": (0.0, 0.5, "L/min"),
+    "kg": (0.0, 20.0, "g"),
 }
 """Sizes within which numbers in SI are no slip, and what was probably meant outside: a solid is
 tougher than 1 kPa m^0.5, denser than 50 kg/m^3; an oil is thinner than 10 Pa s, its pressure
-coefficient below 10 /MPa; and no surface has 5 J/m^2."""
+coefficient below 10 /MPa; no surface has 5 J/m^2; and no circuit 50 m³ of oil, 30 m³/min through a
+filter, or 20 kg in it."""
 
 
 def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -> str | None:

@@ -15,23 +15,19 @@ from ..contact.contact import Contact
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..populations.distributions import Mixture
 from ..populations.measured.cleanliness import iso4406_of
-from ..populations.particles import Particles
 from ..quantities.record import Record
 from ..quantities.units import say
 from ..systems.bearing_life import contamination_factor, life_factor, viscosity_ratio
 from ..systems.film_conditions import FilmConditions
 from ..systems.machine_elements import RadialBearing
 from ..systems.oil_filter import Filter
-from ..systems.oil_particles import FilmParticles
+from .tracks import HOUR, SIDE, Track, speed_of, swept
 from .whole import Study
 
 __all__ = ["DirtyOil", "Life", "PopulationDents", "dirty_oil", "need_particles", "read_filter"]
 
 DENSITY = 870.0
 """Of the oil [kg/m³], as elsewhere in study files."""
-HOUR = 3600.0
-SIDE = 2
-"""The surface whose dents are told: the ring, the screw, the gear."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -183,8 +179,7 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
     gaps = dict(enumerate(study.gaps))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        own = None if study.body is None else study.body.rolling_speed
-        speed = own if own is not None else film.speed[len(film.speed) // 2]
+        speed = speed_of(study.body, film)
         before = contact.populations
         if filter is not None:
             contact = _behind_filter(contact, filter)
@@ -196,24 +191,30 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
         solids = 1 - float(state.film_share)
         shares = [float(each.load_share) for each in state.state.populations]
         shares = shares or [float(state.state.particle_load_share)]
-        rate, area, where = _track(study, film, speed)
+        force = None if study.forces is None else float(study.forces[0])
+        rate, area, where = swept(study.body, force, film, E_star=contact.E_ss, speed=speed)
+        track = Track(
+            name=where, surfaces=contact.surfaces, film=h, rate=rate, area=area,
+            entry=1.0 if film.entrainment is None else film.entrainment.entry_ratio,
+        )  # fmt: skip
         parts = []
         for i, each in enumerate(contact.populations):
             gap = gaps.get(i) or h
-            dents = _in_film(contact, each, each.areal_density / gap, h, film)
+            dents = track.particles(
+                each.material, each.diameter, each.areal_density / gap, each.strength
+            )
             found = dents.dents(SIDE)
-            deepest = dents.largest(area, overrollings=rate * HOUR / area, side=SIDE)
             parts.append(
                 PopulationDents(
                     name=before[i].name or before[i].material.name or f"particles {i + 1}",
                     per_volume=each.areal_density / gap,
                     load_share=solids * shares[i],
                     per_overrolling=found.number,
-                    per_hour=found.number * rate * HOUR,
+                    per_hour=track.per_hour(found),
                     depth=found.depth,
                     depth_p95=found.depth_p95,
                     width=found.diameter,
-                    deepest=float(deepest.depth),
+                    deepest=track.deepest(dents),
                 )
             )
         return DirtyOil(
@@ -237,34 +238,6 @@ def _behind_filter(contact: Contact, filter: Filter) -> Contact:
         number, sizes = filter.behind(each.areal_density, each.diameter)
         behind.append(each.replace(areal_density=number, diameter=sizes))
     return contact.replace(particles=tuple(behind) if len(behind) > 1 else behind[0])
-
-
-def _in_film(
-    contact: Contact, each: Particles, number: float, h: float, film: FilmConditions
-) -> FilmParticles:
-    """The particles of one population in the film."""
-    return FilmParticles(
-        surfaces=contact.surfaces,
-        material=each.material,
-        diameter=each.diameter,
-        number=number,
-        film=h,
-        entry=1.0 if film.entrainment is None else film.entrainment.entry_ratio,
-        strength=each.strength,
-    )
-
-
-def _track(study: Study, film: FilmConditions, speed: float) -> tuple[float, float, str]:
-    """Area of track rolled over per second [m²/s], area of the whole track [m²], and its name."""
-    body, E_star = study.body, study.contact.E_ss
-    if isinstance(body, RadialBearing) and study.forces is not None:
-        share = body.share_load(float(study.forces[0]), E_star)
-        swept = body.swept_area(share, body.ring, E_star) * speed
-        return swept, body.track_area(share, body.ring, E_star), body.track
-    width = 2 * float(film.conjunction.semi_axes(film.load, E=2 * E_star)[1])
-    if body is None:
-        return width * speed, width * speed, "surface 2"
-    return body.bodies * width * speed, body.bodies * width * speed, body.track
 
 
 def _life(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, partial
@@ -11,17 +12,26 @@ from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
+from ..quantities.say import value_of
 from ..quantities.value import Value, quantity
 from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.reports import oil_reports
 from ..systems.oil_filter import Filter
 from .described import BareNumber, Described
-from .life_contact import CONTACT_KEYS, HARDNESS, LifeContact, contact_of
+from .life_contact import (
+    CONTACT_KEYS,
+    HARDNESS,
+    LifeContact,
+    Rolling,
+    contact_of,
+    rolling_of,
+)
 from .life_contact import QUANTITIES as OF_CONTACT
 from .life_design import AskedDesign, design_key, design_of
 from .life_dirt import CLEAN, CODE, DIRT, INGRESS, dirts_of, sized_numbers
 from .life_dry import BANDS_HARDNESS, DRY, AskedDry, dry_of
+from .life_uncertainty import KnownOfLife, about_circuit, known_of_life
 from .reader import (
     NOTHING,
     Key,
@@ -36,7 +46,6 @@ from .reader import (
     wrong,
 )
 from .surfaces import MATERIAL
-from .uncertainty import read_bands
 
 __all__ = ["CLEAN", "LIFE", "AskedDry", "AskedLife", "life_of"]
 
@@ -45,8 +54,6 @@ DURATION = quantity("t", "s", "how long at most", gt=0, hint="hours are '1000 h'
 ]
 BETA = quantity("β", "1", "particles before over particles behind", ge=1).metadata["quantity"]
 TIME = quantity("t", "s", "time", gt=0, hint="'500 h'").metadata["quantity"]
-FACTOR = quantity("f", "1", "factor on all that enters", gt=0).metadata["quantity"]
-INGRESS_FACTOR = "ingress"
 OF_CONTACT_UNTIL = {
     name: declared.metadata["quantity"]
     for name, declared in {
@@ -79,8 +86,12 @@ class AskedLife:
         What is waited for.
     uncertainty : dict of str to Uncertain
         What is known of the numbers of the circuit and of its contacts.
+    drawn : KnownOfLife
+        The same, and how many sets are drawn of it.
     contact : LifeContact, optional
         The contacts that the oil goes through.
+    rolling : Rolling, optional
+        The contact in whose tracks dents are counted.
     design : AskedDesign, optional
         What is to be chosen.
     notes : tuple of str
@@ -94,7 +105,9 @@ class AskedLife:
     duration: float
     until: tuple[until.Until, ...] = ()
     uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
+    drawn: KnownOfLife = field(default_factory=KnownOfLife)
     contact: LifeContact | None = None
+    rolling: Rolling | None = None
     design: AskedDesign | None = None
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
@@ -113,6 +126,16 @@ class AskedLife:
             bodies |= bodies_of(self.contact.contact)
         rows = (BareNumber("life.duration", DURATION, self.duration),)
         return Described(values, bodies, rows)
+
+
+def _duration(reader: Reader, path: str, value: Any) -> float:
+    """A duration; without a unit it is in seconds, which is said."""
+    found = read_number(DURATION, reader, path, value)
+    bare = str(value).strip()
+    if re.fullmatch(r"[\d.+]+([eE][+-]?\d+)?", bare):
+        said = f"{path} = {bare} has no unit and is taken as {value_of(found, 's')}"
+        reader.assumed.append(f'{said}; for hours write "{bare} h"')
+    return found
 
 
 def _times(reader: Reader, path: str, value: Any) -> tuple[float, ...]:
@@ -218,38 +241,26 @@ def _read_entries(reader: Reader, path: str, value: Any) -> Any:
     return value
 
 
-def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
-    """What a number of a circuit is, by its dotted name; None where it is none."""
-    if name == INGRESS_FACTOR:
-        return FACTOR
-    parent, _, last = name.rpartition(".")
-    try:
-        owner, number_of_it = circuit.value_at(parent), circuit.value_at(name)
-    except InvalidValue:
-        return None
-    fields = getattr(owner, "__dataclass_fields__", {})
-    if last not in fields or not isinstance(number_of_it, float):
-        return None
-    return fields[last].metadata.get("quantity")
-
-
 def _uncertainty(
     reader: Reader, given: Mapping[str, Any], circuit: OilCircuit, contact: LifeContact | None
-) -> dict[str, Uncertain]:
+) -> KnownOfLife:
     """What is known of the numbers of a circuit and of its contacts, by their names in them."""
     more = {} if contact is None else {f"contact.{name}": q for name, q in OF_CONTACT.items()}
     if contact is not None and contact.debris is not None:
         more[BANDS_HARDNESS] = HARDNESS
     some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
+    if circuit.filters:
+        some += f', "filters.0.beta.{value_of(circuit.filters[0].sizes[0], "m")}"'
     some += "".join(f', "{name}"' for name in more)
 
     def about(label: str) -> tuple[str, dict[str, Any] | None]:
         if label in more:
             return label.removeprefix("contact."), more[label]
         name = label.removeprefix("oil.")
-        return name, _about(circuit, name)
+        return name, about_circuit(circuit, name)
 
-    return read_bands(reader, given, about, f"is not a number of the circuit; it has {some}")
+    names = f"is not a number of the circuit; it has {some}"
+    return known_of_life(reader, given, about, names, contact=contact is not None)
 
 
 @cache
@@ -257,7 +268,7 @@ def _keys() -> dict[str, Key]:
     """Keys of [life]."""
     duration = quantity_key("duration", DURATION)
     return {
-        "duration": duration._replace(required=True),
+        "duration": duration._replace(required=True, read=_duration),
         "oil": Key(None, True, 'the oil, with volume = "200 L", start and ingress', NOTHING, _oil),
         "filters": FILTERS,
         "dry": DRY,
@@ -331,18 +342,21 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     for path, entry in reported:
         circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
-    contact = contact_of(reader, values)
+    rolling = rolling_of(reader, values)
+    contact = contact_of(reader, values, rolling)
     known = _uncertainty(reader, given.get("uncertainty", {}), circuit, contact)
     design = None
     if "design" in given:
-        design = design_of(reader, given["design"], circuit, given.get("until", ()), _about)
+        design = design_of(reader, given["design"], circuit, given.get("until", ()), about_circuit)
     return AskedLife(
         title=values.get("title", ""),
         circuit=circuit,
         duration=given["duration"],
         until=given.get("until", ()),
-        uncertainty=known,
+        uncertainty=known.vary,
+        drawn=known,
         contact=contact,
+        rolling=rolling,
         design=design,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),

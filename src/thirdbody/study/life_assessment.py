@@ -12,8 +12,8 @@ from ..errors import InvalidValue, Problem
 from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife
 from .life_bands import COUNT, LifeBands
+from .life_uncertainty import names_life
 from .overrides import override
-from .reader import get
 from .run_life import bands_of
 from .toml import read
 
@@ -21,7 +21,7 @@ __all__ = ["LifeAssessment", "asks_for_bands", "assess_life"]
 
 
 def asks_for_bands(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> bool:
-    """Whether a study file has a table [life.uncertainty].
+    """Whether a study file has [life.uncertainty], or names numbers of [life] in [uncertainty].
 
     Parameters
     ----------
@@ -29,8 +29,7 @@ def asks_for_bands(path: str | os.PathLike[str], overrides: Iterable[str] = ()) 
     overrides : iterable of str, optional
         As those of `thirdbody.load_study`.
     """
-    given = override(read(Path(path)), list(overrides)).get("life")
-    return get(given, "uncertainty") is not None
+    return names_life(override(read(Path(path)), list(overrides)))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -19,6 +19,7 @@ from ..populations.measured.cleanliness import iso4406_of_counts
 from ..quantities.carried import takes_units
 from ..quantities.progress import Report, reporting
 from ..quantities.record import Record
+from ..quantities.units import to_si
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.contact_history import DryHistory
 from ..systems.life.debris import Debris
@@ -34,7 +35,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["End", "LifeBands", "Swing", "propagate_dry", "propagate_life"]
+__all__ = [
+    *("End", "LifeBands", "Swing", "is_of_contact"),
+    *("place_of_beta", "propagate_dry", "propagate_life"),
+]
 
 INGRESS = "ingress"
 """The name of a factor on all that enters an oil [1]."""
@@ -54,6 +58,8 @@ OF_CONTACT = (
 """Conditions of a contact in an oil that may be uncertain."""
 OF_DRY = ("pressure", "sliding_speed", "length", "area", "loss", "stays")
 """Conditions of a dry contact that may be uncertain."""
+PARTS = ("surfaces", "roughness", "asperity_law", "outputs")
+"""Fields of a contact whose numbers may be uncertain; each set needs tables of its own."""
 PROBABILITIES = (0.05, 0.5, 0.95)
 SAMPLES, SAMPLES_OF_CONTACT = 256, 64
 """Histories, of an oil alone and with a contact, where nobody says how many."""
@@ -147,9 +153,30 @@ class LifeBands(Record):
         return round(self.samples * (1 - self.reached[name]))
 
 
+def place_of_beta(circuit: OilCircuit, name: str) -> tuple[int, int] | None:
+    """Which β ratio of which filter "filters.0.beta.7 um" is; None for another name."""
+    head, found, size = name.partition(".beta.")
+    which = head.removeprefix("filters.")
+    if not found or not which.isdecimal() or int(which) >= len(circuit.filters):
+        return None
+    try:
+        at = to_si(size.replace("(c)", "").strip(), "m")
+    except InvalidValue:
+        return None
+    near = [abs(each / at - 1) < 1e-9 for each in circuit.filters[int(which)].sizes]
+    return (int(which), near.index(True)) if any(near) else None
+
+
+def _number_of(circuit: OilCircuit, name: str) -> Any:
+    """What a name stands for in a circuit."""
+    if (place := place_of_beta(circuit, name)) is not None:
+        return circuit.filters[place[0]].betas[place[1]]
+    return circuit.value_at(name)
+
+
 def _changed(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
     """The circuit with some of its numbers changed."""
-    changes = dict(values)
+    changes: dict[str, Any] = dict(values)
     factor = changes.pop(INGRESS, None)
     if factor is not None:
         scaled = [
@@ -163,6 +190,11 @@ def _changed(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
             for each in circuit.ingress
         ]
         circuit = circuit.replace(ingress=tuple(scaled))
+    for name in list(changes):
+        if (place := place_of_beta(circuit, name)) is not None:
+            which, i = f"filters.{place[0]}.betas", place[1]
+            betas = changes.get(which, circuit.filters[place[0]].betas)
+            changes[which] = (*betas[:i], changes.pop(name), *betas[i + 1 :])
     return circuit.replace(**changes) if changes else circuit
 
 
@@ -182,9 +214,11 @@ def _check(
             if not known.quantile(1e-9) >= 0:
                 problems.append(Problem(name, "is a factor on all that enters and must be >= 0"))
             continue
+        if contact is not None and is_of_contact(name):
+            problems += _problems_of_part(name, known, contact["contact"])
+            continue
         try:
-            number = circuit.value_at(name)
-            if not isinstance(number, float):
+            if not isinstance(_number_of(circuit, name), float):
                 problems.append(Problem(name, "is not a number of the circuit"))
                 continue
             for end in (0.0, 1.0):
@@ -193,6 +227,31 @@ def _check(
             problems += list(error.problems)
     if problems:
         raise InvalidValue(*problems)
+
+
+def is_of_contact(name: str) -> bool:
+    """Whether a name is that of a number inside a contact, "roughness.sigma"."""
+    return "." in name and name.partition(".")[0] in PARTS
+
+
+def _problems_of_part(name: str, known: Any, contact: Contact) -> list[Problem]:
+    """Why a number inside a contact cannot be varied so."""
+    if not isinstance(known, Uncertain):
+        return [Problem(name, "must be Uncertain", repr(known))]
+    try:
+        if not isinstance(contact.value_at(name), float | int):
+            return [Problem(name, "is not a number of the contact")]
+        for end in (1e-9, 1 - 1e-9):
+            contact.replace(**{name: known.quantile(end)})
+    except InvalidValue as error:
+        return list(error.problems)
+    return []
+
+
+def _contact_with(contact: Contact, values: dict[str, float]) -> Contact:
+    """A contact with some of its numbers changed, which are taken out of the values."""
+    own = {name: values.pop(name) for name in list(values) if is_of_contact(name)}
+    return contact.replace(**own) if own else contact
 
 
 def _problems_of_condition(name: str, known: Any, given: Mapping[str, Any]) -> list[Problem]:
@@ -250,9 +309,10 @@ def propagate_life(
     ----------
     circuit : OilCircuit
     vary : mapping of str to Uncertain
-        Numbers of the circuit, "volume", "filters.0.service", and "ingress", a factor on all that
-        enters. With a contact "entry_ratio", "load", "speed", "slide_roll", "contacts",
-        "particle_friction", "stays" and "debris.hardness", too.
+        Numbers of the circuit, "volume", "filters.0.service", "filters.0.beta.7 um", a β ratio, and
+        "ingress", a factor on all that enters. With a contact "entry_ratio", "load", "speed",
+        "slide_roll", "contacts", "particle_friction", "stays" and "debris.hardness", and numbers
+        inside it, "roughness.sigma", "outputs.wear.f_ab", too.
     duration : float
         How long [s].
     until : sequence of Until, optional
@@ -305,9 +365,11 @@ def propagate_life(
     def end(values: Mapping[str, float]) -> End:
         if contact is None:
             return _end_of(run_oil_history(_changed(circuit, values), **shared))
-        own = {name: v for name, v in values.items() if name in (*OF_CONTACT, HARDNESS)}
-        oil = _changed(circuit, {name: v for name, v in values.items() if name not in own})
-        return _end_of(life(**_with_hardness(contact, own), oil=oil, **shared))
+        rest = dict(values)
+        changed = _contact_with(contact["contact"], rest)
+        own = {name: rest.pop(name) for name in (*OF_CONTACT, HARDNESS) if name in rest}
+        given = _with_hardness(contact, own) | {"contact": changed}
+        return _end_of(life(**given, oil=_changed(circuit, rest), **shared))
 
     return _bands(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
@@ -338,7 +400,7 @@ def propagate_dry(
     contact : Contact
     vary : mapping of str to Uncertain
         "arrivals", a factor on all that arrives, "loss", "stays", "pressure", "sliding_speed",
-        "length", "area", "debris.hardness".
+        "length", "area", "debris.hardness", and numbers inside the contact, "outputs.wear.f_ab".
     duration : float
         How long [s].
     conditions : mapping
@@ -358,7 +420,9 @@ def propagate_dry(
     known = (ARRIVALS, *OF_DRY, HARDNESS)
     problems = [] if vary else [Problem("vary", "must name a number that is uncertain")]
     for name, each in vary.items():
-        if name not in known:
+        if is_of_contact(name):
+            problems += _problems_of_part(name, each, contact)
+        elif name not in known:
             problems.append(Problem(name, f"must be one of {', '.join(known)}"))
         else:
             problems += _problems_of_condition(name, each, conditions)
@@ -369,12 +433,13 @@ def propagate_dry(
     def end(values: Mapping[str, float]) -> End:
         changes = dict(values)
         factor = changes.pop(ARRIVALS, 1.0)
+        changed = _contact_with(contact, changes)
         given = _with_hardness(conditions, changes)
         some = given.get(ARRIVALS, ())
         some = (some,) if isinstance(some, Ingress) else tuple(some)
         given[ARRIVALS] = tuple(each.replace(rate=factor * each.rate) for each in some)
         shared: dict[str, Any] = {"duration": duration, "until": waits, "times": [0.0, duration]}
-        return _end_of(life(contact, **given, **shared))
+        return _end_of(life(changed, **given, **shared))
 
     return _bands(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),

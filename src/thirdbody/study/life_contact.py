@@ -9,14 +9,17 @@ from typing import Any
 from ..contact.contact import Contact
 from ..errors import InvalidValue, Problem
 from ..quantities.value import quantity
+from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from ..systems.life.debris import Debris
 from ..systems.life.surfaces import RunningIn
 from ..systems.life.until import ContactUntil
+from .film import on_body
 from .reader import NOTHING, Key, Reader, get, quantity_key, read_number, table_of, word, wrong
+from .tracks import swept
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["BOUNDARY", "CONTACT_KEYS", "LifeContact", "contact_of"]
+__all__ = ["BOUNDARY", "CONTACT_KEYS", "LifeContact", "Rolling", "contact_of", "rolling_of"]
 
 BOUNDARY, AS_SURFACE = "boundary-lubricated", "as surface"
 OF_CONTACT = ("surfaces", "roughness", "asperity_law", "particle_law", "outputs")
@@ -33,6 +36,10 @@ QUANTITIES = {
     }.items()
 }
 HARDNESS = quantity("H_d", "Pa", "hardness of the debris", gt=0).metadata["quantity"]
+FILM_NEEDS = (
+    "[film] with oil, and with conjunction, load and speed where no [body] under load.force has "
+    "them"
+)
 RANGES = (
     "nobody can predict it: count dents (entry_ratio_from_dents), or try it from 1e-3 to 1 with "
     "--set life.contact.entry_ratio=..."
@@ -121,7 +128,7 @@ CONTACT_KEYS = {
         None,
         False,
         "contacts that the oil goes through, with entry_ratio; they need [surfaces], [roughness], "
-        "[outputs.friction], [outputs.wear] and [film]",
+        "[outputs.friction], [outputs.wear] and [film]; load and speed may follow from [body]",
         NOTHING,
         _contact,
     ),
@@ -131,7 +138,54 @@ CONTACT_KEYS = {
 """Keys of [life] that a contact in the oil has."""
 
 
-def contact_of(reader: Reader, values: dict[str, Any]) -> LifeContact | None:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rolling:
+    """What rolls in an oil: a contact, its film, and the body whose contacts they are.
+
+    Parameters
+    ----------
+    contact : Contact
+        Without particles, which are those of the oil.
+    film : FilmConditions
+    body : Body, optional
+    force : float, optional
+        On the body [N].
+    """
+
+    contact: Contact
+    film: FilmConditions
+    body: Body | None = None
+    force: float | None = None
+
+    @property
+    def contacts(self) -> float:
+        """Contacts as the most loaded one that sweep as much as all of the body [1]."""
+        E_star, film = self.contact.E_ss, self.film
+        area, _, _ = swept(self.body, self.force, film, E_star=E_star, speed=1.0)
+        return area / (2 * float(film.conjunction.semi_axes(film.load, E=2 * E_star)[1]))
+
+
+def rolling_of(reader: Reader, values: dict[str, Any]) -> Rolling | None:
+    """What rolls in the oil of a study; None where surfaces, roughness or film are not given."""
+    if any(name not in values for name in ("surfaces", "roughness", "film")):
+        return None
+    parts = {name: values[name] for name in OF_CONTACT if name in values}
+    parts.pop("particle_law", None)
+    contact = reader.make(Contact, "", parts)
+    body = values.get("body")
+    name, loads = values.get("load", ("", None))
+    forces = loads if name == "force" else None
+    film = on_body(reader, values["film"], body, forces, contact.E_ss)
+    assert film is not None
+    if get(reader.whole, "particles") is not None:
+        reader.notes.append("[particles] has no effect on [life]: the oil brings its particles")
+    one = None if forces is None or len(forces) != 1 else float(forces[0])
+    return Rolling(contact=contact, film=film, body=None if one is None else body, force=one)
+
+
+def contact_of(
+    reader: Reader, values: dict[str, Any], rolling: Rolling | None
+) -> LifeContact | None:
     """The contacts in the oil of a study; None where it has no [life.contact]."""
     given = values["life"]
     if "contact" not in given:
@@ -144,17 +198,12 @@ def contact_of(reader: Reader, values: dict[str, Any]) -> LifeContact | None:
             rule = "has no effect without [life.contact], with entry_ratio"
             raise InvalidValue(Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule))
         return None
-    film = values.get("film")
     missing = [f"[{name}]" for name in ("surfaces", "roughness", "outputs") if name not in values]
-    missing += [] if isinstance(film, FilmConditions) else ["[film] with conjunction, load, speed"]
+    missing += [] if rolling is not None else [FILM_NEEDS]
     if missing:
         raise InvalidValue(Problem("life.contact", f"needs {', '.join(missing)}"))
-    assert isinstance(film, FilmConditions)
-    parts = {name: values[name] for name in OF_CONTACT if name in values}
-    parts.pop("particle_law", None)
-    contact = reader.make(Contact, "", parts)
-    if get(reader.whole, "particles") is not None:
-        reader.notes.append("[particles] has no effect on [life]: the oil brings its particles")
+    assert rolling is not None
+    contact, film = rolling.contact, rolling.film
     conditions = {
         "conjunction": film.conjunction,
         "lubricant": film.oil,
@@ -164,9 +213,16 @@ def contact_of(reader: Reader, values: dict[str, Any]) -> LifeContact | None:
         "hertz": film.hertz,
         "slide_roll": film.slide_roll or 0.0,
     }
+    given_here = dict(given["contact"])
+    if "contacts" not in given_here and rolling.body is not None:
+        given_here["contacts"] = rolling.contacts
+        reader.assumed.append(
+            f"life.contact.contacts = {given_here['contacts']:.3g}: as many contacts as the most "
+            f"loaded one of [body] sweep as much of {rolling.body.track} as all that carry"
+        )
     return LifeContact(
         contact=contact,
-        conditions=conditions | given["contact"],
+        conditions=conditions | given_here,
         debris=given.get("debris"),
         running_in=given.get("running_in"),
     )

@@ -133,7 +133,10 @@ def design_of(
     """What is to be chosen, checked against the circuit and what is waited for."""
     path = "life.design"
     if ("code" in given) == ("choices" in given):
-        rule = "needs code, or choices and [life.until], one of them"
+        rule = (
+            'needs either code, e.g. code = "16/14/11" and a list of [[life.design.filters]], or '
+            f"choices with one event in [life.until], {CHOICES}"
+        )
         raise InvalidValue(Problem(path, rule))
     if "choices" not in given:
         if not circuit.filters:

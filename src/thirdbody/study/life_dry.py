@@ -19,9 +19,9 @@ from ..systems.life.until import CodeReached, FilterFull, Until
 from .described import BareNumber, Described
 from .life_contact import HARDNESS
 from .life_dirt import ARRIVALS, dirts_of
+from .life_uncertainty import FACTOR, KnownOfLife, known_of_life
 from .reader import NOTHING, Key, Reader, get, quantity_key, read_numbers, word, wrong
 from .surfaces import MATERIAL
-from .uncertainty import read_bands
 from .vocabulary import LOADS
 
 __all__ = ["BANDS_HARDNESS", "DRY", "AskedDry", "dry_of"]
@@ -46,7 +46,6 @@ LOSS = (
     "; nobody can predict it: 1 where all is swept away, near 0 in a closed track; try both with "
     "--set life.dry.loss=..."
 )
-FACTOR = quantity("f", "1", "factor on all that arrives", gt=0).metadata["quantity"]
 BANDS_HARDNESS = "debris.hardness"
 WORN = quantity("A_w", "m^2", "area that is worn in turn", gt=0).metadata["quantity"]
 
@@ -73,6 +72,8 @@ class AskedDry:
         How roughness falls with wear.
     uncertainty : dict of str to Uncertain
         What is known of its numbers.
+    drawn : KnownOfLife
+        The same, and how many sets are drawn of it.
     notes : tuple of str
         What is allowed but looks like a slip.
     assumed : tuple of str
@@ -87,6 +88,7 @@ class AskedDry:
     debris: Debris | None = None
     running_in: RunningIn | None = None
     uncertainty: Mapping[str, Uncertain] = field(default_factory=dict)
+    drawn: KnownOfLife = field(default_factory=KnownOfLife)
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
 
@@ -169,9 +171,7 @@ def _pressure(values: Mapping[str, Any], contact: Contact) -> float:
     return float(loads[0]) * (1.0 if name == "pressure" else contact.E_ss)
 
 
-def _uncertainty(
-    reader: Reader, given: Mapping[str, Any], debris: Debris | None
-) -> dict[str, Uncertain]:
+def _uncertainty(reader: Reader, given: Mapping[str, Any], debris: Debris | None) -> KnownOfLife:
     """What is known of the numbers of a dry contact, by their names as arguments."""
     known = {f"dry.{name}": (name, about) for name, about in QUANTITIES.items()}
     known |= {"arrivals": ("arrivals", FACTOR), "load.pressure": ("pressure", LOADS["pressure"])}
@@ -182,8 +182,8 @@ def _uncertainty(
     def about(label: str) -> tuple[str, dict[str, Any] | None]:
         return known.get(label, (label, None))
 
-    unknown = f"is not a number of the dry contact; it has {some}"
-    return read_bands(reader, given, about, unknown)
+    names = f"is not a number of the dry contact; it has {some}"
+    return known_of_life(reader, given, about, names, contact=True)
 
 
 def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
@@ -217,6 +217,7 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
         reader.notes.append("a law in [particles] has no effect on [life]: it takes [particle_law]")
     if get(reader.whole, "film") is not None:
         reader.notes.append("[film] has no effect on [life.dry], which has no oil")
+    known = _uncertainty(reader, given.get("uncertainty", {}), given.get("debris"))
     return AskedDry(
         title=values.get("title", ""),
         contact=contact,
@@ -225,7 +226,8 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
         conditions=conditions,
         debris=given.get("debris"),
         running_in=given.get("running_in"),
-        uncertainty=_uncertainty(reader, given.get("uncertainty", {}), given.get("debris")),
+        uncertainty=known.vary,
+        drawn=known,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
     )

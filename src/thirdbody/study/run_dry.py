@@ -19,7 +19,7 @@ from .asked_result import QuestionResult
 from .life_bands import LifeBands, propagate_dry
 from .life_dry import AskedDry
 
-__all__ = ["DryResult", "bands_of_dry", "run_dry"]
+__all__ = ["DryResult", "bands_of_dry", "life_of_asked", "run_dry"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -104,6 +104,13 @@ def _arguments(asked: AskedDry) -> dict[str, Any]:
     return {**asked.conditions, "debris": asked.debris, "running_in": asked.running_in}
 
 
+def life_of_asked(asked: Any, **arguments: Any) -> Any:
+    """The history that a study asks for; its warnings stand in it, and are not told twice."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        return life(duration=asked.duration, until=asked.until, **arguments)
+
+
 def bands_of_dry(
     asked: AskedDry, *, progress: bool = False, keep: Path | None = None
 ) -> LifeBands | None:
@@ -122,6 +129,8 @@ def bands_of_dry(
         vary=asked.uncertainty,
         duration=asked.duration,
         until=asked.until,
+        samples=asked.drawn.samples,
+        seed=asked.drawn.seed,
         conditions=_arguments(asked),
         progress=progress,
         keep=keep,
@@ -138,11 +147,7 @@ def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None
     progress, keep
         As in `thirdbody.study.life_bands.propagate_life`.
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
-        history = life(
-            asked.contact, duration=asked.duration, until=asked.until, **_arguments(asked)
-        )
+    history = life_of_asked(asked, contact=asked.contact, **_arguments(asked))
     assert isinstance(history, DryHistory)
     bands = bands_of_dry(asked, progress=progress, keep=keep)
     return DryResult(asked=asked, history=history, bands=bands)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,17 +10,17 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
-from ..errors import RangeWarning
 from ..quantities.plain_data import plain_data
 from ..systems.life.history import LifeHistory
 from ..systems.life.reports import OilReports, oil_reports, read_reports
-from ..systems.life.run import life
+from ..systems.oil_filter import Filter
 from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife, life_of, oil_of
 from .life_bands import LifeBands, propagate_life
+from .life_dents import LifeDents, dents_of_life
 from .life_dirt import CLEAN
 from .overrides import override
-from .run_dry import DryResult, bands_of_dry, run_dry
+from .run_dry import DryResult, bands_of_dry, life_of_asked, run_dry
 from .toml import read
 from .whole import load_tables, read_tables
 
@@ -120,8 +119,8 @@ class ReportsResult(QuestionResult):
 
     @property
     def run_notes(self) -> tuple[str, ...]:
-        """Those of the circuit."""
-        return tuple(self.asked.circuit.notes())
+        """Those of the circuit with what enters it."""
+        return tuple(self.asked.circuit.replace(ingress=(self.reports.ingress,)).notes())
 
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
         """Columns, a row a size, and their units."""
@@ -164,19 +163,22 @@ class LifeResult(QuestionResult):
     history : LifeHistory
     bands : LifeBands, optional
         Where the study says what is known of its numbers.
+    dents : LifeDents, optional
+        Where something rolls in the oil.
     """
 
     asked: AskedLife
     history: LifeHistory
     bands: LifeBands | None = None
+    dents: LifeDents | None = None
 
     title_without = "Life of an oil"
     citations = CITATIONS
 
     @property
     def run_notes(self) -> tuple[str, ...]:
-        """Those of the history."""
-        return self.history.warnings
+        """Those of the history, and of the dents."""
+        return (*self.history.warnings, *(() if self.dents is None else self.dents.warnings))
 
     @property
     def meanings(self) -> Mapping[str, str]:
@@ -226,17 +228,14 @@ class LifeResult(QuestionResult):
                 {"from": start, "to": end, "kg": mass} for start, end, mass in self.history.flows()
             ],
             bands=None if self.bands is None else self.bands.to_dict(),
+            dents=None if self.dents is None else self.dents.to_dict(),
         )
 
 
 def history_of(asked: AskedLife) -> LifeHistory:
     """The history of the oil, with the contacts that it goes through where there are some."""
-    shared: dict[str, Any] = {
-        "oil": asked.circuit, "duration": asked.duration, "until": asked.until
-    }  # fmt: skip
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)  # they stand in the history
-        return life(**(_arguments(asked) or {}), **shared)
+    found: LifeHistory = life_of_asked(asked, oil=asked.circuit, **(_arguments(asked) or {}))
+    return found
 
 
 def _arguments(asked: AskedLife) -> dict[str, Any] | None:
@@ -270,6 +269,8 @@ def bands_of(
         vary=asked.uncertainty,
         duration=asked.duration,
         until=asked.until,
+        samples=asked.drawn.samples,
+        seed=asked.drawn.seed,
         contact=_arguments(asked),
         progress=progress,
         keep=keep,
@@ -277,11 +278,19 @@ def bands_of(
 
 
 @overload
-def run_life(asked: AskedLife, *, progress: bool = ..., keep: Path | None = ...) -> LifeResult: ...
-@overload
-def run_life(asked: AskedDry, *, progress: bool = ..., keep: Path | None = ...) -> DryResult: ...
 def run_life(
-    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+    asked: AskedLife, *, progress: bool = ..., keep: Path | None = ..., filter: Filter | None = ...
+) -> LifeResult: ...
+@overload
+def run_life(
+    asked: AskedDry, *, progress: bool = ..., keep: Path | None = ..., filter: Filter | None = ...
+) -> DryResult: ...
+def run_life(
+    asked: AskedLife | AskedDry,
+    *,
+    progress: bool = False,
+    keep: Path | None = None,
+    filter: Filter | None = None,
 ) -> LifeResult | DryResult:
     """The history of an oil, or of a dry contact, as its study asks.
 
@@ -291,6 +300,8 @@ def run_life(
         As `load_life` reads it.
     progress, keep
         As in `bands_of`.
+    filter : Filter, optional
+        Of which the dents are asked too, in the place of the first filter.
 
     Examples
     --------
@@ -304,5 +315,8 @@ def run_life(
         return run_dry(asked, progress=progress, keep=keep)
     history = history_of(asked)
     return LifeResult(
-        asked=asked, history=history, bands=bands_of(asked, progress=progress, keep=keep)
+        asked=asked,
+        history=history,
+        bands=bands_of(asked, progress=progress, keep=keep),
+        dents=dents_of_life(asked, history, filter=filter),
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
@@ -13,7 +12,10 @@ from .inputs import Input, inputs_of
 from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
 from .vocabulary import LOADS
 
-__all__ = ["UNCERTAINTY", "field_of_input", "read_bands", "read_uncertain"]
+__all__ = ["LIFE", "UNCERTAINTY", "field_of_input", "ranges_of", "read_uncertain"]
+
+LIFE = "life."
+"""How names of numbers of a life begin: `thirdbody.study.life_uncertainty` reads these."""
 
 
 def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
@@ -24,6 +26,9 @@ def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
             path, f'{rule}{{ "roughness.sigma" = {{ low = "80 nm", high = "120 nm" }} }}', given
         )
     inputs = inputs_of(reader.whole)
+    entries = ranges_of(given)
+    if any(label.startswith(LIFE) for label in entries) and "life" not in reader.whole:
+        raise InvalidValue(Problem(path, "names numbers of [life], and there is no such table"))
 
     def one(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Uncertain]:
         label, entry = told
@@ -32,10 +37,12 @@ def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
             reader, where, found[0][1], entry
         )
 
-    ranges = _ranges(given).items()
-    return dict(
-        reader.read_each({f"{path}.{say(label)}": (label, entry) for label, entry in ranges}, one)
-    )
+    pairs = {
+        f"{path}.{say(label)}": (label, entry)
+        for label, entry in entries.items()
+        if not label.startswith(LIFE)
+    }
+    return dict(reader.read_each(pairs, one))
 
 
 KEYS = {
@@ -50,7 +57,10 @@ KEYS = {
 
 
 def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
-    return reader.table(path, data, KEYS, lambda values: Uncertainty(**values))
+    def build(values: dict[str, Any]) -> Uncertainty | None:
+        return Uncertainty(**values) if values["inputs"] else None  # all of them are of [life]
+
+    return reader.table(path, data, KEYS, build)
 
 
 def field_of_input(
@@ -105,32 +115,13 @@ def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any
         raise InvalidValue(*(Problem(where, f": {text}") for text in error.problems)) from None
 
 
-def read_bands(
-    reader: Reader,
-    given: Mapping[str, Any],
-    about: Callable[[str], tuple[str, dict[str, Any] | None]],
-    unknown: str,
-) -> dict[str, Uncertain]:
-    """What [life.uncertainty] says of numbers, by the names that ``about`` gives them."""
-
-    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, Uncertain]:
-        label, entry = pair
-        name, quantity = about(label)
-        if quantity is None:
-            raise InvalidValue(Problem(where, unknown))
-        return name, read_uncertain(reader, where, quantity, entry)
-
-    pairs = {f"life.uncertainty.{say(name)}": (name, entry) for name, entry in given.items()}
-    return dict(reader.read_each(pairs, one))
-
-
-def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
+def ranges_of(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
     """Entries of uncertain inputs, from names in quotes or nested tables."""
     out: dict[str, Any] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         inner = isinstance(value, dict) and any(isinstance(part, dict) for part in value.values())
-        out |= _ranges(value, where) if inner else {where: value}
+        out |= ranges_of(value, where) if inner else {where: value}
     return out
 
 

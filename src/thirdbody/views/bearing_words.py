@@ -43,7 +43,8 @@ def sharing(study: Study) -> str:
         f"{value_of(found.largest, 'N')}, {parts[0]} F_r/Z "
         f"(Sjövall's integral with {value_of(body.clearance, 'm')} clearance, epsilon = "
         f"{number(found.eps, 3)}; without clearance {parts[1]} "
-        f"F_r/Z, Stribeck); the sum over the {name} is {number(found.balance, 4)} of the load."
+        f"F_r/Z, Stribeck); the sum over the {name} is {number(found.balance, 4)} of the load, "
+        f"and not 1, because the integral spreads them evenly around."
     )
 
 

@@ -37,7 +37,8 @@ def point(result: FilmResult, i: int) -> dict[str, str]:
     if not result.passing:
         del rows["load on particles"], rows["of it particles"]
     for part in result.passing:
-        rows[f"{part.name}: particles narrower than h"] = share(part.share[i])
+        if part.share[i] > 0:
+            rows[f"{part.name}: particles narrower than h"] = share(part.share[i])
     if brought := result.entrainment:
         rows["largest particle dragged in"] = value_of(brought.largest[i], "m")
         for part, density in zip(result.passing, brought.areal_density, strict=True):
@@ -81,7 +82,11 @@ def summary(result: FilmResult) -> list[str]:
     states = result.states
     out = [f"Lubrication is {', and '.join(_regimes(result))}."]
     ends = sorted({0, len(states["speed"]) - 1})
-    for part in result.passing:
+    narrower = [part for part in result.passing if any(part.share[i] > 0 for i in ends)]
+    if result.passing and not narrower:
+        gap = value_of(max(states["h"][i] for i in ends), "m")
+        out.append(f"No particle is narrower than the gap of {gap}{' at most' * (len(ends) > 1)}.")
+    for part in narrower:
         at = [
             f"{share(part.share[i])} of the particles are narrower than the gap of "
             f"{value_of(states['h'][i], 'm')} at {value_of(states['speed'][i], 'm/s')}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..quantities.say import join_words, number
-from .life_words import duration_of
+from .life_amounts import duration_of
 
 if TYPE_CHECKING:
     from ..study.run_life_design import LifeDesign
@@ -87,5 +87,7 @@ def last_words(found: LifeDesign) -> list[str]:
     """What was not known."""
     return [
         "What nobody can predict: the ingress, and whether filters hold in service what their data "
-        "sheets say. See whether the choice stays with twice and half of what enters."
+        "sheets say. The beta ratios are taken as constant; in engines they fell with flow and "
+        "hours. See whether the choice stays with twice and half of what enters, and with service "
+        "= 0.5 of each filter."
     ]

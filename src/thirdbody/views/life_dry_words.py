@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..quantities.say import join_words, number, percent, value_of
-from .life_words import band_words, duration_of, events, mass_of
+from .life_amounts import duration_of, masses_of
+from .life_words import band_words, events
 
 if TYPE_CHECKING:
     from ..study.run_dry import DryResult
@@ -18,8 +19,8 @@ __all__ = ["HEADS", "MEANS", "answer", "last_words", "rows"]
 
 HEADS = ("time", "particles", "loaded", "share", "wear 1", "wear 2", "friction")
 MEANS = {
-    "particles": "in the contact, debris with them, per mm²",
-    "loaded": "particles in the contact that bear load",
+    "particles": "per mm² of the contact, debris with them",
+    "loaded": "those of them that bear load, per mm² too",
     "share": "part of the load that particles carry",
     "wear 1": "mean wear depth of the first surface",
     "friction": "of the solids, over the load",
@@ -68,10 +69,11 @@ def _tends(history: DryHistory) -> str:
         said = f"The contact comes to no steady state: it holds {now} particles at the end"
         return said + _why(history)
     first = steady[0]
-    said = f"The contact comes to {_count(history, first.numbers)} particles"
+    per_area = number(float(first.numbers.sum()) / 1e6, 3)
+    said = f"The contact comes to {_count(history, first.numbers)} particles, {per_area} per mm²"
     if not first.stable:
         return f"{said}, a state that is not stable"
-    said += f", all but a hundredth of the way in {duration_of(first.time)}"
+    said += f", and is within a hundredth of them after {duration_of(first.time)}"
     if len(steady) > 1:
         said += f" (one of {len(steady)} steady states)"
     return said
@@ -80,6 +82,11 @@ def _tends(history: DryHistory) -> str:
 def _why(history: DryHistory) -> str:
     """Why there is no steady state, where particles never leave."""
     slowest = float(np.min(np.linalg.eigvals(history.losses).real))
+    if history.loop.loss == 0:
+        return (
+            ", and none ever leaves it, because life.dry.loss = 0 brings all of them round again; "
+            "a loss above 0, 0.01 for one in a hundred, has an end"
+        )
     return ", and some of them never leave it" if slowest <= 0 else ""
 
 
@@ -93,7 +100,7 @@ def rows(found: DryResult) -> list[list[str]]:
             [
                 duration_of(float(time)),
                 number(float(history.numbers[i].sum()) / 1e6, 3),
-                number(float(more["present"][i]), 3),
+                number(float(more["present"][i]) / history.loop.setting.area / 1e6, 3),
                 percent(float(more["sa_share"][i])),
                 value_of(float(more["wear_1"][i]), "m", 3) if more["wear_1"][i] else "0",
                 value_of(float(more["wear_2"][i]), "m", 3) if more["wear_2"][i] else "0",
@@ -107,7 +114,8 @@ def last_words(found: DryResult) -> list[str]:
     """Flows, events, time scales, and what was not known."""
     history = found.history
     some = [row for row in history.flows() if row[2] > 0][:3]
-    shown = [f"{mass_of(mass)} from {start} to {end}" for start, end, mass in some]
+    masses = masses_of([mass for _, _, mass in some])
+    shown = [f"{m} from {start} to {end}" for m, (start, end, _) in zip(masses, some, strict=True)]
     out = [f"Most of the particles: {join_words(shown)}."] if shown else []
     out += [*band_words(found), *events(history)]
     scales = [

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..populations.measured.cleanliness import counted_sizes
 from ..quantities.say import join_words, number, percent, value_of
+from ..systems.life.circuit import LEAKED, SETTLED
 from ..systems.life.contact_history import ContactHistory, DryHistory, SteadyContact
 from ..systems.life.history import LifeHistory
 from ..systems.life.sizing import least_flow
+from .life_amounts import duration_of, flows_of, mass_of, masses_of
+from .life_dents_words import dent_answer
 
 if TYPE_CHECKING:
     from ..study.life_bands import LifeBands
@@ -22,8 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
-    *("answer", "band_words", "duration_of", "events", "facts", "flow_of"),
-    *("last_words", "least_flow_words", "mass_of", "report_answer", "report_rows", "rows"),
+    *("answer", "band_words", "events", "facts", "hidden_words", "last_words"),
+    *("least_flow_words", "report_answer", "report_rows", "rows", "slow_words"),
     "words_of_bands",
 ]
 
@@ -37,46 +41,13 @@ REPORT_MEANS = {
     "from": "size from which is counted",
     "lowest": "end of the band in which it lies nine times of ten",
 }
-MINUTE, HOUR, DAY, YEAR = 60.0, 3600.0, 86400.0, 365.25 * 86400
-ENDS = ((2 * MINUTE, 1.0, "s"), (2 * HOUR, MINUTE, "min"), (20_000 * HOUR, HOUR, "h"))
-NEVER = "for ever"
+SIZES = ("4 µm", "6 µm", "14 µm")
 LARGEST_FLOWS = 3
-
-
-def duration_of(seconds: float, digits: int = 3) -> str:
-    """A time as people say it.
-
-    >>> duration_of(30.0), duration_of(202.7), duration_of(3.6e6), duration_of(1e12)
-    ('30 s', '3.38 min', '1000 h', '3.17×10⁴ years')
-    >>> duration_of(float("nan"))
-    'for ever'
-    """
-    if not math.isfinite(seconds):
-        return NEVER
-    for end, unit, name in ENDS:
-        if seconds < end:
-            size = seconds / unit
-            whole = len(str(round(size)))
-            return f"{number(size, max(digits, whole))} {name}"
-    return f"{number(seconds / YEAR, digits)} years"
-
-
-def mass_of(kilograms: float) -> str:
-    """A mass as people say it.
-
-    >>> mass_of(0.05), mass_of(1.3e-6), mass_of(2.0), mass_of(0.0)
-    ('50 g', '1.3 mg', '2 kg', '0 g')
-    """
-    return value_of(kilograms, "kg", 3) if kilograms else "0 g"
-
-
-def flow_of(kilograms_per_second: float) -> str:
-    """A mass per hour.
-
-    >>> flow_of(125e-6 / 3600)
-    '125 mg/h'
-    """
-    return f"{mass_of(kilograms_per_second * HOUR)}/h"
+RISES = 1.5
+"""Factor by which dirt grows while its code stays, from which on it is told."""
+NEVER = "for ever"
+SIZES = ("4 µm", "6 µm", "14 µm")
+LARGEST_FLOWS = 3
 
 
 def answer(found: LifeResult) -> list[str]:
@@ -87,11 +58,10 @@ def answer(found: LifeResult) -> list[str]:
     if stopped := _stop(found):
         out[0] = f"{stopped}: the oil has gone from {history.codes[0]} to {history.codes[-1]}."
     out += [_tends(history)]
-    if isinstance(history, ContactHistory):
-        said = history.reproduction
-        out.append(f"{said[0].upper()}{said[1:]}.")
+    said = history.reproduction
+    out.append(f"{said[0].upper()}{said[1:]}.")
     out.append(_largest_flows(history))
-    return out
+    return [*out, *dent_answer(found.dents)]
 
 
 def _stop(found: LifeResult) -> str:
@@ -110,16 +80,73 @@ def _tends(history: LifeHistory) -> str:
         steady = steady or LifeHistory.steady(history)  # what grows for ever stands there
     if not steady:
         return "It comes to no state in which it no longer changes."
-    if "-" not in steady[0].code:
-        soon = duration_of(steady[0].time)
-        return f"Left alone it comes to {steady[0].code}, all but a hundredth of it in {soon}."
-    counts = zip(steady[0].code.split("/"), ("4", "6", "14"), strict=True)
-    grow = [f"{size} µm" for part, size in counts if part == "-"]
-    rest = "" if len(grow) == 3 else f", and to {steady[0].code} with the larger ones"
-    return (
-        f"The count from {join_words(grow)} on grows for ever: nothing takes the smallest of these "
-        f"particles out{rest}."
-    )
+    code = steady[0].code
+    times = dict(zip(SIZES, history.code_times, strict=True))
+    ends = {size: time for size, time in times.items() if math.isfinite(time)}
+    if "-" not in code:
+        out = f"With this ingress and these filters it ends at {code}"
+        if not any(ends.values()):
+            return f"{out}, and is there from the beginning."
+        out += f", and is within half a number of it after {_each_time(ends)}."
+    else:
+        grow = [size for part, size in zip(code.split("/"), SIZES, strict=True) if part == "-"]
+        out = (
+            f"The count from {join_words(grow)} on grows for ever: nothing takes the smallest of "
+            "these particles out"
+        )
+        if len(grow) < len(SIZES):
+            out += f", and the code ends at {code}"
+            out += f", within half a number after {_each_time(ends)}" if any(ends.values()) else ""
+        out += "."
+    return out
+
+
+def _each_time(times: Mapping[str, float]) -> str:
+    """How long each count takes; once where all take as long."""
+    words = {size: duration_of(time, 2) for size, time in times.items()}
+    if len(set(words.values())) == 1:
+        return next(iter(words.values()))
+    return join_words([f"{time} (from {size} on)" for size, time in words.items()])
+
+
+def slow_words(history: LifeHistory) -> list[str]:
+    """Which small sizes go on when the code has long ended, and why."""
+    slow = history.slow_sizes
+    if slow is None:
+        return []
+    who = f"Particles below {value_of(slow.below, 'm', 3)}"
+    if slow.below <= counted_sizes()[0] * (1 + 1e-9):
+        who += ", which no number of the code counts,"
+    held = "no filter holds them" if history.circuit.filters else "there is no filter"
+    ways = {
+        "": f"{held} and nothing else takes them out",
+        SETTLED: f"{held} and they settle slowly",
+        LEAKED: f"{held} and only the leak takes them out",
+    }
+    why = ways.get(slow.taken_by, f"{slow.taken_by} holds few of them")
+    if math.isfinite(slow.time):
+        said = f"{who} take far longer, {duration_of(slow.time, 2)}: {why}"
+    else:
+        said = f"{who} grow in number for ever: {why}"
+    return [f"{said}{', until the oil is changed' if history.circuit.oil_changes else ''}."]
+
+
+def hidden_words(history: LifeHistory) -> list[str]:
+    """That the code does not see how the dirt grows, where that is so."""
+    since = 1 + max((i for i, c in enumerate(history.codes) if c != history.codes[-1]), default=-1)
+    classes, terms = history.terms.classes, history.terms
+    unseen = classes.above(counted_sizes()[:1])[0] == 0
+    dirt = history.mass_per_volume.sum(axis=1)
+    small = np.einsum("tkm,km->t", history.numbers[:, unseen], terms.masses[unseen])
+    grown = dirt[-1] - dirt[since]
+    if not (dirt[-1] > RISES * dirt[since] and small[-1] - small[since] > 0.5 * grown):
+        return []
+    now, then = (number(1e3 * float(each), 3) for each in (dirt[since], dirt[-1]))
+    return [
+        f"The code stays at {history.codes[-1]} from {duration_of(float(history.times[since]))} on "
+        f"while the dirt rises from {now} to {then} mg/L: it is in particles below "
+        f"{value_of(counted_sizes()[0], 'm', 3)}, which the code does not count."
+    ]
 
 
 def _largest_flows(history: LifeHistory) -> str:
@@ -127,7 +154,8 @@ def _largest_flows(history: LifeHistory) -> str:
     some = [row for row in history.flows() if row[2] > 0][:LARGEST_FLOWS]
     if not some:
         return "No dirt moves."
-    shown = [f"{mass_of(mass)} from {start} to {end}" for start, end, mass in some]
+    masses = masses_of([mass for _, _, mass in some])
+    shown = [f"{m} from {start} to {end}" for m, (start, end, _) in zip(masses, some, strict=True)]
     return f"Most of the dirt: {join_words(shown)}."
 
 
@@ -231,7 +259,8 @@ def last_words(found: LifeResult) -> list[str]:
     """Events, time scales, and what was not known."""
     history = found.history
     scales = [f"{name} {duration_of(time)}" for name, time in history.time_scales.items()]
-    out = [*band_words(found), *events(history)]
+    out = [*band_words(found), *hidden_words(history), *slow_words(history),
+           *events(history)]  # fmt: skip
     if scales:
         out.append(f"Time scales: {', '.join(scales)}.")
     unknown = ["the ingress"]
@@ -258,10 +287,11 @@ def facts(history: LifeHistory) -> dict[str, str]:
 # ------------------------------------------------------------------------------ reports
 def report_answer(found: OilReports) -> list[str]:
     """What the reports say, in sentences."""
+    best, low, high = flows_of([found.mass_rate, found.mass_low, found.mass_high])
     out = [
-        f"Between the reports {flow_of(found.mass_rate)} of dirt from "
-        f"{value_of(float(found.sizes[0]), 'm')} on entered the oil: {flow_of(found.mass_low)} to "
-        f"{flow_of(found.mass_high)}, if every count lies somewhere in the range of its code."
+        f"Between the reports {best} of dirt from "
+        f"{value_of(float(found.sizes[0]), 'm')} on entered the oil: {low} to "
+        f"{high}, if every count lies somewhere in the range of its code."
     ]
     if found.is_constant is None:
         out.append("Two reports fit any ingress: whether it is constant, a third one says.")

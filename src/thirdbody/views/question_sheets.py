@@ -26,7 +26,7 @@ def question_sheets(
     title: str,
     answer: Sequence[str],
     table: tuple[Sequence[str], Sequence[Sequence[str]]] | None,
-    last: Sequence[str],
+    last: Sequence[str | Grid],
     *,
     states: tuple[Mapping[str, Sequence[Any]], Mapping[str, str]],
     meanings: Mapping[str, str],
@@ -39,8 +39,10 @@ def question_sheets(
     Parameters
     ----------
     title : str
-    answer, last : sequence of str
-        Sentences above and below the table.
+    answer : sequence of str
+        Sentences above the table.
+    last : sequence of str or Grid
+        Sentences and tables below it.
     table : (heads, rows), optional
         As it is printed.
     states : (columns, units)

@@ -53,7 +53,7 @@ def test_R0_of_one_is_the_edge_of_growth(factor):
 
 @pytest.mark.parametrize(
     ("R0", "words"),
-    [(0.0, "no particle breeds"), (7e-5, "does not feed itself"), (0.93, "hardness and sizes"),
+    [(0.0, "makes no new debris"), (7e-5, "does not feed itself"), (0.93, "hardness and sizes"),
      (1.2, "without end"), (math.nan, "never removed")],
 )  # fmt: skip
 def test_what_R0_means_in_words(R0, words):

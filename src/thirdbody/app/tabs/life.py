@@ -16,8 +16,9 @@ from ...study.run_life import NEEDED, LifeResult
 from ...study.whole import read_tables
 from ...systems.life.history import LifeHistory
 from ...systems.life.oil_history import run_oil_history
+from ...views.life_amounts import flow_of
 from ...views.life_words import answer as words_of
-from ...views.life_words import events, facts, flow_of
+from ...views.life_words import events, facts
 from ..figures import CLEAR, CONFIG, GREY, INKS, Figure, figure, line
 from ..sliders import Slider
 from ..state import Answer, State

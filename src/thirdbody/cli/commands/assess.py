@@ -42,7 +42,9 @@ def command(options: Options) -> None:
     from ..own_files import need_places
 
     if options.keep is not None and not asks_for_bands(options.study, options.settings or ()):
-        raise InvalidValue("--keep keeps the histories of [life.uncertainty]; the study has none")
+        raise InvalidValue(
+            "--keep keeps the histories of [life.uncertainty], and the study has none"
+        )
 
     if asks_for_bands(options.study, options.settings or ()):
         _assess_life(options)

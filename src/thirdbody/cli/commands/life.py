@@ -10,10 +10,22 @@ from typing import Any
 from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
 from ..interrupt import resumable
-from ..options import Force, JsonFile, KeepFile, ParquetFile, Settings, XlsxFile, argument, option
+from ..options import (
+    Force,
+    JsonFile,
+    KeepFile,
+    ParquetFile,
+    Settings,
+    XlsxFile,
+    argument,
+    option,
+)
 from ..streams import TableFiles, figure_format, warn_of, write_figure
 
 __all__ = ["command", "warn_of"]
+
+FILM_TABLES = "[surfaces], [roughness] and [film]"
+"""What dents are counted with."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +46,12 @@ class Options:
         "--flow-for",
         "Print the least flow of each filter that brings the oil to a code, e.g. 16/14/11.",
         "CODE",
+    )
+    filter_text: str | None = option(
+        "--filter",
+        "Count dents with another filter too, by the beta ratios of its data sheet, sizes in "
+        'um(c), e.g. "5=75, 10=1000".',
+        "SIZE=BETA,...",
     )
     json: JsonFile = None
     csv: Path | None = option("--csv", "Write a table, one row per time, e.g. a.csv.", "FILE")
@@ -62,25 +80,37 @@ def _tell_history(options: Options) -> None:
     """The history of the oil, or of the dry contact."""
     from ...errors import InvalidValue
     from ...populations.measured.cleanliness import read_iso4406
+    from ...study.dirty_oil import read_filter
     from ...study.life_dry import AskedDry
     from ...study.run_dry import DryResult
     from ...study.run_life import LifeResult, load_life, run_life
     from ...views import life_dry_words, life_words
+    from ...views.life_dents_words import tables_of_dents
 
     if options.flow_for is not None:
         read_iso4406(options.flow_for)
+    fine = None if options.filter_text is None else read_filter(options.filter_text)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     asked = read_question(load_life, options.study, options.settings, files, force=options.force)
-    if options.flow_for is not None and isinstance(asked, AskedDry):
-        raise InvalidValue("--flow-for sizes the filters of an oil; [life.dry] has none")
+    if isinstance(asked, AskedDry):
+        if options.flow_for is not None:
+            raise InvalidValue("--flow-for sizes the filters of an oil; [life.dry] has none")
+        if fine is not None:
+            raise InvalidValue("--filter is of an oil; [life.dry] has none")
+    elif fine is not None and (asked.rolling is None or not asked.circuit.filters):
+        lacks = "[[life.filters]]" if asked.rolling is not None else FILM_TABLES
+        raise InvalidValue(f"--filter asks for dents with another filter; the study has no {lacks}")
     if options.figure is not None:
         figure_format(options.figure)
         files.need(options.figure, force=options.force)
     bands = bool(asked.uncertainty)
     if options.keep is not None and not bands:
-        raise InvalidValue("--keep keeps the histories of [life.uncertainty]; the study has none")
+        raise InvalidValue(
+            "--keep keeps the many histories of [life.uncertainty], and the study has none: one "
+            "history takes seconds"
+        )
     with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep):
-        found = run_life(asked, progress=bands, keep=options.keep)
+        found = run_life(asked, progress=bands, keep=options.keep, filter=fine)
     drawn = None
     if options.figure is not None:
         from ...views.plot.life import life
@@ -98,6 +128,8 @@ def _tell_history(options: Options) -> None:
         rows=words.rows(found),
         means=words.MEANS,
         last=words.last_words(found),
+        times=found.history.times.tolist(),
+        more=tables_of_dents(found.dents) if isinstance(found, LifeResult) else (),
     )
     if options.figure is not None and drawn is not None:
         write_figure(options.figure, drawn)

@@ -18,7 +18,7 @@ from ...errors import InvalidValue, Note, Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
 from ...quantities.carried import takes_units
-from ...quantities.say import join_words, value_of
+from ...quantities.say import join_words, number, value_of
 from ...quantities.value import Value, items_of, quantity, sequences, several
 from ..oil_filter import Filter
 from .ingress import Ingress
@@ -34,6 +34,9 @@ __all__ = ["OilCircuit", "OilTerms", "settling_speed"]
 
 GRAVITY = 9.81
 """Acceleration of free fall [m/s²]."""
+HOUR = 3600.0
+SOON = 24 * HOUR
+"""Time in which a filter that is full makes its ingress doubtful [s]."""
 SETTLED, LEAKED = "settled", "leaked"
 """Names of what takes particles out beside filters."""
 
@@ -432,6 +435,7 @@ class OilCircuit(Value):
                         action="give β at smaller sizes, where the maker knows it",
                     )
                 )
+        out += self._filled_soon()
         settling = self.settling_area > 0 and self.density is not None
         floats = [n for n, m in self.materials.items() if settling and m.density <= self.density]  # type: ignore[operator]
         if floats:
@@ -440,6 +444,29 @@ class OilCircuit(Value):
                     f"{join_words(floats)} is lighter than the oil and does not settle",
                     code="floats",
                     effect=0.0,
+                )
+            )
+        return out
+
+    def _filled_soon(self) -> list[Note]:
+        """That filters would be full within a day, as hardly any is."""
+        terms = self.terms()
+        out = []
+        for name, each in zip(self.filter_names(), self.filters, strict=True):
+            if each.capacity is None:
+                continue
+            caught = float(np.nansum(terms.removal[name] * terms.steady * terms.masses))
+            if caught * SOON <= each.capacity:
+                continue
+            hours = number(each.capacity / caught / HOUR, 2)
+            out.append(
+                Note(
+                    f"so much dirt enters that {name} is full with {value_of(each.capacity, 'kg')} "
+                    f"every {hours} h, where filters last for months: codes and dents are those of "
+                    "an oil that hardly anyone has",
+                    code="life.ingress",
+                    action="check the unit of the rate (mg/h or g/h); from reports, check volume, "
+                    "flow and β of the study, as the ingress is wrong by as much as they are",
                 )
             )
         return out

@@ -230,7 +230,7 @@ class ContactCourse:
             if self._stretch():
                 return self.visited
         rule = f"holds {MOST_EVENTS} events and more: {self.events[-1].sentence}"
-        hint = "is the capacity of the filter far too small?"
+        hint = "is the capacity of the filter far too small, or the ingress too large (mg/h)?"
         raise InvalidValue(Problem("duration", rule, hint=hint))
 
     def _stretch(self) -> bool:

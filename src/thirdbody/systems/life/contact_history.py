@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
+from scipy.linalg import expm
 
 from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
+from .breeding import reproduction_of, why_none, why_unknown
+from .code_times import times_within
 from .contact_course import coverage
 from .dry_loop import DryLoop
 from .film_loop import FilmLoop
 from .history import SETTLES_TO, LifeEvent, LifeHistory
 from .ledger import IN_OIL, Ledger
-from .linear_flow import dirt_gain, generations, reproduction
+from .linear_flow import dirt_gain, generations
 from .loop import SURFACES, Loop
 from .steady import describe_reproduction
 
@@ -185,8 +188,7 @@ def _steady_at(loop: Loop, y: Array, place: float) -> SteadyContact:
     loop.last = place
     rates = loop.rates(state, d)
     change = rates.matrix @ state + rates.constant
-    time = loop.now if isinstance(loop, FilmLoop) else 0.0
-    slowest = float(np.max(np.linalg.eigvals(loop.jacobian(time, state)[pool, pool]).real))
+    slowest = float(np.max(np.linalg.eigvals(_jacobian(loop, state)).real))
     numbers = loop.shaped(state[pool]).T / _per(loop)
     code = ""
     if isinstance(loop, FilmLoop):
@@ -204,30 +206,37 @@ def _steady_at(loop: Loop, y: Array, place: float) -> SteadyContact:
     )
 
 
+def _jacobian(loop: Loop, state: Array) -> Array:
+    """How the rates of the numbers change with them [1/s], (J, J)."""
+    time, pool = loop.now if isinstance(loop, FilmLoop) else 0.0, loop.layout[loop.pool]
+    return loop.jacobian(time, state)[pool, pool]
+
+
 def _per(loop: Loop) -> float:
     """What numbers of the pool are divided by: the volume of the oil, or the area."""
     return loop.volume_at(loop.now) if isinstance(loop, FilmLoop) else loop.setting.area
 
 
-# ------------------------------------------------------------------ who breeds whom
-def births_and_losses(loop: Loop, y: Array) -> tuple[Array, Array]:
-    """𝒢 and 𝓛 of a state [1/s] (J, J), in the order of the loop."""
-    rates = loop.rates(y, loop.find_gap(y).d)
-    pool = loop.layout[loop.pool]
-    return rates.births, rates.births - rates.matrix[pool, pool]
+class _Breeding:
+    """What the histories of contacts say of who breeds whom."""
 
+    loop: Any
+    last_state: Array
+    births: Any
+    losses: Array
+    R0: Any
 
-def reproduction_of(births: Array, losses: Array) -> float:
-    """R_0; NaN where some particles are never removed."""
-    if not np.any(births):
-        return 0.0
-    if float(np.min(np.linalg.eigvals(losses).real)) <= 0:
-        return math.nan
-    return reproduction(losses, births=births)
+    def _describe(self, edges: Sequence[float], materials: tuple[str, ...]) -> str:
+        why = ""
+        if self.R0 == 0:
+            why = why_none(self.loop, self.last_state)
+        elif math.isnan(self.R0):
+            why = why_unknown(self.births, self.losses, np.array(edges), materials)
+        return describe_reproduction(self.R0, why=why)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ContactHistory(LifeHistory):
+class ContactHistory(_Breeding, LifeHistory):
     """A history of an oil and of contacts in it; made by `thirdbody.life`.
 
     As `LifeHistory`, with `COLUMNS` of the contact in ``more``; ``births`` and ``losses`` are
@@ -253,7 +262,7 @@ class ContactHistory(LifeHistory):
     @property
     def reproduction(self) -> str:
         """What R_0 means, in words."""
-        return describe_reproduction(self.R0)
+        return self._describe(self.terms.classes.edges, tuple(self.terms.materials))
 
     @cached_property
     def _steady(self) -> tuple[SteadyContact, ...]:
@@ -267,6 +276,30 @@ class ContactHistory(LifeHistory):
         """
         return self._steady
 
+    @cached_property
+    def code_times(self) -> tuple[float, ...]:
+        """As of `LifeHistory`, with the contact as it is near the steady state."""
+        if not self.steady():
+            return LifeHistory.code_times.func(self)  # type: ignore[attr-defined]
+        loop, steady = self.loop, self.steady()[0]
+        end = steady.numbers.T.ravel()
+        state = self.last_state.copy()
+        state[loop.layout[loop.pool]] = end * _per(loop)
+        jacobian = _jacobian(loop, state)
+        away = self.numbers[0].T.ravel() - end
+        known: dict[float, Array] = {}
+
+        def counts(time: float) -> Array:
+            if (half := known.get(time / 2)) is not None:
+                known[time] = half @ half
+            elif time not in known:
+                known[time] = expm(jacobian * time)
+            now = loop.shaped(end + known[time] @ away).T
+            return self.terms.classes.counted(now.sum(axis=1))
+
+        ends = self.terms.classes.counted(steady.numbers.sum(axis=1))
+        return times_within(counts, ends, first=self._first_time)
+
     @property
     def time_scales(self) -> dict[str, float]:
         """How long things take [s], by name; NaN for what never ends."""
@@ -277,11 +310,6 @@ class ContactHistory(LifeHistory):
         out = {"passage of a contact": 2 * float(along) / loop.speed}
         out |= LifeHistory.time_scales.fget(self)  # type: ignore[attr-defined]
         return out | wear_times(loop, self.last_state, self.more)
-
-    def to_dict(self) -> dict[str, object]:
-        """Everything, ready for JSON: None for what is not a finite number."""
-        out = LifeHistory.to_dict(self)
-        return out | {"reproduction": self.reproduction}
 
 
 def wear_times(loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]) -> dict[str, float]:
@@ -298,7 +326,7 @@ def wear_times(loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]) -
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class DryHistory(Record):
+class DryHistory(_Breeding, Record):
     """A history of a dry or greased contact; made by `thirdbody.life`.
 
     Attributes
@@ -339,7 +367,7 @@ class DryHistory(Record):
     @property
     def reproduction(self) -> str:
         """What R_0 means, in words."""
-        return describe_reproduction(self.R0)
+        return self._describe(self.loop.tables.classes.edges, self.materials)
 
     @property
     def generations(self) -> Array:

@@ -14,13 +14,13 @@ from ...quantities.say import number
 from ..conjunctions import Line, Oil, Point
 from ..film_formulas import AbstractFilm
 from ..mixed_film import FEW, MOST, lubricated
+from .breeding import births_and_losses
 from .circuit import OilCircuit
 from .contact_course import DRAINED, ContactCourse, Visited
 from .contact_history import (
     COLUMNS,
     ContactHistory,
     DryHistory,
-    births_and_losses,
     contact_columns,
 )
 from .contact_tables import Kind, contact_tables

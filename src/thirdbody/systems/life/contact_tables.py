@@ -267,6 +267,7 @@ class ContactTables:
         ]
         self.survival = [self._survival(kind, curve) for kind, curve in self._with_curves()]
         self._sums: dict[float, Any] = {}
+        self._roughs: dict[float, Roughness] = {}
         self._distinct: dict[tuple[int, int], int] = {}
         self.place = [self._place(i) for i in range(len(self.kinds))]
         """Which of the distinct kinds each is."""
@@ -309,7 +310,11 @@ class ContactTables:
     # ------------------------------------------------------------------ tables
     def roughness_at(self, sigma: float) -> Roughness:
         """The surface at a roughness σ [m]."""
-        return scale_roughness(self.contact.roughness, sigma)
+        if sigma not in self._roughs:
+            if len(self._roughs) > 64:
+                self._roughs.clear()
+            self._roughs[sigma] = scale_roughness(self.contact.roughness, sigma)
+        return self._roughs[sigma]
 
     def offset(self, sigma: float) -> float:
         """Mean gap under a particle minus d [m]."""

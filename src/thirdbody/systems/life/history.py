@@ -16,8 +16,10 @@ from ...quantities.plain_data import plain_data
 from ...quantities.record import Column, Record
 from ...quantities.say import value_of
 from .circuit import OilCircuit, OilTerms
+from .code_times import SlowSizes, slow_sizes, times_within
 from .ledger import Ledger
-from .linear_flow import dirt_gain, generations, reproduction
+from .linear_flow import dirt_gain, flowing, generations, reproduction
+from .steady import describe_reproduction
 
 if TYPE_CHECKING:
     import xarray
@@ -142,6 +144,40 @@ class LifeHistory(Record):
         time = -math.log(SETTLES_TO) / slowest if math.isfinite(slowest) else math.nan
         return (SteadyOil(numbers, classes.iso4406(numbers.sum(axis=1)), time),)
 
+    @cached_property
+    def code_times(self) -> tuple[float, ...]:
+        """Times from which the counts from 4, 6 and 14 µm(c) stay within half a code of their ends.
+
+        From the beginning on, with no filter full and no oil changed [s]; NaN for a count that
+        grows for ever.
+        """
+        terms, volume = self.terms, self.circuit.volume
+        grown = max(terms.growth, 0.0)
+        loss = terms.loss + min(terms.growth, 0.0)
+
+        def counts(time: float) -> Array:
+            found = flowing(
+                volume, numbers=volume * terms.start, growth=grown, source=terms.source,
+                loss=loss, time=time,
+            )  # fmt: skip
+            return terms.classes.counted(found.numbers.sum(axis=1) / (volume + grown * time))
+
+        end = terms.classes.counted(terms.steady.sum(axis=1))
+        return times_within(counts, end, first=self._first_time)
+
+    @property
+    def _first_time(self) -> float:
+        """A time in which next to nothing is taken out [s]."""
+        return 1e-3 * self.circuit.volume / max(float(np.max(self.terms.loss)), 1e-12)
+
+    @property
+    def slow_sizes(self) -> SlowSizes | None:
+        """The sizes that go on when the counts of the code have long ended; None for none."""
+        known = [each for each in self.code_times if math.isfinite(each)]
+        return slow_sizes(
+            self.terms, volume=self.circuit.volume, than=max([self._first_time, *known])
+        )
+
     @property
     def _losses(self) -> Array:
         """𝓛 of classes and materials [1/s], (J, J)."""
@@ -151,6 +187,12 @@ class LifeHistory(Record):
     def R0(self) -> float:
         """Particles bred by one before it is removed [1]."""
         return 0.0 if self.births is None else reproduction(self._losses, births=self.births)
+
+    @property
+    def reproduction(self) -> str:
+        """What R_0 means, in words."""
+        why = "the study has no contact that returns any to the oil"
+        return describe_reproduction(self.R0, why="" if self.R0 else why)
 
     @property
     def generations(self) -> Array:
@@ -219,7 +261,7 @@ class LifeHistory(Record):
 
     def to_dict(self) -> dict[str, object]:
         """Everything, ready for JSON: None for what is not a finite number."""
-        steady = self.steady()
+        steady, slow = self.steady(), self.slow_sizes
         return {
             "times": plain_data(self.times),
             "codes": list(self.codes),
@@ -232,8 +274,11 @@ class LifeHistory(Record):
             "events": [plain_data(each._asdict()) for each in self.events],
             "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
             "steady": [plain_data(each._asdict()) for each in steady],
+            "code_times": plain_data(self.code_times),
+            "slow_sizes": None if slow is None else plain_data(slow._asdict()),
             "time_scales": plain_data(self.time_scales),
             "R0": plain_data(self.R0),
+            "reproduction": self.reproduction,
             "dirt_gain": plain_data(self.dirt_gain),
             "warnings": list(self.warnings),
         }

@@ -293,7 +293,7 @@ class _Course:
                 break
         else:
             rule = f"holds {MOST_EVENTS} events and more: {self.events[-1].sentence}"
-            hint = "is the capacity of the filter far too small?"
+            hint = "is the capacity of the filter far too small, or the ingress too large (mg/h)?"
             raise InvalidValue(Problem("duration", rule, hint=hint))
         keep(np.array([0.0]))
         order = np.array(kept)

@@ -530,6 +530,7 @@ def read_reports(path: str | Path) -> tuple[Array, list[str] | Array, Array | No
     unit = _unit_of(path, head, names[0])
     columns = [_counted_column(path, head, name) for name in names[1:]] if len(names) > 2 else []
     times: list[float] = []
+    before = head
     codes: list[str] = []
     counts: list[list[float]] = []
     for number, cells in lines[1:]:
@@ -540,6 +541,10 @@ def read_reports(path: str | Path) -> tuple[Array, list[str] | Array, Array | No
             )
         try:
             times.append(to_si(f"{cells[0]} {unit}", "s"))
+            if len(times) > 1 and not times[-1] > times[-2]:
+                rule = f"{say(cells[0])} {unit} is not later than the report of line {before}"
+                raise InvalidValue(f"{rule}: reports stand in the order of their times")
+            before = number
             if columns:
                 counts.append(
                     [to_si(f"{cell} {own}", "1/m^3") for cell, (_, own) in

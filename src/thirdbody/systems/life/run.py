@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from ...contact.contact import Contact
@@ -165,7 +165,8 @@ def life(
     >>> history.codes[-1], history.steady()[0].code
     ('17/15/11', '17/15/11')
     """
-    waits = (until,) if isinstance(until, Until) else tuple(until)
+    several = isinstance(until, Iterable) and not isinstance(until, Until | str)
+    waits: tuple[Until, ...] = tuple(until) if several else (until,)  # type: ignore[assignment,arg-type]
     if wrong := [each for each in waits if not isinstance(each, Until)]:
         rule = 'must hold what a history waits for, e.g. tb.until.iso4406("21/19/16")'
         raise InvalidValue(Problem("until", rule, repr(wrong[0])))

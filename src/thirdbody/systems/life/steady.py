@@ -33,24 +33,30 @@ MATTERS = 0.3
 
 
 @takes_units
-def describe_reproduction(R0: float) -> str:
+def describe_reproduction(R0: float, *, why: str = "") -> str:
     """What a reproduction number means, in words.
 
     Parameters
     ----------
     R0 : float
         Particles bred by one particle before it is removed [1].
+    why : str, optional
+        Why it is 0, or not known.
 
     Examples
     --------
-    >>> describe_reproduction(7e-5)
-    'one particle of debris breeds 7×10⁻⁵ others before it is removed: wear does not feed itself'
+    >>> describe_reproduction(7e-5)[:53]
+    'one particle of debris breeds 7×10⁻⁵ others before it'
+    >>> describe_reproduction(0.0, why="there is none")
+    'debris makes no new debris (R₀ = 0): there is none'
     """
     if math.isnan(R0):
-        return "some debris is never removed: it is not known how many others it breeds"
+        why = why or "some particles are never removed"
+        return f"how many others one particle of debris breeds (R₀) has no number: {why}"
     if R0 == 0:
-        return "no particle breeds another: the debris does not wear the surfaces"
-    breeds = f"one particle of debris breeds {number(R0, 2)} others before it is removed"
+        why = why or "it does not wear the surfaces"
+        return f"debris makes no new debris (R₀ = 0): {why}"
+    breeds = f"one particle of debris breeds {number(R0, 2)} others before it is removed (R₀)"
     if R0 >= 1:
         return f"{breeds}: at these rates wear feeds itself without end"
     if R0 > MATTERS:

@@ -117,7 +117,8 @@ def draw_masses(axes: Axes, history: Histories) -> None:
     moved = {name: values for name, values in columns.items() if np.any(values > 0)}
     for i, (name, values) in enumerate(moved.items()):
         dash = "-" if name in history.ledger.came else ":" if name == inside else "--"
-        axes.plot(hours, 1e3 * values, dash, color=colours[i % len(colours)], label=name, lw=1.6)
+        seen = np.where(values > 0, values, np.nan)  # a logarithm has no 0
+        axes.plot(hours, 1e3 * seen, dash, color=colours[i % len(colours)], label=name, lw=1.6)
     axes.set(xlabel="Time [h]", ylabel="Mass since the beginning [g]", xscale="log", yscale="log")
     axes.margins(x=0)
     low, high = axes.get_ylim()
@@ -179,7 +180,7 @@ def draw_flows(axes: Axes, history: Histories) -> None:
     axes : matplotlib.axes.Axes
     history : LifeHistory
     """
-    from ..life_words import mass_of
+    from ..life_amounts import mass_of
 
     ledger, pool = history.ledger, _pool(history)
     came = {f"in the {pool} before": float(ledger.in_oil[0])} | {

@@ -24,6 +24,7 @@ from ...errors import InvalidValue, RangeWarning, ThirdBodyError
 from ...quantities.progress import Stages, counted, nested
 from ...study import Study, run_film, run_study
 from ...study.dirty_oil import dirty_oil
+from ...study.life import AskedDry
 from ...study.one_surface import OneSurface, one_surface
 from ...study.run_life import run_life
 from ...systems.oil_filter import Filter
@@ -78,7 +79,8 @@ def report(
     Error bars and elasticities are those at the middle of the loads. Error bars take what the
     table [uncertainty] says, in at most 256 samples (`assess` takes all that it asks for);
     without it, the ranges of the materials library, where it states some, but for particles that
-    break, whose samples take a second each. A table [explicit] has one small surface pressed, in
+    break, whose samples take a second each, and for a dry contact over time, whose own bars are of
+    [life.uncertainty]. A table [explicit] has one small surface pressed, in
     seconds; `thirdbody.study.run_explicit` takes all that it asks for.
 
     Examples
@@ -161,6 +163,8 @@ def _assess(
     inner = nested(progress, len(ASSESSED))
     asked = study.uncertainty
     if asked is None:
+        if isinstance(study.life, AskedDry):
+            return None  # its answer is of the life, of which [life.uncertainty] says more
         breaks = any(each.strength is not None for each in contact.populations)
         ranges = stated_ranges(contact)
         if breaks or not ranges:

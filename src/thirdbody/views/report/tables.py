@@ -141,6 +141,7 @@ def life_section(report: Found) -> list[str]:
     """The oil or dry contact over time: what it comes to, a few times, flows, what happened."""
     from ...study.run_dry import DryResult
     from .. import life_dry_words, life_words
+    from ..life_dents_words import tables_of_dents
     from ..plot.life import life
 
     found = report.life
@@ -156,8 +157,11 @@ def life_section(report: Found) -> list[str]:
     out = [
         *(f"<p>{words(sentence)}</p>" for sentence in said),
         *_with_legend(told.HEADS, rows, told.MEANS),
-        f"<div class=figures>{figure(svg_of(life(found.history)), caption)}</div>",
     ]
+    by_oil = None if isinstance(found, DryResult) else found.dents
+    for sentence, heads, dents, means in tables_of_dents(by_oil):
+        out += [f"<p>{words(sentence)}</p>", *_with_legend(heads, dents, means)]
+    out.append(f"<div class=figures>{figure(svg_of(life(found.history)), caption)}</div>")
     return [section(f"The {of} over time", out, name="life")]
 
 

@@ -1,0 +1,130 @@
+"""What a study knows of the numbers of a life: [life.uncertainty], and what [uncertainty] adds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..analysis.uncertainty.inputs import Uncertain
+from ..errors import InvalidValue, Problem
+from ..quantities.units import say
+from ..quantities.value import quantity
+from ..systems.life.circuit import OilCircuit
+from .inputs import inputs_of
+from .life_bands import place_of_beta
+from .reader import Reader, get
+from .uncertainty import LIFE, ranges_of, read_uncertain
+
+__all__ = ["FACTOR", "KnownOfLife", "about_circuit", "known_of_life", "names_life"]
+
+FACTOR = quantity("f", "1", "factor on all that enters or arrives", gt=0).metadata["quantity"]
+BETA = quantity("β", "1", "particles before over particles behind", ge=1).metadata["quantity"]
+INGRESS_FACTOR = "ingress"
+About = Callable[[str], tuple[str, dict[str, Any] | None]]
+"""Name of a number, and what it is, by the name in the file; None for what is none."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class KnownOfLife:
+    """What is known of the numbers of a life, and how it is drawn.
+
+    Attributes
+    ----------
+    vary : dict of str to Uncertain
+        By names as `thirdbody.study.life_bands` takes them.
+    samples : int, optional
+        Sets that are drawn, of [uncertainty] where that says it.
+    seed : int
+        Of the drawing.
+    """
+
+    vary: Mapping[str, Uncertain] = field(default_factory=dict)
+    samples: int | None = None
+    seed: int = 0
+
+
+def about_circuit(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
+    """What a number of a circuit is, by its dotted name; None where it is none."""
+    if name == INGRESS_FACTOR:
+        return FACTOR
+    if place_of_beta(circuit, name) is not None:
+        return BETA
+    parent, _, last = name.rpartition(".")
+    try:
+        owner, number_of_it = circuit.value_at(parent), circuit.value_at(name)
+    except InvalidValue:
+        return None
+    fields = getattr(owner, "__dataclass_fields__", {})
+    if last not in fields or not isinstance(number_of_it, float):
+        return None
+    return fields[last].metadata.get("quantity")
+
+
+def names_life(whole: Mapping[str, Any]) -> bool:
+    """Whether a parsed file says what is known of numbers of its [life]."""
+    if get(whole.get("life"), "uncertainty") is not None:
+        return True
+    inputs = get(whole.get("uncertainty"), "inputs")
+    return isinstance(inputs, dict) and any(name.startswith(LIFE) for name in ranges_of(inputs))
+
+
+def known_of_life(
+    reader: Reader, given: Mapping[str, Any], about: About, names: str, *, contact: bool
+) -> KnownOfLife:
+    """What is known of the numbers of a life.
+
+    Parameters
+    ----------
+    reader : Reader
+    given : mapping
+        The table [life.uncertainty].
+    about : callable
+        What the numbers of the life are.
+    names : str
+        Them all, for whoever writes another one.
+    contact : bool
+        Whether numbers of the contact of the study act in it: those of [surfaces], [roughness],
+        [outputs].
+    """
+    parts = _inputs_of_contact(reader) if contact else {}
+
+    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, Uncertain]:
+        label, entry = pair
+        name, quantity_of = about(label)
+        if quantity_of is None:
+            name, quantity_of = parts.get(label, (name, None))
+        if quantity_of is None:
+            raise InvalidValue(Problem(where, names))
+        return name, read_uncertain(reader, where, quantity_of, entry)
+
+    def pairs_of(path: str, entries: Mapping[str, Any]) -> dict[str, tuple[str, Any]]:
+        return {
+            f"{path}.{say(label)}": (label.removeprefix(LIFE), entry)
+            for label, entry in entries.items()
+        }
+
+    pairs = pairs_of("life.uncertainty", given)
+    table = reader.whole.get("uncertainty")
+    if not names_life({"uncertainty": table}):
+        return KnownOfLife(vary=dict(reader.read_each(pairs, one)))
+    entries = ranges_of(get(table, "inputs"))
+    mine = {k: v for k, v in entries.items() if k.startswith(LIFE) or k in parts}
+    dry = {k: v for k, v in entries.items() if k not in mine and about(k)[1] is not None}
+    pairs |= pairs_of("uncertainty.inputs", mine | dry)
+    if idle := [say(name) for name in entries if name not in mine and name not in dry]:
+        reader.notes.append(f"uncertainty.inputs: {', '.join(idle)} has no effect on [life]")
+    return KnownOfLife(
+        vary=dict(reader.read_each(pairs, one)),
+        samples=get(table, "samples"),
+        seed=get(table, "seed") or 0,
+    )
+
+
+def _inputs_of_contact(reader: Reader) -> dict[str, tuple[str, dict[str, Any]]]:
+    """Numbers of the contact by their names in the file; its particles are those of the oil."""
+    return {
+        each.name: (each.field, each.quantity)
+        for each in inputs_of(reader.whole)
+        if each.quantity and not each.idle and not each.table.startswith("particle")
+    }

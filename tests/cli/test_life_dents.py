@@ -1,0 +1,189 @@
+"""Dents per raceway from ``thirdbody life``: now, as the oil ends, with other filters and without."""
+
+import json
+import math
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from thirdbody import load_study
+from thirdbody.populations.measured.cleanliness import counted_sizes
+from thirdbody.study.dirty_oil import dirty_oil
+from thirdbody.study.life_dents import dents_of_life
+from thirdbody.study.run_life import history_of, load_oil, run_life
+from thirdbody.systems.oil_filter import Filter
+from thirdbody.views.report.tables import life_section
+
+from .life_shell import CONTACT, complained, enter, quarry, run, said, setting, study
+
+DESIGN = """
+[life.design]
+code = "11/9/6"
+[[life.design.filters]]
+name = "fine filter"
+beta = { "2 um" = 20, "4 um" = 75, "7 um" = 1000 }
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    return enter(tmp_path, monkeypatch)
+
+
+@pytest.fixture
+def oils():
+    asked = load_oil(quarry(DESIGN))
+    history = history_of(asked)
+    found = dents_of_life(asked, history, filter=Filter.from_text("5=75, 10=1000"))
+    return asked, history, {each.oil: each for each in found.oils}
+
+
+def test_every_quartz_grain_from_4_um_on_dents_both_rings(oils):
+    """Per overrolling ε h n pass, all of them far larger and harder than film and steel are."""
+    _, history, found = oils
+    count = history.terms.classes.counted(history.terms.steady.sum(axis=1))[0]
+    for track in found["with the return filter"].tracks:
+        assert track.per_overrolling == pytest.approx(track.film * count, rel=1e-9)
+        assert track.depth < track.depth_p95
+    start = found["as it begins"]
+    assert (start.time, start.code) == (0.0, "20/18/15")
+
+
+def test_per_hour_is_what_rolls_over_in_an_hour(oils):
+    """Balls that pass a place per second, times dents at each, over the sides of the load."""
+    asked, _, found = oils
+    body, force, E = asked.rolling.body, asked.rolling.force, asked.rolling.contact.E_ss
+    for ring, track in zip(("inner", "outer"), found["as it begins"].tracks, strict=True):
+        assert track.track == f"the {ring} ring"
+        share = body.share_load(force, E)
+        widths = body.widths(share.loads[share.loads > 0], ring, E)
+        passed = float(np.sum(widths)) * body.rolling_speed * 3600
+        assert track.per_hour == pytest.approx(passed * track.per_overrolling, rel=1e-12)
+
+
+def test_dents_are_those_of_film(oils):
+    """The same oil as [[particles]] of the bearing: `thirdbody film` counts as many."""
+    _, _, found = oils
+    text = Path(study("ball-bearing")).read_text("utf-8").split("[[particles]]")[0]
+    dust = (
+        '[[particles]]\nname = "dust"\nmaterial = "quartz"\niso4406 = "20/18/15"\ngap = "0.3 um"\n'
+    )
+    Path("film.toml").write_text(text + dust, "utf-8")
+    for ring, track in zip(("inner", "outer"), found["as it begins"].tracks, strict=True):
+        (alone,) = dirty_oil(load_study("film.toml", [f"body.ring={ring}"])).populations
+        # classes of size, and the film without the few grains
+        assert track.per_hour == pytest.approx(alone.per_hour, rel=2e-3)
+        assert track.depth_p95 == pytest.approx(alone.depth_p95, rel=0.05)
+
+
+def test_other_filters_and_none(oils):
+    asked, _, found = oils
+    names = list(found)
+    assert names == [
+        "as it begins",
+        "with the return filter",
+        "with fine filter instead",
+        "with --filter instead",
+        "without the return filter",
+    ]
+    fine = asked.circuit.replace(filters=(asked.design.filters[0].replace(flow=1e-3),))
+    assert found["with fine filter instead"].code == fine.steady_code()
+    inner = {name: each.tracks[0].per_hour for name, each in found.items()}
+    assert inner["with fine filter instead"] < inner["with the return filter"]
+    assert inner["with --filter instead"] > inner["with the return filter"]
+    assert inner["without the return filter"] > 100 * inner["with the return filter"]
+
+
+def test_a_count_that_does_not_end_is_that_after_the_history():
+    asked = load_oil(quarry(), ["life.oil.settling_area=0", 'life.duration="100 h"'])
+    history = history_of(asked)
+    (without,) = (o for o in dents_of_life(asked, history).oils if o.oil.startswith("without"))
+    assert without.time == 100 * 3600
+    terms = asked.circuit.replace(filters=()).terms()
+    grown = terms.start + terms.ingress * without.time / asked.circuit.volume
+    count = terms.classes.counted(grown.sum(axis=1))[0]
+    assert without.tracks[0].per_overrolling == pytest.approx(
+        without.tracks[0].film * count, rel=1e-9
+    )
+
+
+def test_smaller_particles_are_told_apart(oils):
+    """Below 4 µm nothing of the oil as it begins, dust later: more of it, and shallower."""
+    _, history, found = oils
+    assert found["as it begins"].tracks[0].smaller_per_hour == 0
+    track = found["with the return filter"].tracks[0]
+    below = np.array(history.terms.classes.edges[1:]) <= counted_sizes()[0] * (1 + 1e-9)
+    most = track.film * history.numbers[-1][below].sum()
+    assert 0 < track.smaller_per_hour / track.per_hour * track.per_overrolling <= most * (1 + 1e-9)
+    assert track.smaller_depth < 0.2 * track.depth
+
+
+def test_it_is_printed_and_in_json():
+    file = quarry(DESIGN)
+    done = run("life", file)
+    told = said(done)
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    assert "The oil with the return filter dents the inner ring" in told
+    assert "Dents in the tracks by each oil as it ends, entry ratio taken as 1:" in told
+    assert "the entry ratio of particles is not given and taken as 1" in " ".join(
+        done.stderr.split()
+    )
+    data = json.loads(run("life", file, "--json").stdout)["dents"]
+    found = run_life(load_oil(file)).dents
+    assert data["oils"][1]["oil"] == found.oils[1].oil
+    assert data["oils"][1]["tracks"][1]["per_hour"] == found.oils[1].tracks[1].per_hour
+    assert data["oils"][1]["time"] is None  # no end of it
+    assert math.isinf(found.oils[1].time)
+
+
+def test_the_report_holds_the_table():
+    found = run_life(load_oil(quarry()))
+    (part,) = life_section(SimpleNamespace(life=found))
+    assert "Dents in the tracks by each oil as it ends" in part
+    assert "without the return filter" in part
+
+
+def test_a_workbook_holds_the_table():
+    openpyxl = pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
+    assert run("life", quarry(), "--xlsx", "a.xlsx").exit_code == 0
+    cells = [row[0] for row in openpyxl.load_workbook("a.xlsx")["Answer"].values]
+    assert "with the return filter" in cells
+
+
+def test_a_filter_needs_something_that_rolls():
+    bare = study("oil-circuit")
+    Path("alone.toml").write_text(
+        Path(bare).read_text("utf-8").split("# The contact that")[0], "utf-8"
+    )
+    lacks = complained(run("life", "alone.toml", "--filter", "5=75"))
+    assert "--filter asks for dents with another filter; the study has no [surfaces]" in lacks
+    study("dry-contact", file="dry.toml")
+    assert "--filter is of an oil" in complained(run("life", "dry.toml", "--filter", "5=75"))
+    assert "--filter" in complained(run("life", quarry(), "--filter", "5=x"))
+
+
+def test_a_contact_takes_its_film_from_the_body():
+    """[life.contact] with [body] alone: conjunction, load, speed of the most loaded ball."""
+    parts = CONTACT[: CONTACT.index("[film]")] + CONTACT[CONTACT.index("[life.debris]") :]
+    file = quarry(parts.replace("contacts = 20", "entry_ratio = 0.1"))
+    asked = load_oil(file)
+    film, body = asked.rolling.film, asked.rolling.body
+    given = asked.contact.conditions
+    assert (given["load"], given["speed"]) == (film.load, body.rolling_speed)
+    assert given["load"] == pytest.approx(262.6, rel=1e-3)
+    share = body.share_load(500.0, asked.rolling.contact.E_ss)
+    widths = body.widths(share.loads[share.loads > 0], "inner", asked.rolling.contact.E_ss)
+    assert given["contacts"] == pytest.approx(float(np.sum(widths) / np.max(widths)), rel=1e-9)
+    assert any("life.contact.contacts = " in each for each in asked.assumed)
+    assert load_oil(file, ["life.contact.contacts=7"]).contact.conditions["contacts"] == 7
+    found = dents_of_life(asked, history_of(load_oil(quarry())))
+    assert (found.entry_ratio, found.assumed) == (0.1, False)
+
+
+def test_a_body_that_says_too_little_is_told():
+    told = complained(
+        run("life", quarry(), *setting("body.kind=flat", 'body={kind="flat", area="1 cm^2"}'))
+    )
+    assert "film has no conjunction" in told or "film.speed is missing" in told
