@@ -17,8 +17,7 @@ from ..quantities.units import comma_may_part_thousands, quantity_to_si
 from ..quantities.value import allowed_range
 from ..study import DISTRIBUTIONS, HEIGHTS, LOADS
 from ..study.fields import declarations
-from ..study.grains import SHAPES
-from ..study.particles import AMOUNT, COUNTED
+from ..study.particles import AMOUNT, COUNTED, SHAPES
 from ..study.reader import FIELDS
 from ..study.schema import Describer
 from ..study.tables import TABLES

@@ -105,16 +105,18 @@ def allowed_range(about: dict[str, Any]) -> str:
 
 def problem_with(about: dict[str, Any], value: Any) -> str | None:
     """Why ``value`` cannot stand for this quantity, or None when it can."""
-    if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
-        return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
-    if is_uncertain(value):
-        return HELD
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    except (TypeError, ValueError):
-        return f"must be one number in SI units [{about['unit']}]"
+    number = value
+    if type(value) is not float:
+        if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
+            return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+        if is_uncertain(value):
+            return HELD
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        except (TypeError, ValueError):
+            return f"must be one number in SI units [{about['unit']}]"
     outside = (
         not math.isfinite(number)
         or (about["gt"] is not None and not number > about["gt"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -36,23 +37,23 @@ class QuestionResult(MappedRecord):
         return str(self.asked.title or self.title_without)
 
     @property
+    @abstractmethod
     def run_notes(self) -> tuple[str, ...]:
         """Notes of computing, one sentence each."""
-        raise NotImplementedError
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Notes of reading and of computing, one sentence each."""
         return tuple(dict.fromkeys((*self.asked.notes, *self.run_notes)))
 
+    @abstractmethod
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
         """Columns, and their units."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def meanings(self) -> Mapping[str, str]:
         """Meanings of the columns."""
-        raise NotImplementedError
 
     def whole(self, **parts: Any) -> dict[str, Any]:
         """Plain data of the parts between title and warnings."""
@@ -96,13 +97,13 @@ class AskedResult(QuestionResult):
         columns = {name: plain_data(getattr(self, name)) for name in declared}
         return columns, {name: each.unit for name, each in declared.items()}
 
-    def inputs(self) -> dict[str, Any]:
+    @abstractmethod
+    def inputs(self) -> dict[str, object]:
         """Inputs as plain data."""
-        raise NotImplementedError
 
-    def numbers(self) -> dict[str, Any]:
+    @abstractmethod
+    def numbers(self) -> dict[str, object]:
         """Results beside the table, as plain data."""
-        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""

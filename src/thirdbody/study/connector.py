@@ -12,9 +12,8 @@ from ..laws.particle.series import Series
 from ..quantities.value import quantity
 from ..systems.connector import Connector
 from ..systems.film_formulas import Point
-from .amounts import amounts
 from .described import Described, describe
-from .reader import NOTHING, Key, Reader, Table, keys_of, words
+from .reader import NOTHING, Key, Reader, Table, amounts, keys_of, words
 
 __all__ = ["CONNECTOR", "AskedConnector", "connector_of", "populations_of"]
 

@@ -13,7 +13,6 @@ from ..errors import InvalidValue, Problem
 from ..populations.measured import cleanliness
 from ..quantities.nearest import guess
 from ..quantities.units import say, to_si
-from .amounts import amounts
 from .inputs import inputs_of
 from .particles import AMOUNT as OF_FLUID
 from .reader import (
@@ -21,6 +20,7 @@ from .reader import (
     Key,
     Reader,
     Table,
+    amounts,
     count,
     get,
     numbers,

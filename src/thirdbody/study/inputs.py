@@ -14,8 +14,7 @@ from ..populations.particles import Particles
 from ..populations.roughness import Roughness
 from ..populations.strength import WeibullStrength
 from .fields import filled_in, idle
-from .grains import SHAPES
-from .particles import populations
+from .particles import SHAPES, populations
 from .reader import get
 from .surfaces import class_of
 from .vocabulary import DISTRIBUTIONS

@@ -12,10 +12,9 @@ from ..errors import InvalidValue, Problem
 from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife
 from .life_bands import COUNT, LifeBands
-from .overrides import override
 from .reader import get
 from .run_life import bands_of
-from .toml import read
+from .toml import override, read
 
 __all__ = ["LifeAssessment", "asks_for_bands", "assess_life"]
 

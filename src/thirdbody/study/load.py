@@ -10,8 +10,7 @@ from ..contact.contact import Contact
 from ..errors import InvalidValue, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
-from .amounts import amounts
-from .reader import NOTHING, Key, Reader, Table, get, variants
+from .reader import NOTHING, Key, Reader, Table, amounts, get, variants
 from .vocabulary import LOADS
 
 __all__ = ["BODY", "FORCE", "LOAD", "force_sentences", "loads_of", "pressed", "told_forces"]

@@ -11,10 +11,9 @@ from ..errors import InvalidValue
 from ..laws.particle.series import Series
 from ..quantities.value import quantity
 from ..systems.chuck import Chuck
-from .amounts import amounts
 from .connector import populations_of
 from .described import Described, describe
-from .reader import NOTHING, Key, Reader, Table, keys_of
+from .reader import NOTHING, Key, Reader, Table, amounts, keys_of
 
 __all__ = ["PLATE", "AskedPlate", "plate_of"]
 

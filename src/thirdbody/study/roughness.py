@@ -14,13 +14,13 @@ from ..populations.roughness import Roughness
 from ..quantities.say import value_of
 from ..quantities.units import say, to_si
 from ..quantities.value import quantity
-from .amounts import amounts
 from .asperities import ELLIPTICITY, HEIGHT, RADII
 from .reader import (
     NOTHING,
     Key,
     Reader,
     Table,
+    amounts,
     get,
     keys_of,
     quantity_key,

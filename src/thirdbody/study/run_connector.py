@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -75,12 +74,12 @@ class ConnectorResult(AskedResult):
         "Panjer 1981, ASTIN Bulletin 12, 22, doi:10.1017/S0515036100006796",
     )
 
-    def inputs(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, object]:
         """The connector, and the forces that are asked for."""
         connector = self.asked.connector.to_dict()
         return {"connector": connector, "force": plain_data(self.asked.forces)}
 
-    def numbers(self) -> dict[str, Any]:
+    def numbers(self) -> dict[str, object]:
         """What holds for every force."""
         return {"in_the_way": self.in_the_way, "threshold": self.threshold}
 

@@ -20,9 +20,8 @@ from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife, life_of, oil_of
 from .life_bands import LifeBands, propagate_life
 from .life_dirt import CLEAN
-from .overrides import override
 from .run_dry import DryResult, bands_of_dry, run_dry
-from .toml import read
+from .toml import override, read
 from .whole import load_tables, read_tables
 
 __all__ = [

@@ -15,9 +15,21 @@ from ..contact.output import every_column
 from ..equilibrium.columns import COLUMNS
 from ..errors import InvalidValue
 from ..numerics.sampling import DESIGNS
-from .amounts import amounts, is_span
 from .inputs import Input, field_of, inputs_of
-from .reader import NOTHING, Key, Reader, Table, count, get, switch, word, words, wrong
+from .reader import (
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    amounts,
+    count,
+    get,
+    is_span,
+    switch,
+    word,
+    words,
+    wrong,
+)
 from .vocabulary import LOADS
 
 __all__ = ["SWEEP", "ends", "plan", "with_nested_names"]

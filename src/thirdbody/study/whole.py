@@ -27,7 +27,6 @@ from .film import on_body
 from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
-from .overrides import override
 from .own_code import load_installed
 from .particles import gaps_of
 from .plate import AskedPlate, plate_of
@@ -35,7 +34,7 @@ from .reader import Reader, Table
 from .schema import Describer
 from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
-from .toml import read
+from .toml import override, read
 
 __all__ = ["Study", "check", "load_study", "load_tables", "read_tables"]
 
@@ -200,7 +199,8 @@ def read_tables(
 ) -> Asked:
     """Object that a parsed file in ``folder`` describes, built from its tables."""
     load_installed()
-    data = with_nested_names(data)
+    if "sweep" in data:
+        data = with_nested_names(data)
     reader = Reader(folder, data)
     keys = {table.name: table.key._replace(required=needs(table)) for table in TABLES}
     with slips_are_told():
@@ -232,9 +232,11 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     loaded = own.get("load") or ends(asked or {})
     bodies: Any = own.get("body")
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
-    contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
-    reader.notes += notes
-    film = on_body(reader, film, bodies, given_forces, contact.E_ss)
+    if contact.outputs:
+        contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
+        reader.notes += notes
+    if isinstance(film, dict):
+        film = on_body(reader, film, bodies, given_forces, contact.E_ss)
     connector = connector_of(reader, values) if "connector" in own else None
     plate = plate_of(reader, values) if "plate" in own else None
     life = life_of(reader, values) if "life" in own else None
