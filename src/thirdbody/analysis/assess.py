@@ -280,7 +280,7 @@ class _Work:
         states = count * len(held) + CRITICAL_COST * self.critical
         self.progress.cost(states, seconds, "states")
 
-    def first(self, load: str, held: Sequence[float], own: Sequence[Any]) -> None:
+    def first(self, load: str, held: Sequence[float], own: Sequence[object]) -> None:
         """The mode at each load, before anything is varied."""
         modes = [state.mode or "none" for state in own if isinstance(state, _Own)]
         unit = "Pa" if load == "pressure" else "1"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from nicegui import ui
@@ -20,7 +21,7 @@ SIZES = (*VARIANTS["distribution"], *COUNTED)
 AMOUNTS = ("gap", "particle_density", "oil_density")
 
 
-def bins_in_words(given: dict[str, Any]) -> str:
+def bins_in_words(given: Mapping[str, object]) -> str:
     """What a counter found, in a few words.
 
     >>> bins_in_words({"edges": [1e-6, 2e-6, 4e-6], "counts": [5, 1]})
@@ -92,7 +93,7 @@ class ParticleInputs(Entries):
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
 
-    def _counted(self, place: Place, kind: str, given: Any) -> None:
+    def _counted(self, place: Place, kind: str, given: object) -> None:
         """A code, or what a counter found, and their options."""
         if isinstance(given, dict):  # dropped on the page
             ui.label(f"{kind}: {bins_in_words(given)}").classes("hint")

@@ -316,7 +316,7 @@ class TableFiles(NamedTuple):
         units: Mapping[str, str],
         *,
         sheets: Callable[[], Sequence[Sheet]] | None = None,
-        data: Callable[[], Any] | None = None,
+        data: Callable[[], object] | None = None,
     ) -> None:
         """A column each, its unit in its name, a row a state; the same bytes every time.
 
@@ -359,7 +359,7 @@ class TableFiles(NamedTuple):
             print(said)
 
 
-def write_together(files: Mapping[Path, Callable[[Path], Any]]) -> None:
+def write_together(files: Mapping[Path, Callable[[Path], object]]) -> None:
     """Write several files, each whole, and none where one cannot be written.
 
     Parameters
@@ -376,7 +376,7 @@ def write_together(files: Mapping[Path, Callable[[Path], Any]]) -> None:
                 files[path](draft)
 
 
-def _write_parquet(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:
+def _write_parquet(path: Path, columns: Mapping[str, Sequence[object]]) -> None:
     import pandas
 
     pandas.DataFrame(columns).to_parquet(path, engine="pyarrow", index=False)

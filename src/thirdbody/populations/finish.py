@@ -254,7 +254,7 @@ def _range_text(values: tuple[float, float, float], unit: str) -> str:
     )
 
 
-def check_faces(faces: Any) -> list[str]:
+def check_faces(faces: object) -> list[str]:
     """Mistakes in what should be one face or two."""
     if not (isinstance(faces, tuple) and len(faces) <= 2):
         rule = "must be a tuple of one or two Finish"

@@ -148,7 +148,7 @@ def need_positive(**values: Any) -> None:
 
 def refuse_misfits(
     error: Exception,
-    function: Callable[..., Any],
+    function: Callable[..., object],
     args: tuple[object, ...],
     named: Mapping[str, object],
     *,
@@ -182,7 +182,7 @@ def refuse_misfits(
 
 
 def misfits(
-    function: Callable[..., Any],
+    function: Callable[..., object],
     args: tuple[object, ...],
     named: Mapping[str, object],
     *,

@@ -71,7 +71,7 @@ _HARDNESS = re.compile(
 """A hardness number, as "700 HV", "700 HV10", "62 HRC"; the test load behind it is not used."""
 
 
-def to_si(value: Any, unit: str) -> float:
+def to_si(value: object, unit: str) -> float:
     """One number in SI from a plain number or a string with a unit.
 
     Parameters

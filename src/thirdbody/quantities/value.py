@@ -12,7 +12,7 @@ import inspect
 import math
 import sys
 import types
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import MISSING, field
@@ -40,7 +40,7 @@ def quantity(
     unit: str,
     meaning: str,
     *,
-    default: Any = MISSING,
+    default: object = MISSING,
     gt: float | None = None,
     ge: float | None = None,
     lt: float | None = None,
@@ -70,7 +70,7 @@ def quantity(
     return field(default=default, metadata={"quantity": about})
 
 
-def several(unit: str, meaning: str, *, default: Any = MISSING) -> Any:
+def several(unit: str, meaning: str, *, default: object = MISSING) -> Any:
     """A dataclass field that holds a tuple of numbers in SI."""
     return field(default=default, metadata={"several": {"unit": unit, "meaning": meaning}})
 
@@ -91,7 +91,7 @@ def _take_options(kind: type) -> None:
         choices[name]["options"] = get_args(words)
 
 
-def allowed_range(about: dict[str, Any]) -> str:
+def allowed_range(about: Mapping[str, object]) -> str:
     """The allowed range of a quantity in words, e.g. ``"must be > 0 [Pa]"``."""
     limits = [
         f"{sign} {about[key]:g}"
@@ -195,7 +195,7 @@ def slips_are_told() -> Iterator[None]:
         _told.reset(token)
 
 
-def warn_of_slip(where: str, about: Mapping[str, Any], number: float) -> None:
+def warn_of_slip(where: str, about: Mapping[str, object], number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
     if not _told.get() and (meant := unit_meant(about, number)):
         what = f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI"
@@ -234,7 +234,7 @@ def _declarations(
     )
 
 
-def _values_in(name: str, part: Any) -> Iterator[tuple[str, Value]]:
+def _values_in(name: str, part: object) -> Iterator[tuple[str, Value]]:
     """The values in a field, by dotted names."""
     if isinstance(part, Value):
         yield name, part
@@ -254,7 +254,7 @@ class Value:
     _tells_of_slips: ClassVar[bool] = False
     """Whether it warns of numbers in it that look like slips, when it is made."""
 
-    def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: Any) -> None:
+    def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
         if not stand_in:
             Value._classes[cls.__name__] = cls
@@ -314,7 +314,7 @@ class Value:
 
         return card(type(self).__name__, _rows(self))
 
-    def replace(self, **changes: Any) -> Self:
+    def replace(self, **changes: object) -> Self:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
         now: dict[str, Any] = {}
         inner: dict[str, dict[str, Any]] = {}
@@ -336,7 +336,7 @@ class Value:
             warn_of_slips(out, before=self)
         return out
 
-    def unchecked(self, **changes: Any) -> Self:
+    def unchecked(self, **changes: object) -> Self:
         """A copy with some fields changed to what needs no check and no warning."""
         out = object.__new__(type(self))
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
@@ -416,7 +416,7 @@ class Value:
 
     @staticmethod
     @names_arguments
-    def from_dict(data: dict[str, Any]) -> Any:
+    def from_dict(data: Mapping[str, object]) -> Any:
         """The inverse of `to_dict`."""
         kind = data.get("type")
         if kind not in Value._classes:
@@ -444,7 +444,7 @@ def _placed(owner: str, problem: str) -> str:
     return problem
 
 
-def _taker(member: Any) -> Any:
+def _taker(member: object) -> Any:
     """A method that takes quantities with a unit; None for what is no method."""
     if isinstance(member, types.FunctionType):
         return takes_units(member)
@@ -470,7 +470,7 @@ def paths_of(value: Value, prefix: str = "") -> Iterator[str]:
                 yield from paths_of(each, f"{name}." if place is None else f"{name}.{label}.")
 
 
-def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
+def _without_unit(kind: type[Value], name: str, value: object) -> tuple[Any, str]:
     """The value of a field in SI where it carries a unit, and why it cannot be."""
     item = kind.__dataclass_fields__[name]  # type: ignore[attr-defined]
     about = item.metadata.get("quantity") or item.metadata.get("several")
@@ -565,7 +565,7 @@ def _stand_in(kind: type[Value]) -> type[Any]:
     return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))
 
 
-def _replace_at(where: str, part: Any, changes: dict[str, Any]) -> Any:
+def _replace_at(where: str, part: object, changes: Mapping[str, object]) -> Any:
     """A value, or a tuple of them with the number of the one before the dot, with changes."""
     if isinstance(part, Value):
         return part.replace(**changes)
@@ -581,7 +581,7 @@ def _replace_at(where: str, part: Any, changes: dict[str, Any]) -> Any:
     return tuple(items)
 
 
-def _index(where: str, items: list[Any], which: str) -> int:
+def _index(where: str, items: Sequence[object], which: str) -> int:
     """Place of an item by its number or its name."""
     names = [getattr(item, "name", "") for item in items]
     if which.isdecimal() and int(which) < len(items):
@@ -594,7 +594,7 @@ def _index(where: str, items: list[Any], which: str) -> int:
     )
 
 
-def _revive(value: Any) -> Any:
+def _revive(value: object) -> Any:
     if isinstance(value, dict):
         return Value.from_dict(value)
     if isinstance(value, list):

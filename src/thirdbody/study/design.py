@@ -57,7 +57,7 @@ def _design(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- what may be chosen
-def _vary(reader: Reader, path: str, given: Any) -> dict[str, Any]:
+def _vary(reader: Reader, path: str, given: object) -> dict[str, Any]:
     """Ranges and lists of materials by the names of the library."""
     if not isinstance(given, dict) or not given:
         rule = "must be a table, e.g. "
@@ -138,7 +138,7 @@ def _fluid(reader: Reader) -> Suspension | None:
 
 # -------------------------------------------------------------------------- what is good
 def _several(
-    kind: type[Objective] | type[Limit], reader: Reader, path: str, given: Any
+    kind: type[Objective] | type[Limit], reader: Reader, path: str, given: object
 ) -> list[Any]:
     """One objective or limit, or a list of them."""
     entries = {path: given}
@@ -147,7 +147,7 @@ def _several(
     return list(reader.read_each(entries, partial(_one, kind)))
 
 
-def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: Any) -> Any:
+def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: object) -> Any:
     example = EXAMPLE if kind is Objective else '{ of = "plastic_share", most = 0.3 }'
     if not isinstance(entry, dict) or not isinstance(entry.get("of"), str):
         raise wrong(where, f"must be a table such as {example}", entry)
@@ -179,7 +179,7 @@ def _unit(of: str) -> str:
         return "1"
 
 
-def _in_si(where: str, value: Any, unit: str) -> float:
+def _in_si(where: str, value: object, unit: str) -> float:
     try:
         return float(to_si(value, unit))
     except InvalidValue as error:

@@ -33,16 +33,16 @@ def _seats() -> Mapping[str, type]:
     return SEATS
 
 
-def _seat(reader: Reader, path: str, value: Any) -> Any:
+def _seat(reader: Reader, path: str, value: object) -> Any:
     """Where particles lie, by the word of a rule."""
     return _seats()[read_word(_seats(), reader, path, value)]()
 
 
-def _seat_with_numbers(reader: Reader, path: str, data: Any) -> Any:
+def _seat_with_numbers(reader: Reader, path: str, data: object) -> Any:
     return reader.variant(path, data, "rule", _seats())
 
 
-def _cap(reader: Reader, path: str, value: Any) -> str | float:
+def _cap(reader: Reader, path: str, value: object) -> str | float:
     """The highest pressure of asperities."""
     if isinstance(value, str) and value in CAPS:
         return value
@@ -51,7 +51,7 @@ def _cap(reader: Reader, path: str, value: Any) -> str | float:
     return read_number(CAP, reader, path, value)
 
 
-def _explicit(reader: Reader, path: str, data: Any) -> Any:
+def _explicit(reader: Reader, path: str, data: object) -> Any:
     """How many surfaces, how large and how fine, where particles lie, how well to solve."""
     keys = KEYS | {
         "seats": Key(_seat, False, "where they lie", {"enum": _seats()}, _seat_with_numbers)

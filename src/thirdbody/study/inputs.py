@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -52,7 +53,7 @@ def field_of(table: str, key: str) -> str:
     return f"{table}.{key}"
 
 
-def inputs_of(whole: dict[str, Any]) -> list[Input]:
+def inputs_of(whole: Mapping[str, object]) -> list[Input]:
     """Every field of the tables of a file that holds a number, a word or a label."""
     found: dict[tuple[str, str], Input] = {}
     for table, kind in _kinds(whole):
@@ -73,7 +74,7 @@ def inputs_of(whole: dict[str, Any]) -> list[Input]:
     return list(found.values())
 
 
-def _kinds(whole: dict[str, Any]) -> list[tuple[str, type]]:
+def _kinds(whole: Mapping[str, object]) -> list[tuple[str, type]]:
     """The classes whose fields each table of the file holds."""
     found: list[tuple[str, type | None]] = [
         ("surfaces.first", Material),

@@ -52,7 +52,7 @@ class OneSurface:
     warnings: tuple[str, ...]
 
 
-def one_surface(study: Study, F_star: Any, *, points: int = POINTS) -> OneSurface:
+def one_surface(study: Study, F_star: object, *, points: int = POINTS) -> OneSurface:
     """Press one small surface of a study: a window of its measured map, or a synthetic one.
 
     Parameters

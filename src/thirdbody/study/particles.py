@@ -169,7 +169,7 @@ def with_strength(particles: Particles, path: str, asked: Any) -> Particles:
 # -------------------------------------------------------------------------- populations
 
 
-def populations(whole: dict[str, Any]) -> dict[str, Any]:
+def populations(whole: Mapping[str, Any]) -> dict[str, Any]:
     """The tables of all populations of a file by their paths, particles or particles.0, ..."""
     given = whole.get("particles")
     if isinstance(given, list) and given:
@@ -177,13 +177,13 @@ def populations(whole: dict[str, Any]) -> dict[str, Any]:
     return {"particles": given} if "particles" in whole else {}
 
 
-def gaps_of(whole: dict[str, Any]) -> tuple[float | None, ...]:
+def gaps_of(whole: Mapping[str, object]) -> tuple[float | None, ...]:
     """Heights of the oil whose particles each population is [m]; None where a file has none."""
     given = [get(table, "gap") or get(table, "film") for table in populations(whole).values()]
     return tuple(None if gap is None else to_si(gap, "m") for gap in given)
 
 
-def _particles(reader: Reader, path: str, data: Any) -> Any:
+def _particles(reader: Reader, path: str, data: object) -> Any:
     """One population, or a list of them."""
     if not (isinstance(data, list) and data):
         return _population(reader, path, data)
@@ -232,7 +232,7 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- keys
-def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) -> dict[str, Key]:
+def _keys_of_population(given: Mapping[str, object], kind: str, by_volume: bool) -> dict[str, Key]:
     """Every key but those of the sizes."""
     keys = dict(keys_of(Particles))
     keys["material"] = keys["material"]._replace(
@@ -264,7 +264,7 @@ def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) ->
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
 
-def _unread(reader: Reader, path: str, value: Any) -> Any:
+def _unread(reader: Reader, path: str, value: object) -> Any:
     """Value of a source of sizes that is not read, since another source is."""
     return value
 
@@ -280,7 +280,7 @@ def _names_of_amount(kind: str) -> tuple[str, ...]:
 
 
 def _problems_of_amount(
-    path: str, given: Mapping[str, Any], kind: str, by_volume: bool
+    path: str, given: Mapping[str, object], kind: str, by_volume: bool
 ) -> list[Problem]:
     """Problems of the keys for the number of particles."""
     if kind == SETTLED:
@@ -319,7 +319,7 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
         keys["exposure"] = keys["exposure"]._replace(required=True)
     weighting = given.get("weighting")
 
-    def read(reader: Reader, path: str, value: Any) -> Any:
+    def read(reader: Reader, path: str, value: object) -> Any:
         try:
             if kind != "sizes":
                 return _checked_code(reader, path, kind, value)
@@ -352,7 +352,7 @@ def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> Any:
     return value
 
 
-def _sizes_of_file(reader: Reader, value: Any, weighting: str) -> MeasuredSizes:
+def _sizes_of_file(reader: Reader, value: object, weighting: str) -> MeasuredSizes:
     """A measured histogram."""
     if not isinstance(value, str):
         raise InvalidValue(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -110,7 +110,7 @@ class Key(NamedTuple):
     items: ReadOne | None = None
     default: bool | float | str | None = None
 
-    def read_any(self, reader: Reader, path: str, value: Any) -> Any:
+    def read_any(self, reader: Reader, path: str, value: object) -> Any:
         """A value, whether it is a table or none."""
         if self.table is not None and (self.read is None or isinstance(value, dict)):
             return self.table(reader, path, value)
@@ -143,7 +143,7 @@ class Table:
     required: Callable[[Mapping[str, Any]], bool] | None = None
     role: str = "contact"
 
-    def is_required(self, whole: Mapping[str, Any]) -> bool:
+    def is_required(self, whole: Mapping[str, object]) -> bool:
         """Whether a file must hold it."""
         return self.key.required if self.required is None else self.required(whole)
 
@@ -187,7 +187,7 @@ class Reader:
     def table(
         self,
         path: str,
-        data: Any,
+        data: object,
         keys: Mapping[str, Key],
         build: Callable[[dict[str, Any]], Any] = dict,
     ) -> Any:
@@ -215,7 +215,7 @@ class Reader:
         # in the order of the file, which decides what each sampled input is given
         return build({name: values[name] for name in data})
 
-    def read_each(self, items: Mapping[str, Any], read: ReadOne) -> tuple[Any, ...]:
+    def read_each(self, items: Mapping[str, object], read: ReadOne) -> tuple[Any, ...]:
         """What several values are read as, by their paths; all of their mistakes."""
         out: list[Any] = []
         problems: list[Problem] = []
@@ -228,14 +228,14 @@ class Reader:
             raise InvalidValue(*problems)
         return tuple(out)
 
-    def value(self, path: str, data: Any, kind: type) -> Any:
+    def value(self, path: str, data: object, kind: type) -> Any:
         """A table that stands for a value class: its fields are the keys."""
         return self.table(path, data, keys_of(kind), partial(self.make, kind, path))
 
     def variant(
         self,
         path: str,
-        data: Any,
+        data: object,
         tag: str,
         kinds: Mapping[str, type],
         build: Callable[[dict[str, Any]], Any] | None = None,
@@ -265,7 +265,7 @@ class Reader:
             self.mistakes.append(clash(path, data, given, rule))
         return given[1:]
 
-    def make(self, kind: type, path: str, values: dict[str, Any]) -> Any:
+    def make(self, kind: type, path: str, values: Mapping[str, object]) -> Any:
         """The object, its own complaints told with the keys of the file."""
         try:
             return kind(**values)
@@ -309,7 +309,7 @@ def tag_key(options: tuple[str, ...]) -> Key:
 def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
     """The key of a table that stands for a value class."""
 
-    def read(reader: Reader, path: str, data: Any) -> Any:
+    def read(reader: Reader, path: str, data: object) -> Any:
         return reader.value(path, data, kind)
 
     return Key(None, required, about, NOTHING, read)
@@ -320,7 +320,7 @@ def variants(
 ) -> Key:
     """Key of a table for one of several classes, chosen by a word in it."""
 
-    def read(reader: Reader, path: str, data: Any) -> Any:
+    def read(reader: Reader, path: str, data: object) -> Any:
         return reader.variant(path, data, tag, kinds)
 
     return Key(None, required, about, NOTHING, read)
@@ -340,24 +340,24 @@ class Unsaid:
         self.notes: list[str] = []
 
 
-def wrong(path: str, rule: str, value: Any, *, hint: str = "") -> InvalidValue:
+def wrong(path: str, rule: str, value: object, *, hint: str = "") -> InvalidValue:
     """The error of one value of a file."""
     return InvalidValue(Problem(path, rule, say(value), hint=hint))
 
 
-def quantity_key(name: str, about: dict[str, Any], *, required: bool = False) -> Key:
+def quantity_key(name: str, about: dict[str, object], *, required: bool = False) -> Key:
     """The key of a number, told with its name."""
     return number(about)._replace(about=about_of(name, about), required=required)
 
 
-def number(about: dict[str, Any]) -> Key:
+def number(about: dict[str, object]) -> Key:
     """A number in SI inside the range of its quantity; text has a unit."""
     limits = {word: about[key] for key, word in LIMITS.items() if about[key] is not None}
     schema = {"type": ["number", "string"]} | limits
     return Key(partial(read_number, about), schema=schema)
 
 
-def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> float:
+def read_number(about: dict[str, object], reader: Notes, path: str, value: object) -> float:
     """The number in SI that a value of a file stands for."""
     try:
         found = quantity_to_si(value, about)
@@ -378,7 +378,7 @@ def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> 
     return found
 
 
-def _refuse_slip(reader: Notes, path: str, value: Any, taken: str, meant: str) -> None:
+def _refuse_slip(reader: Notes, path: str, value: object, taken: str, meant: str) -> None:
     """Refuse a number without a unit that no interface has; note one with a unit."""
     if not isinstance(value, str):
         has_unit = not isinstance(value, (int, float))  # a quantity of a library of units
@@ -402,7 +402,7 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
     limits: dict[str, Any] = dict.fromkeys(LIMITS)
     one = limits | {"symbol": "", "unit": unit, "meaning": "number", "hint": "", "usual": usual}
 
-    def read(reader: Reader, path: str, value: Any) -> tuple[float, ...]:
+    def read(reader: Reader, path: str, value: object) -> tuple[float, ...]:
         if not isinstance(value, list):
             raise wrong(path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value)
         return read_numbers(one, Unsaid(), path, value)
@@ -412,7 +412,7 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
 
 
 def read_numbers(
-    about: dict[str, Any], reader: Notes, path: str, value: list[Any]
+    about: dict[str, object], reader: Notes, path: str, value: Sequence[object]
 ) -> tuple[float, ...]:
     """The numbers in SI of a list."""
     out: list[float] = []
@@ -509,7 +509,7 @@ def word(options: Iterable[str], about: str = "", *, required: bool = False) -> 
     return Key(partial(read_word, options), required, about, {"enum": options})
 
 
-def read_word(options: Iterable[str], reader: Any, path: str, value: Any) -> str:
+def read_word(options: Iterable[str], reader: object, path: str, value: object) -> str:
     """The word that a value of a file is."""
     if isinstance(value, str) and value in options:
         return value
@@ -536,27 +536,27 @@ def words(options: Iterable[str] | None, about: str = "") -> Key:
 def refused(why: str) -> Key:
     """A key that is known and has no place here."""
 
-    def read(reader: Reader, path: str, value: Any) -> Any:
+    def read(reader: Reader, path: str, value: object) -> Any:
         raise wrong(path, why, value)
 
     return Key(read, schema=NOTHING)
 
 
-def _read_word_or_number(reader: Reader, path: str, value: Any) -> str | float:
+def _read_word_or_number(reader: Reader, path: str, value: object) -> str | float:
     """A word or a pure number; the object checks which words it takes."""
     if isinstance(value, str) or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
     raise wrong(path, "must be a word in quotes or a number", value)
 
 
-def _read_text(reader: Reader, path: str, value: Any) -> str:
+def _read_text(reader: Reader, path: str, value: object) -> str:
     if isinstance(value, str):
         return value
     simple = isinstance(value, (int, float)) and not isinstance(value, bool)
     raise wrong(path, "must be text in quotes" + f', e.g. "{value}"' * simple, value)
 
 
-def _read_switch(reader: Reader, path: str, value: Any) -> bool:
+def _read_switch(reader: Reader, path: str, value: object) -> bool:
     if isinstance(value, bool):
         return value
     raise wrong(path, "must be true or false, without quotes", value)

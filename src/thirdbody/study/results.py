@@ -74,7 +74,7 @@ class _Result(MappedRecord):
         """What the particles of each population are: do they conduct, dent, break?"""
         return natures(self.study.contact)
 
-    def _plain_data(self, inputs: dict[str, Any], **found: Any) -> dict[str, Any]:
+    def _plain_data(self, inputs: dict[str, object], **found: object) -> dict[str, Any]:
         """Plain data with what every study says: title, version, inputs, warnings, citations."""
         return {
             "title": self.study.title,

@@ -66,7 +66,7 @@ class Describer(Reader):
         path: str,
         data: Any,
         keys: Mapping[str, Key],
-        build: Callable[[dict[str, Any]], Any] = dict,
+        build: Callable[[dict[str, object]], object] = dict,
     ) -> Any:
         """The schema of a table with these keys and no others."""
         if path.count(".") >= DEEPEST:
@@ -81,17 +81,17 @@ class Describer(Reader):
         self.known.keys[path] = {name: key.about for name, key in keys.items()}
         return _schema_of(properties, [name for name, key in keys.items() if key.required])
 
-    def read_each(self, items: Mapping[str, Any], read: ReadOne) -> Any:
+    def read_each(self, items: Mapping[str, object], read: ReadOne) -> Any:
         """The schema of a list."""
         return {"type": "array", "items": _any_of(read(self, *item) for item in items.items())}
 
     def variant(
         self,
         path: str,
-        data: Any,
+        data: object,
         tag: str,
         kinds: Mapping[str, type],
-        build: Callable[[dict[str, Any]], Any] | None = None,
+        build: Callable[[dict[str, object]], object] | None = None,
         common: Mapping[str, Key] | None = None,
     ) -> Any:
         """The schema of a table whose keys depend on a word: of all of them, for whatever data."""
@@ -119,7 +119,7 @@ class Describer(Reader):
             )
 
 
-def _any_of(ways: Iterable[dict[str, Any]]) -> dict[str, Any]:
+def _any_of(ways: Iterable[dict[str, object]]) -> dict[str, Any]:
     """Schema of a value that may be written in any of these ways; tables become one."""
     tables: list[dict[str, Any]] = []
     out: list[dict[str, Any]] = []
@@ -173,7 +173,7 @@ def _in_json(default: object) -> bool:
     return default is not None and default != ""
 
 
-def _schema_of(properties: dict[str, Any], needed: list[str]) -> dict[str, Any]:
+def _schema_of(properties: Mapping[str, object], needed: list[str]) -> dict[str, Any]:
     """The schema of a table with these keys and no others."""
     needs = {"required": needed} if needed else {}
     return {"type": "object", "properties": properties} | needs | {"additionalProperties": False}

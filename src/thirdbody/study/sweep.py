@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
@@ -35,7 +36,7 @@ from .vocabulary import LOADS
 __all__ = ["SWEEP", "ends", "plan", "with_nested_names"]
 
 
-def _sweep(reader: Reader, path: str, data: Any) -> Any:
+def _sweep(reader: Reader, path: str, data: object) -> Any:
     """The plan of [sweep]: what varies, how, and what is stored."""
     sampled = get(data, "design") not in (None, "grid", "zip")
     keys = {
@@ -52,7 +53,7 @@ def _sweep(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys)
 
 
-def _vary(sampled: bool, reader: Reader, path: str, data: Any) -> Any:
+def _vary(sampled: bool, reader: Reader, path: str, data: object) -> Any:
     """The inputs that may vary, in tables like those of the file."""
     if reader.every_way:
         return {"type": "object"}  # the inputs of whatever study it is
@@ -63,7 +64,12 @@ def _vary(sampled: bool, reader: Reader, path: str, data: Any) -> Any:
 
 
 def _inputs_that_vary(
-    sampled: bool, tables: dict[str, list[Input]], prefix: str, reader: Reader, path: str, data: Any
+    sampled: bool,
+    tables: dict[str, list[Input]],
+    prefix: str,
+    reader: Reader,
+    path: str,
+    data: object,
 ) -> Any:
     """Inputs of the table of this name and of the tables in it."""
     keys: dict[str, Key] = {}
@@ -91,7 +97,7 @@ def _quantiles(reader: Reader, path: str, value: Any) -> list[float]:
     return [float(item) for item in values]
 
 
-def _thresholds(reader: Reader, path: str, value: Any) -> dict[str, Any]:
+def _thresholds(reader: Reader, path: str, value: object) -> dict[str, Any]:
     if isinstance(value, dict):
         return value
     raise wrong(path, "must be a table, e.g. { A_t = 0.2 }", value)
@@ -106,7 +112,7 @@ REDUCTIONS = {
 }
 
 
-def _reductions(reader: Reader, path: str, data: Any) -> Any:
+def _reductions(reader: Reader, path: str, data: object) -> Any:
     """What is kept of many states."""
     return reader.table(path, data, REDUCTIONS)
 
@@ -172,7 +178,7 @@ def with_nested_names(data: dict[str, Any]) -> dict[str, Any]:
     return data | {"sweep": data["sweep"] | {"vary": tree}}
 
 
-def _dotted_names(tree: dict[str, Any], path: str = "") -> dict[str, tuple[str, Any]]:
+def _dotted_names(tree: Mapping[str, object], path: str = "") -> dict[str, tuple[str, Any]]:
     """Names as in the file, each with the dotted name of the field and the values."""
     out: dict[str, tuple[str, Any]] = {}
     for name, value in tree.items():

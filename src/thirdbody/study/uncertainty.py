@@ -16,7 +16,7 @@ from .vocabulary import LOADS
 __all__ = ["UNCERTAINTY", "field_of_input", "read_bands", "read_uncertain"]
 
 
-def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
+def _inputs(reader: Reader, path: str, given: object) -> dict[str, Uncertain]:
     """Distributions of the inputs, by names as in the file."""
     if not isinstance(given, dict) or not given:
         rule = "must be a table of inputs, e.g. "
@@ -25,7 +25,7 @@ def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
         )
     inputs = inputs_of(reader.whole)
 
-    def one(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Uncertain]:
+    def one(reader: Reader, where: str, told: tuple[str, object]) -> tuple[str, Uncertain]:
         label, entry = told
         found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
         return "+".join(name for name, _ in found), read_uncertain(
@@ -54,7 +54,7 @@ def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
 
 
 def field_of_input(
-    where: str, name: str, inputs: list[Input], whole: dict[str, Any]
+    where: str, name: str, inputs: list[Input], whole: Mapping[str, object]
 ) -> tuple[str, dict[str, Any]]:
     """Dotted name of the field and its meaning, for an input as the file calls it."""
     name = name.strip()
@@ -80,7 +80,9 @@ def field_of_input(
     raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
 
 
-def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
+def read_uncertain(
+    reader: Reader, where: str, about: dict[str, object], entry: object
+) -> Uncertain:
     """One distribution; its keys decide which."""
     given = dict(entry) if isinstance(entry, dict) else {}
     spacing = given.pop("spacing", None)
@@ -107,8 +109,8 @@ def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any
 
 def read_bands(
     reader: Reader,
-    given: Mapping[str, Any],
-    about: Callable[[str], tuple[str, dict[str, Any] | None]],
+    given: Mapping[str, object],
+    about: Callable[[str], tuple[str, dict[str, object] | None]],
     unknown: str,
 ) -> dict[str, Uncertain]:
     """What [life.uncertainty] says of numbers, by the names that ``about`` gives them."""

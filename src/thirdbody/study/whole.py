@@ -175,7 +175,7 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
     return out
 
 
-def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
+def check(data: dict[str, object], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     return read_tables(data, folder, _study, lambda table: table.is_required(data))
 
@@ -183,7 +183,7 @@ def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
 def load_tables(
     path: str | os.PathLike[str],
     overrides: Iterable[str],
-    build: Callable[[Reader, dict[str, Any]], Asked],
+    build: Callable[[Reader, dict[str, object]], Asked],
     needed: Collection[str],
 ) -> Asked:
     """Object that some tables of a file describe; of them these are needed, and no others."""
@@ -192,9 +192,9 @@ def load_tables(
 
 
 def read_tables(
-    data: dict[str, Any],
+    data: dict[str, object],
     folder: Path,
-    build: Callable[[Reader, dict[str, Any]], Asked],
+    build: Callable[[Reader, dict[str, object]], Asked],
     needs: Callable[[Table], bool],
 ) -> Asked:
     """Object that a parsed file in ``folder`` describes, built from its tables."""
@@ -213,7 +213,7 @@ def read_tables(
             raise InvalidValue(*known.problems([*reader.mistakes, *error.problems])) from None
 
 
-def _study(reader: Reader, values: dict[str, Any]) -> Study:
+def _study(reader: Reader, values: dict[str, object]) -> Study:
     """The study, from the objects that its tables stand for."""
 
     def tables_of(role: str) -> dict[str, Any]:

@@ -248,7 +248,7 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
 
 
 def _with_and_without(
-    contact: Contact, body: Body, force: float, hertz: Hertz, held: float, shared: dict[str, Any]
+    contact: Contact, body: Body, force: float, hertz: Hertz, held: float, shared: dict[str, object]
 ) -> dict[str, Any]:
     """Contacts with a particle and contacts without, each under its whole load.
 

@@ -85,7 +85,7 @@ def outputs_page() -> str:
     return "\n".join(parts)
 
 
-def _default_text(default: Any) -> str:
+def _default_text(default: object) -> str:
     return "" if default is None else f"{default:g}" if isinstance(default, float) else str(default)
 
 

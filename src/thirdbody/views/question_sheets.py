@@ -28,9 +28,9 @@ def question_sheets(
     table: tuple[Sequence[str], Sequence[Sequence[str]]] | None,
     last: Sequence[str],
     *,
-    states: tuple[Mapping[str, Sequence[Any]], Mapping[str, str]],
+    states: tuple[Mapping[str, Sequence[object]], Mapping[str, str]],
     meanings: Mapping[str, str],
-    inputs: Sequence[tuple[Any, ...]],
+    inputs: Sequence[tuple[object, ...]],
     warnings: Iterable[str],
     citations: Iterable[str],
 ) -> list[Sheet]:

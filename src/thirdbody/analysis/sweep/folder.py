@@ -163,7 +163,9 @@ class Folder:
     def part_file(self, number: int) -> Path:
         return self.path / "parts" / f"{number}.npz"
 
-    def mark(self, number: int, study: str, summary: Mapping[str, Any], files: list[Path]) -> None:
+    def mark(
+        self, number: int, study: str, summary: Mapping[str, object], files: list[Path]
+    ) -> None:
         """Say that a block is on the disk."""
         prints = {file.relative_to(self.path).as_posix(): fingerprint(file) for file in files}
         text = sealed({"study": study, **summary, "files": prints})
@@ -336,7 +338,7 @@ class Folder:
         why = misfit(self.path / name, wanted)
         return [f"{self.path / name} {why}"] if why else []
 
-    def _parts_only(self, files: Mapping[str, Any]) -> bool:
+    def _parts_only(self, files: Mapping[str, object]) -> bool:
         return all(name.startswith("parts/") for name in files)
 
     # ------------------------------------------------------------------ what may be removed
@@ -366,11 +368,11 @@ class Folder:
         remove_files(self.path / "done", MARKERS)
 
     # ------------------------------------------------------------------ whose folder it is
-    def says(self, study: Mapping[str, Any]) -> bool:
+    def says(self, study: Mapping[str, object]) -> bool:
         """Whether ``study.json`` is that of a study, to the last byte."""
         return misfit(self.path / "study.json", print_of(text_of(study))) == ""
 
-    def refuse_others(self, study: dict[str, Any]) -> None:
+    def refuse_others(self, study: Mapping[str, object]) -> None:
         """Refuse a folder that holds something else."""
         path = self.path
         if path.exists() and not path.is_dir():
@@ -442,12 +444,12 @@ class Folder:
             yield
 
 
-def name_of(study: Mapping[str, Any]) -> str:
+def name_of(study: Mapping[str, object]) -> str:
     """The digest of a study, which every marker says."""
     return hashlib.sha256(text_of(study).encode()).hexdigest()[:16]
 
 
-def text_of(study: Mapping[str, Any]) -> str:
+def text_of(study: Mapping[str, object]) -> str:
     """A study as it stands in ``study.json``."""
     return json.dumps(study, indent=1, ensure_ascii=False, sort_keys=True)
 

@@ -243,7 +243,7 @@ def _require_packages(format: str) -> None:
 def _carry_out(
     plan: Plan,
     folder: Folder,
-    study: dict[str, Any],
+    study: Mapping[str, object],
     notes: list[str],
     results: Callable[[Cost, Iterable[int]], Iterator[tuple[int, Result]]],
     progress: bool | Report,

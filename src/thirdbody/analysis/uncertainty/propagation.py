@@ -419,7 +419,7 @@ def propagate(
     pressure: ArrayLike | None = None,
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
-    vary: Mapping[str, Any],
+    vary: Mapping[str, object],
     samples: int = 2**14,
     seed: int = 0,
     outputs: Sequence[str] | None = None,
@@ -532,7 +532,7 @@ def propagate(
         tell_of_range(sentence)
     fixed = {name for name in names if name in CRITICAL}
 
-    def shaped(table: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+    def shaped(table: Mapping[str, Sequence[object]]) -> dict[str, Any]:
         flat = {n for n in table if one or n in fixed}
         return {n: part[0] if n in flat else np.array(part) for n, part in table.items()}
 

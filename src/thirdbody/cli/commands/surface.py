@@ -166,7 +166,7 @@ def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool
     return out
 
 
-def _show_surface(found: Any, result: dict[str, Any]) -> None:
+def _show_surface(found: object, result: dict[str, Any]) -> None:
     """What was read, the answer at the cut-off used, and its course with the cut-off."""
     console = terminal()
     console.print(_in_one_sentence(found, result["cutoff"]["used"]))

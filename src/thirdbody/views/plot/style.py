@@ -103,7 +103,7 @@ class Curve(NamedTuple):
 
 
 # ------------------------------------------------------------------ reading the argument
-def _legend_entry(name: str, value: Any) -> str:
+def _legend_entry(name: str, value: object) -> str:
     symbol, unit = SYMBOLS.get(name, (name, "1"))
     if isinstance(value, (str, np.str_)):
         return f"{symbol}: {value}"
