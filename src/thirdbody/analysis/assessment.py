@@ -409,7 +409,7 @@ WORDS = ("where", "result", "input", "what alone changes")
 """Columns of words, which may break."""
 
 
-def printed(title: str, sections: list[Section], more: str, legend: dict[str, str]) -> Any:
+def printed(title: str, sections: list[Section], more: str, legend: dict[str, str]) -> object:
     """A page for a terminal."""
     from rich.console import Group
 

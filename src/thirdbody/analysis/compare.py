@@ -289,7 +289,7 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persso
     own = contact.asperity_law
     by_year = sorted(REGISTRY.values(), key=lambda law: (law.year, law.name))
     if laws is None:
-        asked: list[Any] = [law.name for law in by_year if not _special(law)]
+        asked: list[object] = [law.name for law in by_year if not _special(law)]
         asked += [Persson.name] if contact.two_body else []
     elif isinstance(laws, (str, AbstractAsperityLaw)):
         asked = [laws]

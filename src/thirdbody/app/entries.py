@@ -140,7 +140,7 @@ class Entries:
     def as_text(self, name: str) -> None:
         """A table as it stands in the file, its mistakes below."""
 
-        def read(text: str) -> Any:
+        def read(text: str) -> object:
             given = from_toml(text)
             if other := [key for key in given if key != name]:
                 raise InvalidValue(f"here stands [{name}] alone, not {', '.join(other)}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from nicegui import ui
 
@@ -130,7 +129,7 @@ class ParticleInputs(Entries):
         if isinstance(shape := table.get("shape"), dict) and word != "weibull":
             kept["shape"] = shape
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
-        starts: dict[str, dict[str, Any]] = {
+        starts: dict[str, dict[str, object]] = {
             "iso4406": {"iso4406": "18/16/13", "gap": table.get("gap", "1 um")},
             "as4059": {"as4059": "6", "gap": table.get("gap", "1 um")},
             "nas1638": {"nas1638": "6", "gap": table.get("gap", "1 um")},

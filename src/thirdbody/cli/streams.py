@@ -75,7 +75,7 @@ LEAST = 40
 class Commands(TyperGroup):
     """Turns errors and warnings of every command into lines on standard error."""
 
-    def invoke(self, ctx: Any) -> Any:
+    def invoke(self, ctx: Any) -> object:
         with warnings.catch_warnings():
             warnings.showwarning = warn
             try:
@@ -333,7 +333,7 @@ class TableFiles(NamedTuple):
         from ..quantities.files import csv_of, with_units
 
         named = with_units(columns, units)
-        made: dict[Path, Callable[[Path], Any]] = {}
+        made: dict[Path, Callable[[Path], object]] = {}
         if self.csv is not None:
             made[self.csv] = partial(Path.write_bytes, data=csv_of(named).encode())
         if self.xlsx is not None:

@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import MISSING, field
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, Self, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict, get_args
 
 from ..errors import InvalidValue, NotCompiled, Note, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
@@ -25,6 +25,7 @@ from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
 from .plain_data import plain_data
 from .uncertain import HELD, is_uncertain
+from .units import Quantity, Range, Usual
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,7 +33,14 @@ if TYPE_CHECKING:
 
     from .notebook import Row
 
-__all__ = ["Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
+__all__ = ["Choice", "Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
+
+
+class Choice(TypedDict):
+    """Declaration of a word, as `choice` makes it."""
+
+    meaning: str
+    options: tuple[str, ...]
 
 
 def quantity(
@@ -64,7 +72,9 @@ def quantity(
         Lengths up to it, and pressures from it on, are no slip; `USUAL_LENGTH` by default, and as
         for a modulus.
     """
-    about = dict(symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint)
+    about = Quantity(
+        symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint
+    )
     if usual is not None:
         about["usual"] = usual
     return field(default=default, metadata={"quantity": about})
@@ -91,19 +101,24 @@ def _take_options(kind: type) -> None:
         choices[name]["options"] = get_args(words)
 
 
-def allowed_range(about: Mapping[str, object]) -> str:
+def limits_of(about: Range) -> dict[str, float]:
+    """The limits that a quantity has, by the names of their keys."""
+    every = {"gt": about["gt"], "ge": about["ge"], "lt": about["lt"], "le": about["le"]}
+    return {key: limit for key, limit in every.items() if limit is not None}
+
+
+SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
+
+
+def allowed_range(about: Range) -> str:
     """The allowed range of a quantity in words, e.g. ``"must be > 0 [Pa]"``."""
-    limits = [
-        f"{sign} {about[key]:g}"
-        for key, sign in (("gt", ">"), ("ge", ">="), ("lt", "<"), ("le", "<="))
-        if about[key] is not None
-    ]
-    text = " and ".join(limits) if limits else "a finite number"
+    limits = " and ".join(f"{SIGNS[key]} {limit:g}" for key, limit in limits_of(about).items())
+    text = limits or "a finite number"
     unit = "" if about["unit"] == "1" else f" [{about['unit']}]"
     return f"must be {text}{unit}"
 
 
-def problem_with(about: dict[str, Any], value: Any) -> str | None:
+def problem_with(about: Range, value: Any) -> str | None:
     """Why ``value`` cannot stand for this quantity, or None when it can."""
     number = value
     if type(value) is not float:
@@ -162,7 +177,7 @@ tougher than 1 kPa m^0.5, denser than 50 kg/m^3; an oil is thinner than 10 Pa s,
 coefficient below 10 /MPa; and no surface has 5 J/m^2."""
 
 
-def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -> str | None:
+def unit_meant(about: Usual, number: float, *, load: bool = False) -> str | None:
     """The unit that was probably forgotten, where a number in SI is allowed but looks like a slip.
 
     Lengths of 1 cm and more, moduli, hardnesses and stresses below 0.1 MPa, loads below 100 Pa, and
@@ -174,8 +189,8 @@ def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -
         return "mm" if usual >= 1 else "nm" if size >= 10 else "um"
     if unit == "Pa" and load:
         return "MPa" if 0 < number < USUAL_LOAD else None
-    if unit == "Pa" and "usual" in about:
-        return "kPa" if 0 < number < about["usual"] else None
+    if unit == "Pa" and about.get("usual"):
+        return "kPa" if 0 < number < usual else None
     if unit == "Pa":
         return "GPa" if 0 < number < USUAL_STRESS else None
     least, most, meant = SLIPS.get(unit, (0.0, math.inf, ""))
@@ -195,7 +210,7 @@ def slips_are_told() -> Iterator[None]:
         _told.reset(token)
 
 
-def warn_of_slip(where: str, about: Mapping[str, object], number: float) -> None:
+def warn_of_slip(where: str, about: Usual, number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
     if not _told.get() and (meant := unit_meant(about, number)):
         what = f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI"
@@ -226,7 +241,7 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
 @cache
 def _declarations(
     kind: type,
-) -> tuple[tuple[str, dict[str, Any] | None, dict[str, Any] | None], ...]:
+) -> tuple[tuple[str, Quantity | None, Choice | None], ...]:
     """Fields of a class, each with its declared quantity or choice."""
     return tuple(
         (item.name, item.metadata.get("quantity"), item.metadata.get("choice"))

@@ -51,7 +51,7 @@ def _heights_of_word(reader: Reader, path: str, value: object) -> Heights:
     return _made_heights(reader, path, {"name": name})
 
 
-def _heights(reader: Reader, path: str, data: object) -> Any:
+def _heights(reader: Reader, path: str, data: object) -> object:
     def build(values: dict[str, object]) -> Heights:
         return _made_heights(reader, path, values)
 
@@ -76,7 +76,7 @@ RATIOS = {"first": "first_ratio", "second": "second_ratio"}
 RADII = ("R_first", "R_second")
 
 
-def _ellipticity(reader: Reader, path: str, data: Any) -> Any:
+def _ellipticity(reader: Reader, path: str, data: Any) -> object:
     """Classes of ratios, or two faces at an angle."""
     given = data if isinstance(data, dict) else {}
     if "ratios" in given or not {"first", "second", "angle"} & given.keys():
@@ -100,7 +100,7 @@ def _ellipticity(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, FACE_KEYS | {"angle": ANGLE}, build)
 
 
-def _angle(reader: Reader, path: str, value: object) -> Any:
+def _angle(reader: Reader, path: str, value: object) -> object:
     """An angle between two faces, or the word "random"."""
     if value == "random":
         return value

@@ -43,7 +43,7 @@ WORDS = {
 EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
-def _design(reader: Reader, path: str, data: Any) -> Any:
+def _design(reader: Reader, path: str, data: Any) -> object:
     """The task of [design]: variables, objectives, limits."""
     if all(get(data, name) is not None for name in ("F_star", "pressure")):
         rule = f"and {path}.pressure: only one of these can be given"
@@ -71,7 +71,7 @@ def _vary(reader: Reader, path: str, given: object) -> dict[str, Any]:
     )
 
 
-def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Any]:
+def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, object]:
     """One variable: its name in the library, and its range or its materials."""
     label, entry = told
     if isinstance(entry, list):
@@ -104,9 +104,9 @@ def _amount(where: str, value: Any) -> cleanliness.Concentration:
         raise InvalidValue(Problem(where, f"= {error}")) from None
 
 
-def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, Any]:
+def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, object]:
     """Entries by dotted name, from names in quotes or nested tables."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         inner = isinstance(value, dict) and not {"low", "high"} & set(value)
@@ -139,7 +139,7 @@ def _fluid(reader: Reader) -> Suspension | None:
 # -------------------------------------------------------------------------- what is good
 def _several(
     kind: type[Objective] | type[Limit], reader: Reader, path: str, given: object
-) -> list[Any]:
+) -> list[object]:
     """One objective or limit, or a list of them."""
     entries = {path: given}
     if isinstance(given, list):

@@ -70,7 +70,7 @@ def on_body(
     E_star: float,
 ) -> FilmConditions:
     """The film of a table that leaves out what one contact of [body] gives it."""
-    own: dict[str, Any] = {}
+    own: dict[str, object] = {}
     shape = None if bodies is None else bodies.conjunction
     if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:
         own = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}

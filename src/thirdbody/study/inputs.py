@@ -6,7 +6,6 @@ import dataclasses
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from ..effects import REGISTRY as OUTPUTS
 from ..laws import asperity, particle
@@ -14,6 +13,8 @@ from ..populations.materials import BULK, Material
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
 from ..populations.strength import WeibullStrength
+from ..quantities.units import Quantity
+from ..quantities.value import Choice
 from .fields import filled_in, idle
 from .particles import SHAPES, populations
 from .reader import get
@@ -29,8 +30,8 @@ class Input:
 
     table: str
     key: str
-    quantity: dict[str, Any] | None
-    choice: dict[str, Any] | None
+    quantity: Quantity | None
+    choice: Choice | None
     idle: str
     """Why varying it changes nothing; empty where it does."""
 

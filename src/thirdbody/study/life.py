@@ -11,6 +11,7 @@ from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
+from ..quantities.units import Quantity
 from ..quantities.value import Value, quantity
 from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
@@ -218,7 +219,7 @@ def _read_entries(reader: Reader, path: str, value: Any) -> Any:
     return value
 
 
-def _about(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
+def _about(circuit: OilCircuit, name: str) -> Quantity | None:
     """What a number of a circuit is, by its dotted name; None where it is none."""
     if name == INGRESS_FACTOR:
         return FACTOR
@@ -243,7 +244,7 @@ def _uncertainty(
     some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
     some += "".join(f', "{name}"' for name in more)
 
-    def about(label: str) -> tuple[str, dict[str, Any] | None]:
+    def about(label: str) -> tuple[str, Quantity | None]:
         if label in more:
             return label.removeprefix("contact."), more[label]
         name = label.removeprefix("oil.")

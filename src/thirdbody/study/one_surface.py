@@ -81,7 +81,7 @@ def one_surface(study: Study, F_star: object, *, points: int = POINTS) -> OneSur
         raise InvalidValue("explicit.seats: positions belong to a whole map, not to a part of it")
     loads = np.unique(np.atleast_1d(np.asarray(F_star, dtype=float)))
     spacing: float | None = None
-    surface: Any
+    surface: object
     if len(study.faces) == 1:
         surface, spacing, words = _window(study.faces[0], points)
     else:

@@ -76,7 +76,7 @@ OF_SIZES = "weibull_shape"
 
 
 # -------------------------------------------------------------------------- sizes
-def _parts(reader: Reader, path: str, value: Any) -> Any:
+def _parts(reader: Reader, path: str, value: Any) -> object:
     """The components of a mixture, a list of tables."""
     if not (isinstance(value, list) and value):
         rule = 'must be a list of size distributions, e.g. [{ distribution = "monodisperse", '
@@ -84,7 +84,7 @@ def _parts(reader: Reader, path: str, value: Any) -> Any:
     return reader.read_each({f"{path}.{i}": item for i, item in enumerate(value)}, _component)
 
 
-def _component(reader: Reader, path: str, data: Any) -> Any:
+def _component(reader: Reader, path: str, data: Any) -> object:
     return reader.variant(path, data, "distribution", DISTRIBUTIONS)
 
 
@@ -116,7 +116,7 @@ OWN = ("sigma_0", "x_0", "at", "m")
 """Keys of a strength of one's own; a table without them changes that of the material."""
 
 
-def _of_material(reader: Reader, path: str, value: Any) -> dict[str, Any]:
+def _of_material(reader: Reader, path: str, value: Any) -> dict[str, object]:
     """The strength that the material has, and nothing of one's own."""
     if value != "material":
         raise wrong(path, NO_STRENGTH, value)
@@ -183,7 +183,7 @@ def gaps_of(whole: Mapping[str, object]) -> tuple[float | None, ...]:
     return tuple(None if gap is None else to_si(gap, "m") for gap in given)
 
 
-def _particles(reader: Reader, path: str, data: object) -> Any:
+def _particles(reader: Reader, path: str, data: object) -> object:
     """One population, or a list of them."""
     if not (isinstance(data, list) and data):
         return _population(reader, path, data)
@@ -196,7 +196,7 @@ def _particles(reader: Reader, path: str, data: object) -> Any:
     return reader.read_each({f"{path}.{i}": table for i, table in enumerate(data)}, _population)
 
 
-def _population(reader: Reader, path: str, data: Any) -> Any:
+def _population(reader: Reader, path: str, data: Any) -> object:
     """One population, whose sizes are a distribution or were counted."""
     given = data if isinstance(data, dict) else {}
     sources = [key for key in ("distribution", *COUNTED) if given.get(key) is not None]
@@ -264,7 +264,7 @@ def _keys_of_population(given: Mapping[str, object], kind: str, by_volume: bool)
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
 
-def _unread(reader: Reader, path: str, value: object) -> Any:
+def _unread(reader: Reader, path: str, value: object) -> object:
     """Value of a source of sizes that is not read, since another source is."""
     return value
 
@@ -319,7 +319,7 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
         keys["exposure"] = keys["exposure"]._replace(required=True)
     weighting = given.get("weighting")
 
-    def read(reader: Reader, path: str, value: object) -> Any:
+    def read(reader: Reader, path: str, value: object) -> object:
         try:
             if kind != "sizes":
                 return _checked_code(reader, path, kind, value)
@@ -334,7 +334,7 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
     }
 
 
-def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> Any:
+def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> object:
     """A code or the word of a dust, of which the library knows the counts."""
     if kind == SETTLED:
         return clean_room.read_class(value)

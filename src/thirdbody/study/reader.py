@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
@@ -16,8 +16,8 @@ from ..errors import InvalidValue, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
-from ..quantities.units import EXAMPLES, quantity_to_si, say
-from ..quantities.value import allowed_range, problem_with, unit_meant
+from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
+from ..quantities.value import allowed_range, limits_of, problem_with, quantity, unit_meant
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
 from .vocabulary import near
@@ -74,6 +74,8 @@ SLIP = "unit of "
 NOTHING: dict[str, Any] = {"enum": []}
 """What JSON Schema says of a key under which all, or nothing, can stand."""
 
+Item = TypeVar("Item")
+Read = TypeVar("Read")
 ReadOne = Callable[["Reader", str, Any], Any]
 """What reads the value at a path."""
 
@@ -110,7 +112,7 @@ class Key(NamedTuple):
     items: ReadOne | None = None
     default: bool | float | str | None = None
 
-    def read_any(self, reader: Reader, path: str, value: object) -> Any:
+    def read_any(self, reader: Reader, path: str, value: object) -> object:
         """A value, whether it is a table or none."""
         if self.table is not None and (self.read is None or isinstance(value, dict)):
             return self.table(reader, path, value)
@@ -215,9 +217,11 @@ class Reader:
         # in the order of the file, which decides what each sampled input is given
         return build({name: values[name] for name in data})
 
-    def read_each(self, items: Mapping[str, object], read: ReadOne) -> tuple[Any, ...]:
+    def read_each(
+        self, items: Mapping[str, Item], read: Callable[[Reader, str, Item], Read]
+    ) -> tuple[Read, ...]:
         """What several values are read as, by their paths; all of their mistakes."""
-        out: list[Any] = []
+        out: list[Read] = []
         problems: list[Problem] = []
         for path, item in items.items():
             try:
@@ -240,7 +244,7 @@ class Reader:
         kinds: Mapping[str, type],
         build: Callable[[dict[str, Any]], Any] | None = None,
         common: Mapping[str, Key] | None = None,
-    ) -> Any:
+    ) -> object:
         """A table whose other keys depend on the word under ``tag``.
 
         When the word is missing or misspelt, the rest of the table is checked all the same:
@@ -309,7 +313,7 @@ def tag_key(options: tuple[str, ...]) -> Key:
 def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
     """The key of a table that stands for a value class."""
 
-    def read(reader: Reader, path: str, data: object) -> Any:
+    def read(reader: Reader, path: str, data: object) -> object:
         return reader.value(path, data, kind)
 
     return Key(None, required, about, NOTHING, read)
@@ -320,7 +324,7 @@ def variants(
 ) -> Key:
     """Key of a table for one of several classes, chosen by a word in it."""
 
-    def read(reader: Reader, path: str, data: object) -> Any:
+    def read(reader: Reader, path: str, data: object) -> object:
         return reader.variant(path, data, tag, kinds)
 
     return Key(None, required, about, NOTHING, read)
@@ -345,19 +349,19 @@ def wrong(path: str, rule: str, value: object, *, hint: str = "") -> InvalidValu
     return InvalidValue(Problem(path, rule, say(value), hint=hint))
 
 
-def quantity_key(name: str, about: dict[str, object], *, required: bool = False) -> Key:
+def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
     """The key of a number, told with its name."""
     return number(about)._replace(about=about_of(name, about), required=required)
 
 
-def number(about: dict[str, object]) -> Key:
+def number(about: Quantity) -> Key:
     """A number in SI inside the range of its quantity; text has a unit."""
-    limits = {word: about[key] for key, word in LIMITS.items() if about[key] is not None}
+    limits = {LIMITS[key]: limit for key, limit in limits_of(about).items()}
     schema = {"type": ["number", "string"]} | limits
     return Key(partial(read_number, about), schema=schema)
 
 
-def read_number(about: dict[str, object], reader: Notes, path: str, value: object) -> float:
+def read_number(about: Quantity, reader: Notes, path: str, value: object) -> float:
     """The number in SI that a value of a file stands for."""
     try:
         found = quantity_to_si(value, about)
@@ -399,8 +403,7 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
 
     Lengths up to ``usual`` are no slip: infinity where numbers without a unit may be in any unit.
     """
-    limits: dict[str, Any] = dict.fromkeys(LIMITS)
-    one = limits | {"symbol": "", "unit": unit, "meaning": "number", "hint": "", "usual": usual}
+    one: Quantity = quantity("", unit, "number").metadata["quantity"] | {"usual": usual}
 
     def read(reader: Reader, path: str, value: object) -> tuple[float, ...]:
         if not isinstance(value, list):
@@ -412,7 +415,7 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
 
 
 def read_numbers(
-    about: dict[str, object], reader: Notes, path: str, value: Sequence[object]
+    about: Quantity, reader: Notes, path: str, value: Sequence[object]
 ) -> tuple[float, ...]:
     """The numbers in SI of a list."""
     out: list[float] = []
@@ -427,7 +430,7 @@ def read_numbers(
     return tuple(out)
 
 
-def amounts(name: str, about: dict[str, Any], *, sampled: bool = False) -> Key:
+def amounts(name: str, about: Quantity, *, sampled: bool = False) -> Key:
     """The key of one value, a list of values, or a range; one to sample has no ``points``."""
     one = number(about).schema
     schema = {"anyOf": [one, {"type": "array", "items": one}]}
@@ -435,7 +438,7 @@ def amounts(name: str, about: dict[str, Any], *, sampled: bool = False) -> Key:
     return Key(partial(_amounts, about), False, about_of(name, about), schema, table)
 
 
-def _amounts(about: dict[str, Any], reader: Reader, path: str, value: Any) -> np.ndarray:
+def _amounts(about: Quantity, reader: Reader, path: str, value: Any) -> np.ndarray:
     if not isinstance(value, list):
         return np.array([read_number(about, reader, path, value)])
     if not value:
@@ -443,7 +446,7 @@ def _amounts(about: dict[str, Any], reader: Reader, path: str, value: Any) -> np
     return np.array(read_numbers(about, reader, path, value))
 
 
-def _range(about: dict[str, Any], sampled: bool, reader: Reader, path: str, data: Any) -> Any:
+def _range(about: Quantity, sampled: bool, reader: Reader, path: str, data: Any) -> Any:
     spacings = ("linear", "log") if about["gt"] is None else ("log", "linear")
     example = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
     end, points = number(about)._replace(required=True), count(f"how many values, {example}")
@@ -470,7 +473,7 @@ def _range(about: dict[str, Any], sampled: bool, reader: Reader, path: str, data
     return reader.table(path, data, keys, build)
 
 
-def _problems_of_ends(about: dict[str, Any], path: str, data: Any, log: bool) -> list[Problem]:
+def _problems_of_ends(about: Quantity, path: str, data: Any, log: bool) -> list[Problem]:
     """Problems of the two ends of a range together."""
     try:
         low, high = (read_number(about, Unsaid(), path, data[end]) for end in ("from", "to"))
@@ -536,7 +539,7 @@ def words(options: Iterable[str] | None, about: str = "") -> Key:
 def refused(why: str) -> Key:
     """A key that is known and has no place here."""
 
-    def read(reader: Reader, path: str, value: object) -> Any:
+    def read(reader: Reader, path: str, value: object) -> object:
         raise wrong(path, why, value)
 
     return Key(read, schema=NOTHING)

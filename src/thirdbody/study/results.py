@@ -74,7 +74,7 @@ class _Result(MappedRecord):
         """What the particles of each population are: do they conduct, dent, break?"""
         return natures(self.study.contact)
 
-    def _plain_data(self, inputs: dict[str, object], **found: object) -> dict[str, Any]:
+    def _plain_data(self, inputs: dict[str, object], **found: object) -> dict[str, object]:
         """Plain data with what every study says: title, version, inputs, warnings, citations."""
         return {
             "title": self.study.title,
@@ -214,7 +214,7 @@ class StudyResult(_Result):
             what_ifs=[each.to_dict() for each in self.what_ifs],
         )
         if self.forces:
-            body: dict[str, Any] = {} if self.study.body is None else self.study.body.to_dict()
+            body: dict[str, object] = {} if self.study.body is None else self.study.body.to_dict()
             said = {"forces": plain_data(self.forces), "sentences": self.force_sentences}
             return data | {"body": body | said}
         held = {} if self.study.film is None else {"particles_held": self.particles_held}

@@ -144,7 +144,7 @@ def _height_keys() -> dict[str, Key]:
     return keys | {"process": word(processes(), f"one of {', '.join(processes())}")}
 
 
-def _face(reader: Reader, path: str, data: object) -> Any:
+def _face(reader: Reader, path: str, data: object) -> object:
     """The height of one face and its process."""
     return reader.table(path, data, _height_keys())
 
@@ -168,7 +168,7 @@ def _shape_measured(reader: Reader, path: str, value: object) -> str:
     return "measured"
 
 
-def _shape_beside(reader: Reader, path: str, data: Mapping[str, object]) -> Any:
+def _shape_beside(reader: Reader, path: str, data: Mapping[str, object]) -> object:
     """Classes and faces as elsewhere, without the radii."""
     if radii := [key for key in RADII if get(data, key) is not None]:
         both = "both" if len(radii) == 2 else "it"
@@ -178,7 +178,7 @@ def _shape_beside(reader: Reader, path: str, data: Mapping[str, object]) -> Any:
     return ELLIPTICITY.table(reader, path, data)  # type: ignore[misc]
 
 
-def _heights_measured(reader: Reader, path: str, value: object) -> Any:
+def _heights_measured(reader: Reader, path: str, value: object) -> object:
     """The heights of the summits counted, or a distribution as elsewhere."""
     return value if value == "measured" else HEIGHT.read(reader, path, value)  # type: ignore[misc]
 
@@ -218,7 +218,7 @@ BESIDE = {
 TWICE = refused("is told by the topography as well; remove one of the two")
 
 
-def _topography(reader: Reader, path: str, data: dict[str, object]) -> Any:
+def _topography(reader: Reader, path: str, data: dict[str, object]) -> object:
     """A measured surface instead of σ, R and η; two files are the two faces."""
 
     def build(values: dict[str, Any]) -> Roughness:

@@ -50,12 +50,12 @@ FIELDS["Material"] = MATERIAL
 SIDES = {side: MATERIAL._replace(required=True, about=ONE) for side in ("first", "second")}
 
 
-def _surfaces(reader: Reader, path: str, data: object) -> Any:
+def _surfaces(reader: Reader, path: str, data: object) -> object:
     """The two bodies."""
     return reader.table(path, data, SIDES, partial(reader.make, MaterialPair, path))
 
 
-def _own_materials(reader: Reader, path: str, given: object) -> Any:
+def _own_materials(reader: Reader, path: str, given: object) -> object:
     """Name of a file of materials; tables read after this one may use its names."""
     name = text.read(reader, path, given)  # type: ignore[misc]
     try:
@@ -72,7 +72,7 @@ def _own_materials(reader: Reader, path: str, given: object) -> Any:
 def law_key(registry: Mapping[str, type], about: str = "") -> Key:
     """The key of a law: its name, or a table with its name and options."""
 
-    def read(reader: Reader, path: str, data: object) -> Any:
+    def read(reader: Reader, path: str, data: object) -> object:
         if not isinstance(data, str):
             return table(reader, path, data)
         return reader.make(registry[read_word(registry, reader, path, data)], path, {})

@@ -17,7 +17,7 @@ from .reader import rivals
 __all__ = ["override", "read", "value_of"]
 
 
-def read(path: Path) -> dict[str, Any]:
+def read(path: Path) -> dict[str, object]:
     """The tables of a file; InvalidValue says why it cannot be read, with the line."""
     try:
         content = read_bytes(path, "a study file")
@@ -84,7 +84,7 @@ def _syntax(path: Path, text: str, message: str) -> str:
 
 
 # -------------------------------------------------------------------------- keys set over a file
-def override(data: dict[str, Any], overrides: Iterable[str]) -> dict[str, Any]:
+def override(data: dict[str, Any], overrides: Iterable[str]) -> dict[str, object]:
     """The data with keys set; one of several exclusive keys drives out the others.
 
     Tables of one name, ``[[particles]]``, and items of a list are numbered from 0:

@@ -8,7 +8,7 @@ from typing import Any
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
 from ..errors import InvalidValue, Problem
 from ..quantities.nearest import guess, near_path
-from ..quantities.units import say
+from ..quantities.units import Quantity, say
 from .inputs import Input, inputs_of
 from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
 from .vocabulary import LOADS
@@ -55,7 +55,7 @@ def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
 
 def field_of_input(
     where: str, name: str, inputs: list[Input], whole: Mapping[str, object]
-) -> tuple[str, dict[str, Any]]:
+) -> tuple[str, Quantity]:
     """Dotted name of the field and its meaning, for an input as the file calls it."""
     name = name.strip()
     table, _, last = name.rpartition(".")
@@ -80,9 +80,7 @@ def field_of_input(
     raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
 
 
-def read_uncertain(
-    reader: Reader, where: str, about: dict[str, object], entry: object
-) -> Uncertain:
+def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -> Uncertain:
     """One distribution; its keys decide which."""
     given = dict(entry) if isinstance(entry, dict) else {}
     spacing = given.pop("spacing", None)
@@ -94,8 +92,8 @@ def read_uncertain(
         spacing = read_word(("linear", "log"), reader, f"{where}.spacing", spacing)
         kind = "log-uniform" if spacing == "log" else kind
     # of a spread only the sign is known: the range is that of the input
-    spread = about | {"gt": 0, "ge": None, "lt": None, "le": None, "hint": ""}
-    meant = {"std": spread, "gsd": spread | {"unit": "1"}}
+    spread: Quantity = {**about, "gt": 0, "ge": None, "lt": None, "le": None, "hint": ""}
+    meant: dict[str, Quantity] = {"std": spread, "gsd": {**spread, "unit": "1"}}
 
     def number(reader: Reader, path: str, name: str) -> float:
         return read_number(meant.get(name, about), reader, path, given[name])
@@ -110,7 +108,7 @@ def read_uncertain(
 def read_bands(
     reader: Reader,
     given: Mapping[str, object],
-    about: Callable[[str], tuple[str, dict[str, object] | None]],
+    about: Callable[[str], tuple[str, Quantity | None]],
     unknown: str,
 ) -> dict[str, Uncertain]:
     """What [life.uncertainty] says of numbers, by the names that ``about`` gives them."""
@@ -126,9 +124,9 @@ def read_bands(
     return dict(reader.read_each(pairs, one))
 
 
-def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
+def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, object]:
     """Entries of uncertain inputs, from names in quotes or nested tables."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         inner = isinstance(value, dict) and any(isinstance(part, dict) for part in value.values())

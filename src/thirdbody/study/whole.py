@@ -164,7 +164,7 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
     own = Path(path)
     out, waiting = [own], [override(read(own), list(overrides))] if own.is_file() else []
     while waiting:
-        value: Any = waiting.pop()
+        value: object = waiting.pop()
         if isinstance(value, dict):
             waiting += value.values()
         elif isinstance(value, list):

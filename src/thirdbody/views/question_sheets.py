@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import ranked
 from ..populations.materials import NUMBERS
@@ -77,7 +77,7 @@ def inputs_of(
     values: Mapping[str, Value],
     bodies: Mapping[str, Material],
     numbers: Iterable[BareNumber] = (),
-) -> list[tuple[Any, ...]]:
+) -> list[tuple[object, ...]]:
     """A row an input: of values by what their names begin with, "plate.", then of materials.
 
     Numbers that are no fields of a value stand first.
@@ -88,7 +88,7 @@ def inputs_of(
         for each in numbers
     ]  # fmt: skip
     rows += [row for name, value in values.items() for row in value_rows(value, name)]
-    out: list[tuple[Any, ...]] = [
+    out: list[tuple[object, ...]] = [
         (row.meaning, row.symbol, *amount_cells(row), "default" if row.default else "study",
          row.name)
         for row in rows

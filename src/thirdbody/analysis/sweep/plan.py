@@ -431,7 +431,7 @@ def _largest(values: NDArray[Any]) -> float:
     return float(np.fmax.reduce(values, axis=None, initial=0.0))
 
 
-def _axis_values(values: NDArray[Any]) -> Any:
+def _axis_values(values: NDArray[Any]) -> object:
     """Values of an axis for JSON: themselves, or their fingerprint when there are many."""
     if values.dtype == object:
         return [v.to_dict() if isinstance(v, Value) else v for v in values]

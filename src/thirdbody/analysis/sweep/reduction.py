@@ -160,7 +160,7 @@ class Reduction:
                 out[f"{name}_quantile"] = part[f"{name}:quantile"]
         return out
 
-    def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, dict[str, Any]]]:
+    def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, dict[str, object]]]:
         """Every stored variable: whether it has quantiles as its last dimension, and attributes."""
         words = {"mean": "mean of the {}", "min": "smallest {}", "max": "largest {}"}
         kinds = ["mean"] if self.mean else []

@@ -94,7 +94,7 @@ def in_memory(
     return xr.Dataset(variables, coords=layout.coords | inputs, attrs=attrs)
 
 
-def _memory(name: str, kind: str) -> Any:
+def _memory(name: str, kind: str) -> object:
     return np.int64 if name == "iterations" else np.dtype(kind)
 
 
@@ -119,7 +119,7 @@ def _reduced(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
 
 
 def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    out: dict[str, Any] = {"states": 0, "unsolved": 0, "A_t": 0.0, "shadow": 0.0}
+    out: dict[str, object] = {"states": 0, "unsolved": 0, "A_t": 0.0, "shadow": 0.0}
     paths: Counter[str] = Counter()
     for one in summaries:
         out["states"] += one["states"]
@@ -287,7 +287,7 @@ def _carry_out(
             states += summary["states"]
             cost.finished(states)
     total = _summary(done.values())
-    attrs: dict[str, Any] = dict(_attributes(plan, notes, total))
+    attrs: dict[str, object] = dict(_attributes(plan, notes, total))
     if direct:
         store.label(attrs)
         folder.relabel(name)

@@ -143,9 +143,11 @@ class _Found(NamedTuple):
         return summary(self.result)[self.oil is None :]
 
 
-def _data(found: _Found) -> dict[str, Any]:
+def _data(found: _Found) -> dict[str, object]:
     oils = {"oil": found.oil, "oil_filtered": found.filtered}
-    out: dict[str, Any] = {name: each.to_dict() for name, each in oils.items() if each is not None}
+    out: dict[str, object] = {
+        name: each.to_dict() for name, each in oils.items() if each is not None
+    }
     if found.what_ifs:
         out["what_ifs"] = [each.to_dict() for each in found.what_ifs]
     return found.result.to_dict() | out
@@ -229,7 +231,7 @@ def _show_bearing(console: Any, result: FilmResult) -> None:
     console.print(table)
 
 
-def _curve(result: FilmResult) -> Any:
+def _curve(result: FilmResult) -> object:
     """A row a speed; of many speeds some, evenly spread."""
     from ...views.columns import film_columns
 

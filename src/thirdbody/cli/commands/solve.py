@@ -200,7 +200,7 @@ def _output_table(states: Any) -> Table:
     return table
 
 
-def _transition_table(critical: Transitions, E_ss: float) -> Any:
+def _transition_table(critical: Transitions, E_ss: float) -> object:
     heads = ("critical load", "F*", "pressure", "status")
     table = Table(heads, words=heads[:1], drop=["F*"], more=ALL)
     for name, entry in critical.entries().items():

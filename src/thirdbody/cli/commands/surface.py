@@ -135,7 +135,7 @@ def _lengths(
     cutoff: str | None, resolution: str | None, spacing: str | None, problems: list[str]
 ) -> dict[str, Any]:
     """Lengths as `from_topography` takes them [m]."""
-    lengths: dict[str, Any] = {
+    lengths: dict[str, object] = {
         name: None if text is None else metres(f"--{name}", text, problems)
         for name, text in (("cutoff", cutoff), ("resolution", resolution))
     }
