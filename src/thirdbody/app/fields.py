@@ -122,7 +122,7 @@ def number_field(name: str, about: Quantity, default: object = None, needed: boo
     """The field of a quantity."""
     symbol = f" {about['symbol']}" if about["symbol"] != name else ""
     unit = f" [{about['unit']}]" if about["unit"] != "1" else ""
-    allowed = allowed_range(about).removeprefix("must be ")
+    allowed = allowed_range(about)
     said = f"{about['meaning']}; {allowed}"
     if default is not None:
         said += f"; {text_of(default)} when left out"

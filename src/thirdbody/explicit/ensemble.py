@@ -43,7 +43,7 @@ from ..version import __version__
 from .interface import Map, cap_of, map_of
 from .pooling import COMPARED, RATIOS, SHARES, AtLoads, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
-from .solve import FEW, TOL, Cap
+from .solve import FEW, TOL, Cap, Effort
 from .sums import one_surface, places
 
 if TYPE_CHECKING:
@@ -381,8 +381,7 @@ class _Task:
         need_version(self.version, "ensemble")
         return one_surface(
             self.contact, self.map(), self.rule, self.grid, self.seed, cap=self.cap,
-            tol=self.tol, max_iterations=self.max_iterations, workers=1,
-            gaussian=self.surface is None,
+            effort=Effort(self.tol, self.max_iterations), gaussian=self.surface is None,
         )  # fmt: skip
 
 

@@ -227,11 +227,11 @@ def quantity_to_si(value: Any, about: Meant) -> float:
         return to_si(value, about["unit"])
     from .hardness import pressure
 
+    number = to_si(match["number"], "1")
     try:
-        return pressure(to_si(match["number"], "1"), match["scale"])
+        return pressure(number, match["scale"])
     except InvalidValue as error:
-        told = str(error)
-        return _refuse(told if told.startswith('"') else f"{say(value)} cannot be used: {told}")
+        return _refuse(f"{say(value)} cannot be used: {error}")
 
 
 def _one(value: Any, unit: str) -> float:

@@ -111,27 +111,26 @@ SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 
 
 def allowed_range(about: Range) -> str:
-    """The allowed range of a quantity in words, e.g. ``"must be > 0 [Pa]"``."""
+    """The allowed range of a quantity in words, e.g. ``"> 0 [Pa]"``."""
     limits = " and ".join(f"{SIGNS[key]} {limit:g}" for key, limit in limits_of(about).items())
     text = limits or "a finite number"
     unit = "" if about["unit"] == "1" else f" [{about['unit']}]"
-    return f"must be {text}{unit}"
+    return f"{text}{unit}"
 
 
 def problem_with(about: Range, value: Any) -> str | None:
     """Why ``value`` cannot stand for this quantity, or None when it can."""
-    number = value
-    if type(value) is not float:
+    if type(value) not in (float, int):
         if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
             return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
         if is_uncertain(value):
             return HELD
-        try:
-            number = float(value)
-        except OverflowError:
-            number = math.inf
-        except (TypeError, ValueError):
-            return f"must be one number in SI units [{about['unit']}]"
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    except (TypeError, ValueError):
+        return f"must be one number in SI units [{about['unit']}]"
     outside = (
         not math.isfinite(number)
         or (about["gt"] is not None and not number > about["gt"])
@@ -140,7 +139,7 @@ def problem_with(about: Range, value: Any) -> str | None:
         or (about["le"] is not None and not number <= about["le"])
     )
     if outside:
-        return allowed_range(about) + ("; " + about["hint"] if about["hint"] else "")
+        return f"must be {allowed_range(about)}" + ("; " + about["hint"] if about["hint"] else "")
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 

@@ -101,7 +101,7 @@ def _declaration(item: dataclasses.Field[Any]) -> Declaration:
     if about := item.metadata.get("quantity"):
         plain |= {
             "meaning": about["meaning"],
-            "allowed": allowed_range(about).removeprefix("must be "),
+            "allowed": allowed_range(about),
         }
         return Declaration(kind="number", quantity=about, **plain)
     if about := item.metadata.get("choice"):

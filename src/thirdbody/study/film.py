@@ -64,12 +64,14 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
 
 def on_body(
     reader: Reader,
-    film: dict[str, Any],
+    film: FilmConditions | dict[str, Any],
     bodies: Body | None,
     forces: np.ndarray | None,
     E_star: float,
 ) -> FilmConditions:
-    """The film of a table that leaves out what one contact of [body] gives it."""
+    """The film, with conjunction, load and speed of one contact of [body] where not given."""
+    if isinstance(film, FilmConditions):
+        return film
     own: dict[str, object] = {}
     shape = None if bodies is None else bodies.conjunction
     if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:

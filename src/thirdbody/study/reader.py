@@ -370,8 +370,7 @@ def read_number(about: Quantity, reader: Notes, path: str, value: object) -> flo
         cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
         raise InvalidValue(Problem(path, f"= {error}{cause}")) from None
     if not math.isfinite(found):
-        allowed = allowed_range(about).removeprefix("must be ")
-        allowed = "" if allowed.startswith("a finite") else f"; it must be {allowed}"
+        allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value)
     if why := problem_with(about, found):
         meant = "" if about["hint"] else f"; it is the {about['meaning']}"

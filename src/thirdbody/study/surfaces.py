@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import partial
 from typing import Any
 
@@ -33,8 +34,9 @@ def _from_library(reader: Reader, path: str, value: object) -> Material:
     known = reader.library
     if known is None:
         return materials["S45C"]  # no name can be judged, and the study is refused anyway
-    if isinstance(value, str) and value in known:
-        return known[value]
+    if isinstance(value, str):
+        with suppress(KeyError):
+            return known[value]
     near = known.near(str(value))
     some = ", ".join(list(known)[:3])
     rule = (

@@ -235,7 +235,7 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
     if contact.outputs:
         contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
         reader.notes += notes
-    if isinstance(film, dict):
+    if film is not None:
         film = on_body(reader, film, bodies, given_forces, contact.E_ss)
     connector = connector_of(reader, values) if "connector" in own else None
     plate = plate_of(reader, values) if "plate" in own else None
