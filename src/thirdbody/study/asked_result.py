@@ -5,14 +5,35 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 from ..quantities.plain_data import plain_data
 from ..quantities.record import MappedRecord, declared_columns
 from ..version import __version__
+from .described import Described
 from .what_ifs import WhatIf
 
 __all__ = ["AskedResult", "QuestionResult"]
+
+
+class Asked(Protocol):
+    """Protocol of what a study says that asks one question."""
+
+    @property
+    def title(self) -> str:
+        """Title as in the file, or empty."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes of reading, one sentence each."""
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """Those of them that say what numbers were taken."""
+
+    @property
+    def described(self) -> Described:
+        """Inputs with symbols and units."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -21,11 +42,11 @@ class QuestionResult(MappedRecord):
 
     Attributes
     ----------
-    asked
-        What the study says, with ``title``, ``notes``, ``assumed`` and ``described``.
+    asked : Asked
+        What the study says.
     """
 
-    asked: Any
+    asked: Asked
     title_without: ClassVar[str]
     """Title of a study without one."""
     citations: ClassVar[tuple[str, ...]]
@@ -34,7 +55,7 @@ class QuestionResult(MappedRecord):
     @property
     def title(self) -> str:
         """Title of the study, or of its kind."""
-        return str(self.asked.title or self.title_without)
+        return self.asked.title or self.title_without
 
     @property
     @abstractmethod
@@ -55,7 +76,7 @@ class QuestionResult(MappedRecord):
     def meanings(self) -> Mapping[str, str]:
         """Meanings of the columns."""
 
-    def whole(self, **parts: Any) -> dict[str, Any]:
+    def whole(self, **parts: object) -> dict[str, Any]:
         """Plain data of the parts between title and warnings."""
         return {
             "title": self.asked.title,
