@@ -155,7 +155,7 @@ def words_of(contact: Contact, label: str) -> str:
 
 
 def _words_and_owner(contact: Contact, name: str) -> tuple[str, str]:
-    """What a number is, and whose."""
+    """Meaning of a number, and the body that it belongs to."""
     if name in WHOLE:
         return WHOLE[name], ""
     try:

@@ -383,7 +383,7 @@ def sensitivity(
 
 
 def _labels(contact: Contact, to: str | Sequence[str] | None, load: str) -> list[str]:
-    """What is moved: the names of ``to``, or every input and the load."""
+    """Names of the inputs that are varied: those of ``to``, or every input and the load."""
     if to is None:
         return _default_inputs(contact) + [load] * bool(load)
     labels = [to] if isinstance(to, str) else list(to)

@@ -197,7 +197,7 @@ def answer_first() -> Iterator[None]:
 
 @contextlib.contextmanager
 def at_once() -> Iterator[None]:
-    """What is said inside waits for no answer."""
+    """Context whose notes are printed at once and do not wait for the answer."""
     before = HELD.set(None)
     try:
         yield
@@ -230,7 +230,7 @@ def warn(message: Warning | str, *_: object, **__: object) -> None:
 
 
 def warn_of(notes: Iterable[str]) -> None:
-    """What an answer leaves open: what matters most to it, and how much more there is.
+    """Print the notes of an answer: those that matter most, and how many more there are.
 
     What was said of the inputs counts among the most that are shown; the worst is always shown.
     """
@@ -383,7 +383,7 @@ def _write_parquet(path: Path, columns: Mapping[str, Sequence[object]]) -> None:
 
 
 def figure_format(figure: Path) -> str:
-    """What a figure is written as, by the end of its name."""
+    """Format of a figure, by the suffix of its name."""
     kind = figure.suffix.lstrip(".").lower() or "png"
     if kind not in ("png", "svg", "pdf"):
         raise InvalidValue(f"--figure {figure} must end in .png, .svg or .pdf")

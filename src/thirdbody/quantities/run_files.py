@@ -40,7 +40,7 @@ Fingerprint = list[Any] | None
 
 
 class Sealed(NamedTuple):
-    """What a small file says."""
+    """Content of a sealed file."""
 
     data: dict[str, Any]
     checked: bool

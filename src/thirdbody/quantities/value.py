@@ -359,7 +359,7 @@ class Value:
 
     @names_arguments
     def value_at(self, path: str) -> Any:
-        """What a dotted name stands for: a field, or an item of a tuple by place or name."""
+        """Value of a dotted name: a field, or an item of a tuple by place or name."""
         where: Any = self
         for step in filter(None, path.split(".")):
             if isinstance(where, tuple):

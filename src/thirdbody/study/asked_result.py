@@ -17,7 +17,7 @@ __all__ = ["AskedResult", "QuestionResult"]
 
 
 class Asked(Protocol):
-    """Protocol of what a study says that asks one question."""
+    """Protocol of a study that asks one question."""
 
     @property
     def title(self) -> str:
@@ -29,7 +29,7 @@ class Asked(Protocol):
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """Those of them that say what numbers were taken."""
+        """Notes on numbers that were taken because the file leaves them out."""
 
     @property
     def described(self) -> Described:
@@ -104,12 +104,12 @@ class AskedResult(QuestionResult):
 
     @property
     def run_notes(self) -> tuple[str, ...]:
-        """Those of ``run_warnings``."""
+        """The sentences of ``run_warnings``."""
         return self.run_warnings
 
     @property
     def meanings(self) -> Mapping[str, str]:
-        """Those that the columns declare."""
+        """Meanings as the columns declare them."""
         return {name: each.meaning for name, each in declared_columns(type(self)).items()}
 
     def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:

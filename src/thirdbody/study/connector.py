@@ -48,7 +48,7 @@ class AskedConnector:
 
     @property
     def described(self) -> Described:
-        """What the tables describe."""
+        """Inputs with symbols and units."""
         return describe("connector.", self.connector)
 
     def pressure(self, E: float) -> float:

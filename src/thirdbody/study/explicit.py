@@ -33,7 +33,7 @@ def _seats() -> Mapping[str, type]:
 
 
 def _seat(reader: Reader, path: str, value: object) -> object:
-    """Where particles lie, by the word of a rule."""
+    """Rule of the seats of particles, by its word."""
     return _seats()[read_word(_seats(), reader, path, value)]()
 
 

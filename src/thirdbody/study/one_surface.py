@@ -145,7 +145,7 @@ def _window(face: Topography, points: int) -> tuple[np.ndarray, float, str]:
 
 
 def _corner(known: np.ndarray, side: int) -> tuple[int, int] | None:
-    """Where a window begins in which all is known, nearest the middle."""
+    """Corner of the window nearest the middle in which all heights are known."""
     gaps = np.pad(np.cumsum(np.cumsum(~known, axis=0), axis=1), ((1, 0), (1, 0)))
     inside = gaps[side:, side:] - gaps[:-side, side:] - gaps[side:, :-side] + gaps[:-side, :-side]
     free = np.argwhere(inside == 0)

@@ -48,7 +48,7 @@ class AskedPlate:
 
     @property
     def described(self) -> Described:
-        """What the tables describe."""
+        """Inputs with symbols and units."""
         return describe("plate.", self.chuck)
 
 

@@ -220,7 +220,7 @@ class Reader:
     def read_each(
         self, items: Mapping[str, Item], read: Callable[[Reader, str, Item], Read]
     ) -> tuple[Read, ...]:
-        """What several values are read as, by their paths; all of their mistakes."""
+        """Several values, each read at its path; their mistakes are raised together."""
         out: list[Read] = []
         problems: list[Problem] = []
         for path, item in items.items():
@@ -350,12 +350,12 @@ def wrong(path: str, rule: str, value: object, *, hint: str = "") -> InvalidValu
 
 
 def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
-    """The key of a number, told with its name."""
+    """Key of a number whose meaning is told with its name."""
     return number(about)._replace(about=about_of(name, about), required=required)
 
 
 def number(about: Quantity) -> Key:
-    """A number in SI inside the range of its quantity; text has a unit."""
+    """Key of a number in SI inside the range of its quantity; text has a unit."""
     limits = {LIMITS[key]: limit for key, limit in limits_of(about).items()}
     schema = {"type": ["number", "string"]} | limits
     return Key(partial(read_number, about), schema=schema)
@@ -398,7 +398,7 @@ def _refuse_slip(reader: Notes, path: str, value: object, taken: str, meant: str
 
 
 def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
-    """A list of numbers; the class of the table checks their range.
+    """Key of a list of numbers; the class of the table checks their range.
 
     Lengths up to ``usual`` are no slip: infinity where numbers without a unit may be in any unit.
     """
@@ -495,7 +495,7 @@ def is_span(values: Any) -> bool:
 
 
 def count(about: str = "", *, least: int = 1, most: int = MOST_POINTS) -> Key:
-    """A whole number."""
+    """Key of a whole number."""
 
     def read(reader: Reader, path: str, value: Any) -> int:
         whole = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -507,7 +507,7 @@ def count(about: str = "", *, least: int = 1, most: int = MOST_POINTS) -> Key:
 
 
 def word(options: Iterable[str], about: str = "", *, required: bool = False) -> Key:
-    """One of a few words."""
+    """Key of one of a few words."""
     return Key(partial(read_word, options), required, about, {"enum": options})
 
 
@@ -521,7 +521,7 @@ def read_word(options: Iterable[str], reader: object, path: str, value: object) 
 
 
 def words(options: Iterable[str] | None, about: str = "") -> Key:
-    """One word or a list of words; any where there are no options."""
+    """Key of one word or a list of words; any word where there are no options."""
 
     def read(reader: Reader, path: str, value: Any) -> list[str]:
         values = value if isinstance(value, list) else [value]

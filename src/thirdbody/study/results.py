@@ -144,7 +144,7 @@ class StudyResult(_Result):
 
     @property
     def force_sentences(self) -> list[str]:
-        """What forces do to their bodies, in words."""
+        """Sentences on the forces that press the bodies."""
         return force_sentences(list(self.forces))
 
     @takes_units

@@ -80,7 +80,7 @@ class ConnectorResult(AskedResult):
         return {"connector": connector, "force": plain_data(self.asked.forces)}
 
     def numbers(self) -> dict[str, object]:
-        """What holds for every force."""
+        """Numbers that hold for every force."""
         return {"in_the_way": self.in_the_way, "threshold": self.threshold}
 
 
@@ -189,7 +189,7 @@ def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
 
 
 def _bounds_note(found: ConnectorResult, at: int) -> list[Note]:
-    """Where rounding blurs the answer."""
+    """Note where rounding blurs the answer."""
     low, high = found.failure_low[at], found.failure_high[at]
     if not high > 0 or (high - low) < VAGUE * high:
         return []

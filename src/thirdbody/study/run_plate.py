@@ -198,7 +198,7 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
 
 
 def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
-    """Where the theory of thin plates ends."""
+    """Notes where the theory of thin plates ends."""
     out = []
     t = chuck.thickness
     if stiff := [bump.height for bump in found if not bump.thin]:

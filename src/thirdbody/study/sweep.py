@@ -37,7 +37,7 @@ __all__ = ["SWEEP", "ends", "plan", "with_nested_names"]
 
 
 def _sweep(reader: Reader, path: str, data: object) -> object:
-    """The plan of [sweep]: what varies, how, and what is stored."""
+    """Entries of [sweep]: what varies, how, and what is stored."""
     sampled = get(data, "design") not in (None, "grid", "zip")
     keys = {
         "design": word(("grid", "zip", *DESIGNS)),
@@ -113,7 +113,7 @@ REDUCTIONS = {
 
 
 def _reductions(reader: Reader, path: str, data: object) -> object:
-    """What is kept of many states."""
+    """Reductions of many states."""
     return reader.table(path, data, REDUCTIONS)
 
 

@@ -416,7 +416,7 @@ def _bands(task: Task, best: Point) -> tuple[Bands, Bands]:
 def _band(
     task: Task, best: Point, name: str, part: float, places: tuple[float, float]
 ) -> tuple[float, float]:
-    """Where the first objective loses less than this part of it, between two places."""
+    """Range between two places in which the first objective loses less than this part of it."""
     label = task.objectives[0].label
     value, own = best.costs[label], best.numbers[name]
     among = task.variables[name].span.values_at(np.linspace(*places, GRID + 1))

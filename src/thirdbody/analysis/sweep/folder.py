@@ -81,7 +81,7 @@ MUCH = 10**9
 
 @dataclass(eq=False)
 class Found:
-    """What a look at every file of a sweep says."""
+    """Result of a check of every file of a sweep."""
 
     blocks: dict[int, dict[str, Any]] = field(default_factory=dict)
     """Blocks whose files are as they were written, with their summaries."""
@@ -117,7 +117,7 @@ class Folder:
 
     @property
     def data(self) -> Path:
-        """Where the data are."""
+        """Path of the data."""
         return self.path / ("states.zarr" if self.format == "zarr" else "states.nc")
 
     @property
@@ -234,14 +234,14 @@ class Folder:
         write_text(self.path / "files.json", sealed(told))
 
     def shared_files(self, study: str | None) -> tuple[dict[str, Fingerprint], int] | None:
-        """What ``files.json`` says: fingerprints, and the number of blocks."""
+        """Content of ``files.json``: fingerprints, and the number of blocks."""
         found = read_record(self.path / "files.json", ())
         if found is None or (study is not None and found.data.get("study") != study):
             return None
         return found.data["files"], found.data["blocks"]
 
     def markers(self, study: str | None) -> dict[int, dict[str, Any] | None]:
-        """What each marker says; None for one that is broken or of another study."""
+        """Content of each marker; None for a broken one or one of another study."""
         out: dict[int, dict[str, Any] | None] = {}
         for path in sorted((self.path / "done").glob("*.json")):
             if not (path.stem.isdecimal() and path.stem.isascii()):
@@ -542,7 +542,7 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
 
 
 def damage_words(path: Path, found: Found) -> str:
-    """What is damaged and made again, in one sentence; "" where nothing is."""
+    """Sentence on damaged blocks that are computed again; "" where there are none."""
     if not found.problems:
         return ""
     shown = "; ".join(found.problems[:SHOWN])
@@ -557,7 +557,7 @@ def _much(markers: Mapping[int, dict[str, Any] | None]) -> bool:
 
 
 def unchecked_words(path: Path, found: Found) -> str:
-    """What of a folder cannot be checked, and what to do about it; "" where all can."""
+    """Sentence on files that cannot be checked, and what to do; "" where all can."""
     if not found.unchecked:
         return ""
     return (

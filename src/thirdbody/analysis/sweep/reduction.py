@@ -30,7 +30,7 @@ SUMS |= {"max": np.max}
 
 @dataclass(frozen=True)
 class Reduction:
-    """What is kept of every cell.
+    """Reduction of the samples of every cell.
 
     A state without equilibrium, and a share of nothing (NaN), counts for no statistic; ``solved``
     says which part of the samples was solved.

@@ -105,7 +105,7 @@ def _into(data: Arrays, layout: Layout, plan: Plan, number: int, arrays: Arrays)
 
 
 def _where(plan: Plan, number: int) -> dict[str, slice]:
-    """Where a block lies, by dimension."""
+    """Slices of a block, by dimension."""
     return {dim.name: s for dim, s in zip(plan.dims, plan.region(number), strict=True)}
 
 
@@ -131,7 +131,7 @@ def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def _attributes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
-    """What a run says of itself, a line each."""
+    """Attributes of a run, one line each."""
     paths = (f"{word} ({count} states)" for word, count in summary["engine"].items())
     return {"warnings": "\n".join(all_notes(plan, notes, summary)), "engine": "\n".join(paths)}
 
@@ -248,7 +248,7 @@ def _carry_out(
     results: Callable[[Cost, Iterable[int]], Iterator[tuple[int, Result]]],
     progress: bool | Report,
 ) -> None:
-    """What is left of the study, under the lock."""
+    """Solve the blocks that are missing; the folder is locked."""
     path, name = folder.path, name_of(study)
     folder.remove_drafts()
     if not folder.says(study):

@@ -257,7 +257,7 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
 
 
 def as_uncertain(given: Any) -> Uncertain:
-    """What is known of an input: as it is told, by two ends, or as a ufloat."""
+    """Distribution of an input from a distribution, two ends, or a ufloat."""
     if isinstance(given, Uncertain):
         return given
     return Uncertain.from_ufloat(given) if is_uncertain(given) else _between(*given)

@@ -226,7 +226,7 @@ class Propagation(Record):
 
     @takes_units
     def at_load(self, at: int) -> Propagation:
-        """What is said of one of several loads."""
+        """Propagation at one of several loads."""
         need_place("at", at, np.size(self.loads))
         if np.ndim(self.loads) == 0:
             return self
@@ -614,7 +614,7 @@ class _Bands:
         self.crowded: list[float] = []
 
     def add(self, state: Arrays, middle: Arrays) -> None:
-        """One more load: states of the samples, and the nominal one."""
+        """Add one load: the states of its samples, and the nominal one."""
         for name, bands in self.bands.items():
             if name in CRITICAL and bands:
                 continue

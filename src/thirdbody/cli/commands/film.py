@@ -48,7 +48,7 @@ DROP = ("lambda", "on film")
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: Path = argument("A study file with a table [film].", "STUDY.toml")
     json: JsonFile = None
@@ -137,7 +137,7 @@ class _Found(NamedTuple):
         return sentences(self.result.natures)
 
     def rest(self) -> list[str]:
-        """What stands below the tables; the answer of an oil without particles holds the first."""
+        """Sentences below the tables; without particles in the oil the first is in the answer."""
         from ...views.film_words import summary
 
         return summary(self.result)[self.oil is None :]

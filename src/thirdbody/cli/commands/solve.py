@@ -65,7 +65,7 @@ Columns = dict[str, Callable[[int], str]]
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: StudyFile
     json: JsonFile = None

@@ -35,7 +35,7 @@ MEANS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     file: Path = argument(
         'A measured surface or profile (x3p, sur, al3d, npy, txt, ...), or the word "example".',
@@ -127,7 +127,7 @@ def _sheets(found: Any, result: dict[str, Any]) -> list[Sheet]:
 
 
 def _of_folder(folder: Path) -> list[Path]:
-    """What lies in the folder of --out in the end."""
+    """Names of the files that --out writes."""
     return [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]
 
 
