@@ -41,7 +41,7 @@ def one_surface(
     cap: str | float | None,
     effort: Effort,
     gaussian: bool,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """The sums of one surface at every separation, as plain data."""
     rng = np.random.default_rng(seed)
     inside = interface_of(contact, surface, seats=rule, cap=cap, rng=rng)

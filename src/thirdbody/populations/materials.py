@@ -346,13 +346,13 @@ def _text(name: str, entry: dict[str, Any]) -> str:
 
 
 @cache
-def _own_materials() -> dict[str, dict[str, Any]]:
+def _own_materials() -> dict[str, dict[str, object]]:
     text = resources.files("thirdbody").joinpath("data/materials.toml").read_text("utf-8")
     return tomllib.loads(text)
 
 
 # ------------------------------------------------------------------ files of one's own
-def _entries_of_file(file: Path) -> dict[str, dict[str, Any]]:
+def _entries_of_file(file: Path) -> dict[str, dict[str, object]]:
     """The entries of a file, in SI."""
     try:
         data = tomllib.loads(read_bytes(file, "a file of materials").decode("utf-8-sig"))
@@ -375,7 +375,7 @@ def _entries_of_file(file: Path) -> dict[str, dict[str, Any]]:
     return out
 
 
-def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, Any]:
+def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, object]:
     """An entry with its numbers in SI; mistakes are added to ``problems``."""
     known = (*NUMBERS, *_WORDS, "aliases", "range", "sources")
     out = dict(entry)

@@ -268,7 +268,7 @@ def differences(old: Mapping[str, object], new: Mapping[str, object]) -> dict[st
 def _flat(data: object, path: str = "") -> dict[str, Any]:
     if not isinstance(data, Mapping):
         return {path: data}
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for key, value in data.items():
         out |= _flat(value, f"{path}.{key}" if path else key)
     return out

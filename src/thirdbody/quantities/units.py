@@ -193,7 +193,7 @@ def _about_comma(text: str, shown: str) -> str:
     )
 
 
-def quantity_to_si(value: Any, about: Meant) -> float:
+def quantity_to_si(value: object, about: Meant) -> float:
     """One number in SI for a quantity; a hardness may be a number on a hardness scale.
 
     Parameters

@@ -330,8 +330,8 @@ class Value:
 
     def replace(self, **changes: object) -> Self:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
-        now: dict[str, Any] = {}
-        inner: dict[str, dict[str, Any]] = {}
+        now: dict[str, object] = {}
+        inner: dict[str, dict[str, object]] = {}
         names = {name for name, _, _ in _declarations(type(self))}  # type: ignore[arg-type]
         for key, value in changes.items():
             head, _, rest = key.partition(".")
@@ -423,7 +423,7 @@ class Value:
 
     def to_dict(self) -> dict[str, Any]:
         """Every field in SI, ready for JSON; ``type`` names the class."""
-        out: dict[str, Any] = {"type": type(self).__name__}
+        out: dict[str, object] = {"type": type(self).__name__}
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
             out[item.name] = plain_data(getattr(self, item.name))
         return out

@@ -68,7 +68,7 @@ class QuestionResult(MappedRecord):
         return tuple(dict.fromkeys((*self.asked.notes, *self.run_notes)))
 
     @abstractmethod
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, and their units."""
 
     @property
@@ -112,7 +112,7 @@ class AskedResult(QuestionResult):
         """Meanings as the columns declare them."""
         return {name: each.meaning for name, each in declared_columns(type(self)).items()}
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, and their units."""
         declared = declared_columns(type(self))
         columns = {name: plain_data(getattr(self, name)) for name in declared}

@@ -57,7 +57,7 @@ def _design(reader: Reader, path: str, data: Any) -> object:
 
 
 # -------------------------------------------------------------------------- what may be chosen
-def _vary(reader: Reader, path: str, given: object) -> dict[str, Any]:
+def _vary(reader: Reader, path: str, given: object) -> dict[str, object]:
     """Ranges and lists of materials by the names of the library."""
     if not isinstance(given, dict) or not given:
         rule = "must be a table, e.g. "

@@ -76,7 +76,7 @@ OF_SIZES = "weibull_shape"
 
 
 # -------------------------------------------------------------------------- sizes
-def _parts(reader: Reader, path: str, value: Any) -> object:
+def _parts(reader: Reader, path: str, value: object) -> object:
     """The components of a mixture, a list of tables."""
     if not (isinstance(value, list) and value):
         rule = 'must be a list of size distributions, e.g. [{ distribution = "monodisperse", '
@@ -84,7 +84,7 @@ def _parts(reader: Reader, path: str, value: Any) -> object:
     return reader.read_each({f"{path}.{i}": item for i, item in enumerate(value)}, _component)
 
 
-def _component(reader: Reader, path: str, data: Any) -> object:
+def _component(reader: Reader, path: str, data: object) -> object:
     return reader.variant(path, data, "distribution", DISTRIBUTIONS)
 
 
@@ -98,7 +98,7 @@ SHAPES = {"sphere": Sphere, "angular": Angular}
 ABOUT_SHAPE = 'sphere, or the table { kind = "angular", roundness = 0.25, angle = "25 deg" }'
 
 
-def _sphere(reader: Reader, path: str, value: Any) -> Sphere:
+def _sphere(reader: Reader, path: str, value: object) -> Sphere:
     if value == "sphere":
         return SPHERE
     raise wrong(path, f"must be {ABOUT_SHAPE}", value)
@@ -116,7 +116,7 @@ OWN = ("sigma_0", "x_0", "at", "m")
 """Keys of a strength of one's own; a table without them changes that of the material."""
 
 
-def _of_material(reader: Reader, path: str, value: Any) -> dict[str, object]:
+def _of_material(reader: Reader, path: str, value: object) -> dict[str, object]:
     """The strength that the material has, and nothing of one's own."""
     if value != "material":
         raise wrong(path, NO_STRENGTH, value)
@@ -137,7 +137,7 @@ def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[st
             rule = "both are the size of the test; keep one of them"
             reader.mistakes.append(clash(path, data, ("at", "x_0"), rule))
 
-    def build(values: dict[str, Any]) -> WeibullStrength | dict[str, Any]:
+    def build(values: dict[str, object]) -> WeibullStrength | dict[str, Any]:
         if "at" in values:
             values["x_0"] = values.pop("at")
         return values if of_material else reader.make(WeibullStrength, path, values)
@@ -155,7 +155,7 @@ STRENGTH = Key(
 )
 
 
-def with_strength(particles: Particles, path: str, asked: Any) -> Particles:
+def with_strength(particles: Particles, path: str, asked: object) -> Particles:
     """The particles, with the strength of their material where the file says so."""
     if not isinstance(asked, dict):
         return particles
@@ -169,7 +169,7 @@ def with_strength(particles: Particles, path: str, asked: Any) -> Particles:
 # -------------------------------------------------------------------------- populations
 
 
-def populations(whole: Mapping[str, Any]) -> dict[str, Any]:
+def populations(whole: Mapping[str, object]) -> dict[str, Any]:
     """The tables of all populations of a file by their paths, particles or particles.0, ..."""
     given = whole.get("particles")
     if isinstance(given, list) and given:

@@ -52,7 +52,7 @@ class AskedPlate:
         return describe("plate.", self.chuck)
 
 
-def _plate(reader: Reader, path: str, data: Any) -> Any:
+def _plate(reader: Reader, path: str, data: object) -> Any:
     """The plate of [plate], as a table of arguments."""
     return reader.table(path, data, keys_of(Chuck) | {"grain": amounts("grain", GRAIN)})
 

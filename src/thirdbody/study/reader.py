@@ -437,7 +437,7 @@ def amounts(name: str, about: Quantity, *, sampled: bool = False) -> Key:
     return Key(partial(_amounts, about), False, about_of(name, about), schema, table)
 
 
-def _amounts(about: Quantity, reader: Reader, path: str, value: Any) -> np.ndarray:
+def _amounts(about: Quantity, reader: Reader, path: str, value: object) -> np.ndarray:
     if not isinstance(value, list):
         return np.array([read_number(about, reader, path, value)])
     if not value:
@@ -489,7 +489,7 @@ def _problems_of_ends(about: Quantity, path: str, data: Any, log: bool) -> list[
     return problems
 
 
-def is_span(values: Any) -> bool:
+def is_span(values: object) -> bool:
     """Whether this is what a range to sample is read as."""
     return isinstance(values, dict) and set(values) == {"low", "high", "scale"}
 

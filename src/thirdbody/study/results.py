@@ -34,7 +34,7 @@ EYRING = "Eyring 1936, J. Chem. Phys. 4, 283, doi:10.1063/1.1749836"
 
 __all__ = ["Entrained", "FilmResult", "Passing", "StudyResult"]
 
-Columns = dict[str, list[Any]]
+Columns = dict[str, list[object]]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -58,7 +58,7 @@ class ExplicitResult:
     """
 
     data: dict[str, Any]
-    columns: dict[str, list[Any]]
+    columns: dict[str, list[object]]
     units: dict[str, str]
     state: ExplicitState
     converged: bool

@@ -84,7 +84,7 @@ def _syntax(path: Path, text: str, message: str) -> str:
 
 
 # -------------------------------------------------------------------------- keys set over a file
-def override(data: dict[str, Any], overrides: Iterable[str]) -> dict[str, object]:
+def override(data: dict[str, object], overrides: Iterable[str]) -> dict[str, object]:
     """The data with keys set; one of several exclusive keys drives out the others.
 
     Tables of one name, ``[[particles]]``, and items of a list are numbered from 0:
@@ -106,7 +106,7 @@ def override(data: dict[str, Any], overrides: Iterable[str]) -> dict[str, object
     return data
 
 
-def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
+def _set(data: dict[str, object], keys: list[str], value: object) -> None:
     table: Any = data
     for depth, key in enumerate(keys):
         where = ".".join(keys[:depth])
@@ -121,7 +121,7 @@ def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
             table = table.setdefault(place, {})
 
 
-def _place(table: Any, where: str, key: str, rest: list[str]) -> Any:
+def _place(table: object, where: str, key: str, rest: list[str]) -> Any:
     """The key of a table, or the number of an item of a list."""
     if isinstance(table, list):
         if key.isdecimal() and int(key) < len(table):

@@ -145,7 +145,7 @@ def _lengths(
     return lengths
 
 
-def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool) -> list[Path]:
+def _write_surface(folder: Path, found: Any, result: dict[str, object], force: bool) -> list[Path]:
     import matplotlib as mpl
 
     from ...quantities.files import make_folder, whole, write_text
