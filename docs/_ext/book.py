@@ -49,7 +49,7 @@ def inputs(value):
     rows = []
     for item in dataclasses.fields(value):
         if about := item.metadata.get("quantity"):
-            allowed = allowed_range(about).split("[")[0].removeprefix("must be ").strip()
+            allowed = allowed_range(about).split("[")[0].strip()
             if item.default is not dataclasses.MISSING:
                 default = "optional" if item.default is None else f"default {item.default:g}"
                 allowed = f"{allowed}; {default}" if allowed else default

@@ -335,9 +335,7 @@ def test_particles_of_one_size_that_break_are_for_the_numpy_engine():
     case = contact(sizes="one size")
     strong = case.replace(particles=case.particles.replace(strength=STRENGTH))
     with pytest.raises(NotCompiled, match="break"):
-        own_columns(
-            strong, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6)
-        )
+        own_columns(strong, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
 
 
 CLASSES = {

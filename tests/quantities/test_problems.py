@@ -11,7 +11,7 @@ from steel_and_dust import DUSTY as CONTACT
 
 import thirdbody as tb
 from thirdbody.errors import Problem
-from thirdbody.study.overrides import override
+from thirdbody.study.toml import override
 from thirdbody.study.whole import check
 
 SRC = Path(tb.__file__).parent

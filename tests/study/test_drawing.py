@@ -12,7 +12,7 @@ from thirdbody.analysis.uncertainty.inputs import stated_ranges
 from thirdbody.errors import InvalidValue
 from thirdbody.populations.finish import processes, slopes
 from thirdbody.study import check
-from thirdbody.study.overrides import override
+from thirdbody.study.toml import override
 
 BODIES = """
 [surfaces]

@@ -14,7 +14,7 @@ from thirdbody.quantities.say import percent
 from thirdbody.reference import elliptic_hertz
 from thirdbody.study import check, run_film, run_study
 from thirdbody.study.analyses import assess_study
-from thirdbody.study.overrides import override
+from thirdbody.study.toml import override
 from thirdbody.systems.bodies import (
     BODIES,
     BallInGroove,

@@ -210,7 +210,7 @@ def assess_each(
 
 
 class _Work:
-    """What an assessment tells while it goes on: what it costs, how far it is, first results.
+    """Progress of an assessment: its cost, how far it is, and first results.
 
     Contacts that share what they are made of are not bound one by one, and so not counted.
     """
@@ -280,7 +280,7 @@ class _Work:
         states = count * len(held) + CRITICAL_COST * self.critical
         self.progress.cost(states, seconds, "states")
 
-    def first(self, load: str, held: Sequence[float], own: Sequence[Any]) -> None:
+    def first(self, load: str, held: Sequence[float], own: Sequence[object]) -> None:
         """The mode at each load, before anything is varied."""
         modes = [state.mode or "none" for state in own if isinstance(state, _Own)]
         unit = "Pa" if load == "pressure" else "1"
@@ -309,7 +309,7 @@ EACH_COSTLY = 10
 
 
 class _Own(NamedTuple):
-    """The state with the contact's own inputs: its mode, and what is to be said of it."""
+    """Nominal state: its mode, and notes on it."""
 
     mode: str
     notes: list[str]
@@ -334,7 +334,7 @@ def _page(
     notes: list[str],
     slopes: dict[str, dict[str, float]],
 ) -> Assessment | NoEquilibrium:
-    """The page of one load, but for what would change its mode; ``slopes`` are those known."""
+    """Assessment at one load, without its ``changes``; ``slopes`` caches elasticities."""
     if found.solved == 0:
         return NoEquilibrium("no sample has an equilibrium; check the unit of the load")
     decisive = _decisive(found)
@@ -364,7 +364,7 @@ TINY = 1e-3
 
 
 def _whence(contact: Contact, vary: Iterable[str]) -> list[str]:
-    """Where ranges come from that the caller has not given."""
+    """Sources of the ranges that the caller left out."""
     out = []
     for source, finished in (
         ("the materials library", False),
@@ -382,7 +382,7 @@ EXPONENT = "particles.strength.size_exponent"
 
 
 def about_fragments(contact: Contact, load: Load[float]) -> list[str]:
-    """What it is worth that nobody has measured what pieces of broken particles bear."""
+    """Effect of the strength of fragments, which nobody has measured."""
     if all(each.strength is None for each in contact.populations):
         return []
     said = []
@@ -574,7 +574,7 @@ Way = tuple[int, str, int]
 def _departures(
     pages: Sequence[Assessment], ways: Mapping[Way, tuple[Drawn, Array]]
 ) -> tuple[dict[Way, tuple[float, float, str]], dict[Way, Stop]]:
-    """The step at which the first other mode comes, and that mode, on each way that has one.
+    """First other mode along each direction that has one, and the step where it begins.
 
     Then, on each way that ends before, the last value that is not refused.
     """

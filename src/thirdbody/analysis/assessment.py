@@ -68,7 +68,7 @@ class Change(NamedTuple):
 
 
 class Stop(NamedTuple):
-    """Where the search along one input ends, as the contact beyond is refused."""
+    """End of the search along one input: beyond it the contact is refused."""
 
     input: str
     value: float
@@ -324,7 +324,7 @@ class Assessment:
         return f"the {OUTPUTS[self.decisive].meaning}"
 
     def load_changes(self) -> list[tuple[float, str]]:
-        """Loads [Pa] beyond which the mode is another one, and that mode."""
+        """Loads [Pa] at which the mode changes, and the mode beyond."""
         found = self.propagation
         out = []
         for name, modes in (("F_cr1", ("p-s", "hybrid")), ("F_cr2", ("hybrid", "s-s"))):
@@ -366,7 +366,7 @@ class Assessment:
         return tuple(out)
 
     def stops_words(self) -> list[str]:
-        """Where the search for another mode ends before a factor of 10, in sentences."""
+        """Sentences on inputs whose search for another mode ends before a factor of 10."""
         out = []
         for stop in self.stops:
             unit, value = (
@@ -382,7 +382,7 @@ class Assessment:
         return out
 
     def basis(self) -> tuple[str, ...]:
-        """What the page rests on, in sentences."""
+        """Sentences on the laws, ranges and sources of the assessment."""
         from ..version import __version__
 
         found = self.propagation
@@ -409,7 +409,7 @@ WORDS = ("where", "result", "input", "what alone changes")
 """Columns of words, which may break."""
 
 
-def printed(title: str, sections: list[Section], more: str, legend: dict[str, str]) -> Any:
+def printed(title: str, sections: list[Section], more: str, legend: dict[str, str]) -> object:
     """A page for a terminal."""
     from rich.console import Group
 

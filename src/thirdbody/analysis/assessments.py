@@ -82,7 +82,7 @@ class Assessments:
         return parts
 
     def _basis(self) -> tuple[str, ...]:
-        """What holds for all, then what holds at one load."""
+        """Sentences on all loads, then on single ones."""
         each = [page.basis() for page in self.pages]
         common = [said for said in each[0] if all(said in other for other in each)]
         own = [

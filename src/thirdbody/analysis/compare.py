@@ -171,7 +171,7 @@ class Comparison:
     attrs: dict[str, Any]
     """Own law, hardness, inputs, version, citations, warnings."""
 
-    def flat(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def flat(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns with a row for each law and load, and their units; None where there is none."""
         shape = len(self.laws), len(self.loads[self.load])
         both = {name: np.broadcast_to(values, shape) for name, values in self.loads.items()}
@@ -289,7 +289,7 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persso
     own = contact.asperity_law
     by_year = sorted(REGISTRY.values(), key=lambda law: (law.year, law.name))
     if laws is None:
-        asked: list[Any] = [law.name for law in by_year if not _special(law)]
+        asked: list[object] = [law.name for law in by_year if not _special(law)]
         asked += [Persson.name] if contact.two_body else []
     elif isinstance(laws, (str, AbstractAsperityLaw)):
         asked = [laws]
@@ -470,7 +470,7 @@ def csv_text(table: xarray.Dataset) -> str:
     return csv_of(with_units(plain, units))
 
 
-def flat(laws: list[str], columns: dict[str, Any], notes: list[str]) -> dict[str, list[Any]]:
+def flat(laws: list[str], columns: dict[str, Any], notes: list[str]) -> dict[str, list[object]]:
     """Columns (laws, N) with a row for each law and load; None where nothing is to be told."""
     each = len(columns["A_t"][0])
     rows = {"law": [law for law in laws for _ in range(each)]}

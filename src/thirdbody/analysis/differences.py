@@ -122,7 +122,7 @@ class Entry(NamedTuple):
 
 
 def _entries(total: Slope, size: Array, scale: Any, doubtful: float) -> list[Entry]:
-    """What to tell of derivatives (M, C) over ``scale``, with columns of this size."""
+    """Notes on derivatives (M, C) over ``scale``, for columns of this size."""
     value, error, _, below, above = (part / scale for part in total)
     error = np.abs(error)
     status = np.full(value.shape, "ok", dtype=object)

@@ -16,6 +16,7 @@ from ..equilibrium.states import carries, unknown_inputs, varied
 from ..errors import InvalidValue, Problem
 from ..populations.roughness import ETA_R_SIGMA
 from ..quantities.say import join_words
+from ..quantities.units import Quantity
 from ..quantities.value import Value
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ def _scale(contact: Contact, name: str, value: float, where: str) -> float:
     return scale
 
 
-def declared(contact: Contact, name: str) -> dict[str, Any]:
+def declared(contact: Contact, name: str) -> Quantity:
     """Symbol, unit and range of an input."""
     path, _, last = name.rpartition(".")
     owner = contact.value_at(path)
@@ -154,7 +155,7 @@ def words_of(contact: Contact, label: str) -> str:
 
 
 def _words_and_owner(contact: Contact, name: str) -> tuple[str, str]:
-    """What a number is, and whose."""
+    """Meaning of a number, and the body that it belongs to."""
     if name in WHOLE:
         return WHOLE[name], ""
     try:

@@ -139,7 +139,7 @@ class Sensitivity(Record):
         return "\n".join("  ".join(line) for line in lines)
 
     @takes_units
-    def ufloats(self, vary: Mapping[str, Any]) -> dict[str, Any]:
+    def ufloats(self, vary: Mapping[str, Any]) -> dict[str, object]:
         r"""Every result as a number with the uncertainty that its inputs give it, to first order.
 
         .. math:: c = c_0 + \sum_i \frac{\mathrm dc}{\mathrm dp_i}\,(p_i - p_{i,0})
@@ -232,7 +232,7 @@ def _default_inputs(contact: Contact) -> list[str]:
         side, _, last = name.rpartition(".")
         body = side in ("surfaces.first", "surfaces.second") or side.endswith(".material")
         if body and last == "H":
-            key: Any = ("H", value)
+            key: object = ("H", value)
         elif body and alike and value and not side.endswith(".material"):
             key = (last, "surfaces")
         else:
@@ -383,7 +383,7 @@ def sensitivity(
 
 
 def _labels(contact: Contact, to: str | Sequence[str] | None, load: str) -> list[str]:
-    """What is moved: the names of ``to``, or every input and the load."""
+    """Names of the inputs that are varied: those of ``to``, or every input and the load."""
     if to is None:
         return _default_inputs(contact) + [load] * bool(load)
     labels = [to] if isinstance(to, str) else list(to)

@@ -115,7 +115,7 @@ class Entries:
         else:
             self.text(place, field)
 
-    def text(self, place: Place, field: Field, to: Callable[[Any], None] | None = None) -> Any:
+    def text(self, place: Place, field: Field, to: Callable[[object], None] | None = None) -> Any:
         """An entry that is written: the study changes when typing pauses."""
         set_to = to or (lambda value: self.state.set(*place, value))
         read, show = (
@@ -140,7 +140,7 @@ class Entries:
     def as_text(self, name: str) -> None:
         """A table as it stands in the file, its mistakes below."""
 
-        def read(text: str) -> Any:
+        def read(text: str) -> object:
             given = from_toml(text)
             if other := [key for key in given if key != name]:
                 raise InvalidValue(f"here stands [{name}] alone, not {', '.join(other)}")
@@ -152,7 +152,7 @@ class Entries:
             except InvalidValue:
                 self.state.announce_change()  # which reads it again, to put the mistake beside it
 
-        def show(table: Any) -> str:
+        def show(table: object) -> str:
             return "" if table is None else to_toml({name: table})
 
         entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
@@ -167,7 +167,7 @@ class Entries:
         self,
         place: Place | None,
         options: dict[str, str],
-        now: Any,
+        now: object,
         label: str,
         then: Callable[[Any], None] | None = None,
         hint: str = "",
@@ -246,7 +246,7 @@ class Entries:
         if blank is not None:
             words = {"": blank, **words}
 
-        def then(value: Any) -> None:
+        def then(value: object) -> None:
             self.change(*place, {tag: value} if value else None)
 
         chosen = word or ("" if blank is not None else default)

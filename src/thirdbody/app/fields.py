@@ -13,12 +13,11 @@ import thirdbody as tb
 from ..errors import InvalidValue
 from ..populations.measured import cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS
-from ..quantities.units import comma_may_part_thousands, quantity_to_si
+from ..quantities.units import Quantity, comma_may_part_thousands, quantity_to_si
 from ..quantities.value import allowed_range
 from ..study import DISTRIBUTIONS, HEIGHTS, LOADS
 from ..study.fields import declarations
-from ..study.grains import SHAPES
-from ..study.particles import AMOUNT, COUNTED
+from ..study.particles import AMOUNT, COUNTED, SHAPES
 from ..study.reader import FIELDS
 from ..study.schema import Describer
 from ..study.tables import TABLES
@@ -74,7 +73,7 @@ class Field:
     label: str
     about: str
     options: tuple[str, ...] = ()
-    quantity: dict[str, object] | None = None
+    quantity: Quantity | None = None
     default: Any = None
 
 
@@ -119,13 +118,11 @@ def known_keys(study: dict[str, object], name: str) -> dict[str, dict[str, str]]
     return {path: keys for path, keys in found.items() if path}
 
 
-def number_field(
-    name: str, about: dict[str, object], default: object = None, needed: bool = True
-) -> Field:
+def number_field(name: str, about: Quantity, default: object = None, needed: bool = True) -> Field:
     """The field of a quantity."""
     symbol = f" {about['symbol']}" if about["symbol"] != name else ""
     unit = f" [{about['unit']}]" if about["unit"] != "1" else ""
-    allowed = allowed_range(about).removeprefix("must be ")
+    allowed = allowed_range(about)
     said = f"{about['meaning']}; {allowed}"
     if default is not None:
         said += f"; {text_of(default)} when left out"
@@ -203,7 +200,7 @@ def text_of(value: object) -> str:
 DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+(?:[eE][+-]?\d+)?\s*(?:[^\d\s,][^,]*)?)")
 
 
-def value_from(text: str, *, one: bool = False) -> Any:
+def value_from(text: str, *, one: bool = False) -> object:
     """What a user wrote: numbers as numbers, tables and lists as in TOML, text as text.
 
     A comma inside a number is a decimal one where ``one`` value is asked for, and where a unit
@@ -226,7 +223,7 @@ def value_from(text: str, *, one: bool = False) -> Any:
     return value_of(text)
 
 
-def number_of(value: object, about: dict[str, object]) -> float:
+def number_of(value: object, about: Quantity) -> float:
     """The number in SI that an entry stands for; NaN where it stands for none."""
     try:
         return quantity_to_si(value, about)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from nicegui import events, ui
 
 import thirdbody as tb
@@ -258,7 +256,7 @@ class Inputs(ParticleInputs):
             ),
         )
         if kind == "force":
-            one: Any = LOADS_BEGUN[kind]
+            one: object = LOADS_BEGUN[kind]
         else:
             one = self.state.operating_load if self.state.answer is not None else 1e-5
         single = ui.button("One value", on_click=lambda: self.change("load", {kind: one}))

@@ -6,12 +6,12 @@ import copy
 import tomllib
 from collections.abc import Callable
 from importlib import resources
-from typing import Any
 
 from nicegui import ui
 
 from ..errors import InvalidValue, ThirdBodyError
 from ..populations.finish import STATED, processes
+from ..quantities.units import Quantity
 from ..study.bearing_file import bearing_file
 from ..study.load import FORCE, force_sentences
 from ..study.particles import AMOUNT
@@ -344,9 +344,8 @@ class NewStudy:
         self.opened("film" if self.draft.get("film") is not None else "interface")
 
 
-def _density() -> dict[str, object]:
+def _density() -> Quantity:
     import thirdbody as tb
 
-    about: Any = tb.Particles.__dataclass_fields__["areal_density"].metadata["quantity"]
-    found: dict[str, object] = about
-    return found
+    about: Quantity = tb.Particles.__dataclass_fields__["areal_density"].metadata["quantity"]
+    return about

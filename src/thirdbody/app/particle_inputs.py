@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 from nicegui import ui
 
@@ -20,7 +20,7 @@ SIZES = (*VARIANTS["distribution"], *COUNTED)
 AMOUNTS = ("gap", "particle_density", "oil_density")
 
 
-def bins_in_words(given: dict[str, Any]) -> str:
+def bins_in_words(given: Mapping[str, object]) -> str:
     """What a counter found, in a few words.
 
     >>> bins_in_words({"edges": [1e-6, 2e-6, 4e-6], "counts": [5, 1]})
@@ -92,7 +92,7 @@ class ParticleInputs(Entries):
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
 
-    def _counted(self, place: Place, kind: str, given: Any) -> None:
+    def _counted(self, place: Place, kind: str, given: object) -> None:
         """A code, or what a counter found, and their options."""
         if isinstance(given, dict):  # dropped on the page
             ui.label(f"{kind}: {bins_in_words(given)}").classes("hint")
@@ -129,7 +129,7 @@ class ParticleInputs(Entries):
         if isinstance(shape := table.get("shape"), dict) and word != "weibull":
             kept["shape"] = shape
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
-        starts: dict[str, dict[str, Any]] = {
+        starts: dict[str, dict[str, object]] = {
             "iso4406": {"iso4406": "18/16/13", "gap": table.get("gap", "1 um")},
             "as4059": {"as4059": "6", "gap": table.get("gap", "1 um")},
             "nas1638": {"nas1638": "6", "gap": table.get("gap", "1 um")},

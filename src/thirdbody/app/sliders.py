@@ -15,6 +15,7 @@ import thirdbody as tb
 
 from ..populations.finish import STATED
 from ..quantities.say import value_of
+from ..quantities.units import Quantity
 from ..study.load import FORCE
 from .fields import engineering, number_of
 from .inputs import Inputs
@@ -246,7 +247,7 @@ class Sliders:
 
         return Knob("force", "load.force", read, write, lambda v: value_of(v, "N"))
 
-    def _rough(self, label: str, name: str, about: dict[str, object]) -> Knob:
+    def _rough(self, label: str, name: str, about: Quantity) -> Knob:
         """A length of the roughness."""
 
         place = ("roughness", *name.split("."))

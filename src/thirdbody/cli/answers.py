@@ -31,7 +31,7 @@ def read_question(
     *,
     force: bool,
 ) -> Asked:
-    """What a study file asks, and places for the files of its answer."""
+    """Question of a study file, after a check of the files to be written."""
     from ..quantities.files import refuse_clashes
     from ..study.whole import files_of
 

@@ -96,7 +96,7 @@ def leave() -> None:
 
 
 def interruption(error: BaseException | None) -> Interrupted | None:
-    """What an error came of, where that is Ctrl-C."""
+    """Ctrl-C as the cause of an error; None where it is not."""
     while error is not None and not isinstance(error, Interrupted):
         error = error.__context__
     return error

@@ -136,7 +136,7 @@ def argument(
 
 
 def parameters_of(command: Callable[..., None]) -> list[inspect.Parameter]:
-    """What a command is told, one parameter an option, where it takes a record of them too."""
+    """Parameters of a command, one for each option, where it takes a record of them."""
     own = inspect.signature(command, eval_str=True).parameters
     if "options" not in own:
         return list(own.values())

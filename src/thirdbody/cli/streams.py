@@ -75,7 +75,7 @@ LEAST = 40
 class Commands(TyperGroup):
     """Turns errors and warnings of every command into lines on standard error."""
 
-    def invoke(self, ctx: Any) -> Any:
+    def invoke(self, ctx: Any) -> object:
         with warnings.catch_warnings():
             warnings.showwarning = warn
             try:
@@ -197,7 +197,7 @@ def answer_first() -> Iterator[None]:
 
 @contextlib.contextmanager
 def at_once() -> Iterator[None]:
-    """What is said inside waits for no answer."""
+    """Context whose notes are printed at once and do not wait for the answer."""
     before = HELD.set(None)
     try:
         yield
@@ -230,7 +230,7 @@ def warn(message: Warning | str, *_: object, **__: object) -> None:
 
 
 def warn_of(notes: Iterable[str]) -> None:
-    """What an answer leaves open: what matters most to it, and how much more there is.
+    """Print the notes of an answer: those that matter most, and how many more there are.
 
     What was said of the inputs counts among the most that are shown; the worst is always shown.
     """
@@ -316,7 +316,7 @@ class TableFiles(NamedTuple):
         units: Mapping[str, str],
         *,
         sheets: Callable[[], Sequence[Sheet]] | None = None,
-        data: Callable[[], Any] | None = None,
+        data: Callable[[], object] | None = None,
     ) -> None:
         """A column each, its unit in its name, a row a state; the same bytes every time.
 
@@ -333,7 +333,7 @@ class TableFiles(NamedTuple):
         from ..quantities.files import csv_of, with_units
 
         named = with_units(columns, units)
-        made: dict[Path, Callable[[Path], Any]] = {}
+        made: dict[Path, Callable[[Path], object]] = {}
         if self.csv is not None:
             made[self.csv] = partial(Path.write_bytes, data=csv_of(named).encode())
         if self.xlsx is not None:
@@ -359,7 +359,7 @@ class TableFiles(NamedTuple):
             print(said)
 
 
-def write_together(files: Mapping[Path, Callable[[Path], Any]]) -> None:
+def write_together(files: Mapping[Path, Callable[[Path], object]]) -> None:
     """Write several files, each whole, and none where one cannot be written.
 
     Parameters
@@ -376,14 +376,14 @@ def write_together(files: Mapping[Path, Callable[[Path], Any]]) -> None:
                 files[path](draft)
 
 
-def _write_parquet(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:
+def _write_parquet(path: Path, columns: Mapping[str, Sequence[object]]) -> None:
     import pandas
 
     pandas.DataFrame(columns).to_parquet(path, engine="pyarrow", index=False)
 
 
 def figure_format(figure: Path) -> str:
-    """What a figure is written as, by the end of its name."""
+    """Format of a figure, by the suffix of its name."""
     kind = figure.suffix.lstrip(".").lower() or "png"
     if kind not in ("png", "svg", "pdf"):
         raise InvalidValue(f"--figure {figure} must end in .png, .svg or .pdf")

@@ -91,18 +91,21 @@ class Contact(Value):
             out.append(
                 Problem("particles", "must be Particles, several, or None", repr(self.particles))
             )
-        out = out or self._population_problems()
+        if out:
+            return out
+        laws, out = self._laws_of_populations()
         if not out and self.roughness.ellipticity is not None:
             out += _shape_problems(self.asperity_law)
         if not out:
-            laws = [self.law_of(each) for each in self.populations]
             out += self.asperity_law.problems(self.roughness, laws)
-        return out or problems_of(self.outputs, self)
+        return out or (problems_of(self.outputs, self) if self.outputs else [])
 
-    def _population_problems(self) -> list[str]:
-        """Mistakes that concern several populations."""
+    def _laws_of_populations(self) -> tuple[list[AbstractParticleLaw], list[str]]:
+        """The law of every population, and mistakes that concern several populations."""
+        laws: list[AbstractParticleLaw] = []
         out: list[str] = []
-        covered = sum(each.coverage for each in self.populations)
+        places = self.places
+        covered = sum(each.coverage for each in places.values())
         if covered >= 1:
             out.append(
                 Problem(
@@ -111,7 +114,7 @@ class Contact(Value):
                     "nominal area and it must stay below 1",
                 )
             )
-        for place, each in self.places.items():
+        for place, each in places.items():
             if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
                 allowed = "must be a particle law, e.g. " + Advice(
                     "particle.Series(seat='plane')", '{ name = "series", seat = "plane" }'
@@ -123,11 +126,12 @@ class Contact(Value):
             except InvalidValue as error:
                 out += [_of_population(one, place, each) for one in error.problems]
                 continue
+            laws.append(law)
             if each.strength is not None and not law.breakable:
                 rule = f": particles of the law {law.name} do not break"
                 hint = "use " + SERIES + ", or remove strength"
                 out.append(_of_population(Problem("strength", rule, hint=hint), place, each))
-        if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
+        if not out and len({law.centre for law in laws}) > 1:
             out.append(
                 Problem(
                     "particles",
@@ -135,15 +139,12 @@ class Contact(Value):
                     "others); give all of them one kind of law",
                 )
             )
-        return out
+        return laws, out
 
     @property
     def populations(self) -> tuple[Particles, ...]:
         """The populations of particles that have a density."""
-        if self.particles is None:
-            return ()
-        given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
-        return tuple(each for each in given if each.areal_density > 0)
+        return tuple(self.places.values())
 
     @property
     def places(self) -> dict[str, Particles]:

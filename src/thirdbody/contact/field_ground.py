@@ -19,6 +19,7 @@ minus that distance, as the mean plane sinks with the nominal pressure and nothi
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 

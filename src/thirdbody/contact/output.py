@@ -112,22 +112,21 @@ GIVE_OUTPUTS = Advice("give outputs, e.g. outputs.Counts()", "give tables, e.g. 
 
 
 def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
-    """Mistakes in the outputs of a contact."""
+    """Mistakes in the outputs of a contact that has some."""
     wrong = [each for each in outputs if not isinstance(each, AbstractOutput)]
     if wrong:
         return [Problem("outputs", f"holds {each!r}", hint=GIVE_OUTPUTS) for each in wrong]
-    if outputs:
-        laws = {law.name: law for law in map(contact.law_of, contact.populations)}
-        if unknown := [name for name, law in laws.items() if not law.knows_each]:
-            return [
-                Problem(
-                    "outputs",
-                    f": the particle law {name} knows loads and areas of all particles together, "
-                    "not how deep one of them sits",
-                    hint="take " + SERIES + " or " + FLAKES + ", or remove the outputs",
-                )
-                for name in unknown
-            ]
+    laws = {law.name: law for law in map(contact.law_of, contact.populations)}
+    if unknown := [name for name, law in laws.items() if not law.knows_each]:
+        return [
+            Problem(
+                "outputs",
+                f": the particle law {name} knows loads and areas of all particles together, "
+                "not how deep one of them sits",
+                hint="take " + SERIES + " or " + FLAKES + ", or remove the outputs",
+            )
+            for name in unknown
+        ]
     names = [each.name for each in outputs]
     if len(set(names)) < len(names):
         return [Problem("outputs", f"names {', '.join(names)}: each output once")]

@@ -18,6 +18,7 @@ that asperities close it is at least w_0 P_clean and at most P_clean.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 

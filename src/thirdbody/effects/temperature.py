@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -386,7 +387,7 @@ class _Counted(NamedTuple):
 
     @staticmethod
     def from_spots(
-        spots: Any, T: list[Array], weight: Callable[[Any], Array], states: int
+        spots: Any, T: list[Array], weight: Callable[[object], Array], states: int
     ) -> _Counted:
         parts = [t[each.load > 0] for each, t in zip(spots, T, strict=True)]
         known = np.concatenate([*parts, np.zeros(0)])

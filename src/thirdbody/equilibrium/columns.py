@@ -17,6 +17,7 @@ from ..errors import InvalidValue
 from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Column, StateRecord, column, declared_columns
+from ..quantities.units import Quantity
 from ..version import __version__
 from .modes import EPS_1, EPS_2, MODES, Basis, need_shares
 from .status import WORDS
@@ -203,7 +204,7 @@ def about(name: str) -> Column:
     return COLUMNS.get(name) or output_column(name)
 
 
-def quantity_of(contact: Contact, name: str) -> dict[str, Any] | None:
+def quantity_of(contact: Contact, name: str) -> Quantity | None:
     """Symbol, unit and range of an input by its dotted name."""
     path, _, last = name.rpartition(".")
     try:

@@ -43,7 +43,7 @@ from ..version import __version__
 from .interface import Map, cap_of, map_of
 from .pooling import COMPARED, RATIOS, SHARES, AtLoads, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
-from .solve import FEW, TOL, Cap
+from .solve import FEW, TOL, Cap, Effort
 from .sums import one_surface, places
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class Ensemble:
     table: xarray.Dataset = field(repr=False)
     at_h: xarray.Dataset = field(repr=False)
     seats: SeatHeights
-    states: dict[str, list[Any]] = field(repr=False)
+    states: dict[str, list[object]] = field(repr=False)
     surfaces: int
     left_out: int
     warnings: tuple[str, ...] = ()
@@ -376,13 +376,12 @@ class _Task:
         own = surface_of(self.contact, size=self.size, spacing=self.spacing, seed=self.seed)
         return map_of(own, None)
 
-    def __call__(self) -> dict[str, Any]:
+    def __call__(self) -> dict[str, object]:
         """Record of one surface, as `one_surface` makes it."""
         need_version(self.version, "ensemble")
         return one_surface(
             self.contact, self.map(), self.rule, self.grid, self.seed, cap=self.cap,
-            tol=self.tol, max_iterations=self.max_iterations, workers=1,
-            gaussian=self.surface is None,
+            effort=Effort(self.tol, self.max_iterations), gaussian=self.surface is None,
         )  # fmt: skip
 
 
@@ -441,7 +440,7 @@ def _ensemble(
     seats = pooled_seats([each["zeta"] for each in records])
     model = counterpart(contact, seats)
     state = statistical(model, F_star=loads)
-    at_h: dict[str, Any] = {name: ("h", values, {}) for name, values in pool.totals().items()}
+    at_h: dict[str, object] = {name: ("h", values, {}) for name, values in pool.totals().items()}
     for name, values in pool.ratios(contact.surfaces.H).items():
         at_h[name] = ("h", values, {"long_name": RATIOS[name]})
     left_out = int(np.sum(~pool.good))
@@ -473,7 +472,7 @@ def _ensemble(
             )
     told += at["cv" if gaussian else "raw"].doubts(loads, columns="_cv" if gaussian else "")
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
-    columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
+    columns: dict[str, list[object]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
         columns[name] = [value for each in records for value in each["columns"][name]]
     return Ensemble(
@@ -507,7 +506,7 @@ def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> li
     ]
 
 
-def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, Any]:
+def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, object]:
     """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
     table: dict[str, Any] = {}
     for kind, at in told.items():
@@ -551,7 +550,7 @@ def _separations(model: Contact, loads: Array, sigma: float) -> Array:
 
 
 def _key(
-    contact: Contact, given: Any, rule: AbstractSeats, numbers: tuple[Any, ...], grid: Array
+    contact: Contact, given: Any, rule: AbstractSeats, numbers: tuple[object, ...], grid: Array
 ) -> str:
     """What a finished surface was made for."""
     text = json.dumps([contact.replace(outputs=()).to_dict(), rule.to_dict(), numbers[1:],

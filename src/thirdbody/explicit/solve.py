@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -34,6 +34,20 @@ if TYPE_CHECKING:
 __all__ = ["solve"]
 
 TOL, ITERATIONS = 1e-6, 300
+
+
+class Effort(NamedTuple):
+    """How exactly a flat is pressed, and on how many threads."""
+
+    tol: float = TOL
+    """Certificate at which to stop."""
+    max_iterations: int = ITERATIONS
+    single: bool = False
+    """Whether FFTs are in single precision."""
+    workers: int = 1
+    """Threads of the FFTs."""
+
+
 FEW = 20
 """Points below which an answer is theirs."""
 DENSE = 0.5
@@ -55,8 +69,8 @@ def solve(
     F_star: ArrayLike | None = None,
     h: ArrayLike | None = None,
     spacing: float | None = None,
-    seats: Any = "random",
-    particles: Mapping[str, Any] | None = None,
+    seats: object = "random",
+    particles: Mapping[str, object] | None = None,
     seed: int = 0,
     cap: Cap | float | None = "hardness",
     tol: float = TOL,
@@ -169,12 +183,10 @@ def solve(
     )  # fmt: skip
     if name != "h":
         values = values * surface_map.area * (contact.E_ss if name == "F_star" else 1.0)
-    how: dict[str, Any] = dict(
-        tol=tol, max_iterations=max_iterations, single=precision == "single", workers=workers
-    )
-    found, seconds = curve(inside, "h" if name == "h" else "load", values, **how)
+    effort = Effort(tol, max_iterations, precision == "single", workers)
+    found, seconds = curve(inside, "h" if name == "h" else "load", values, effort)
     columns = [numbers_of(inside, each) for each in found]
-    errors, rough = ({}, []) if blocks is None else _block_errors(inside, found, blocks, how)
+    errors, rough = ({}, []) if blocks is None else _block_errors(inside, found, blocks, effort)
     told = (*inside.warnings, *_doubts(columns, found, tol), *rough)
     for sentence in told:
         tell_of_range(sentence)
@@ -203,7 +215,7 @@ def solve(
 
 
 def _block_errors(
-    inside: Interface, found: list[Pressed], blocks: int, how: dict[str, Any]
+    inside: Interface, found: list[Pressed], blocks: int, effort: Effort
 ) -> tuple[dict[str, Array], list[str]]:
     """Standard errors of every state, and why they are rough."""
     out = np.full((len(found), len(ERRORS)), math.nan)
@@ -214,7 +226,7 @@ def _block_errors(
         if not load > 0:
             continue
         other = load * STEP if load * STEP < most else load / STEP
-        (beside,), _ = curve(inside, "load", np.array([other]), start=state, **how)
+        (beside,), _ = curve(inside, "load", np.array([other]), effort, start=state)
         sums, there = (
             block_sums(inside, each, _squeeze_columns(inside, each)["areas"][0], blocks)
             for each in (state, beside)
@@ -228,11 +240,8 @@ def curve(
     inside: Interface,
     given: str,
     values: Array,
+    effort: Effort,
     *,
-    tol: float = TOL,
-    max_iterations: int = ITERATIONS,
-    single: bool = False,
-    workers: int = 1,
     start: Pressed | None = None,
 ) -> tuple[list[Pressed], list[float]]:
     """States under loads [N] or at separations h [m], each from its neighbour, far to near.
@@ -266,12 +275,13 @@ def curve(
     seconds: dict[int, float] = {}
     near = start
     for i in order.tolist():
+        at = float(values[i])
         begin = time.perf_counter()
         begun = None if near is None or not (np.any(near.p) or np.any(near.f)) else (near.p, near.f)
         near = press(
-            z, spacing, E_star, c=inside.c, bodies=inside.bodies, tol=tol,
-            max_iterations=max_iterations, single=single, workers=workers,
-            start=begun, **{given: float(values[i])},
+            z, spacing, E_star, c=inside.c, bodies=inside.bodies, start=begun,
+            load=at if given == "load" else None, h=at if given == "h" else None,
+            **effort._asdict(),
         )  # fmt: skip
         found[i], seconds[i] = near, time.perf_counter() - begin
     every = range(len(values))

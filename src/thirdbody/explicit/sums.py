@@ -12,7 +12,7 @@ from ..contact.contact import Contact
 from .interface import Interface, Map, interface_of, law_tables
 from .press import Pressed
 from .seats import AbstractSeats, GivenSeats, RandomSeats, height_at
-from .solve import curve, numbers_of
+from .solve import Effort, curve, numbers_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,17 +39,14 @@ def one_surface(
     seed: int,
     *,
     cap: str | float | None,
-    tol: float,
-    max_iterations: int,
-    workers: int,
+    effort: Effort,
     gaussian: bool,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """The sums of one surface at every separation, as plain data."""
     rng = np.random.default_rng(seed)
     inside = interface_of(contact, surface, seats=rule, cap=cap, rng=rng)
-    how: dict[str, Any] = {"tol": tol, "max_iterations": max_iterations, "workers": workers}
-    states, _ = curve(inside, "h", grid, **how)
-    bare = curve(inside.bare(), "h", grid, **how)[0] if len(inside.bodies) else states
+    states, _ = curve(inside, "h", grid, effort)
+    bare = curve(inside.bare(), "h", grid, effort)[0] if len(inside.bodies) else states
     out: dict[str, Any] = {name: [] for name in SUMS}
     columns = [numbers_of(inside, state) for state in states]
     pixel = surface.spacing**2

@@ -77,7 +77,7 @@ def comparison() -> list[dict[str, Any]]:
     34
     """
     file = resources.files("thirdbody").joinpath("data/explicit_comparison.json")
-    states: list[dict[str, Any]] = json.loads(file.read_text("utf-8"))["states"]
+    states: list[dict[str, object]] = json.loads(file.read_text("utf-8"))["states"]
     return states
 
 
@@ -150,7 +150,7 @@ def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
     sigma = explicit_particles()["parameters"]["sigma"]
     out = Figure(figsize=(7.6, 3.2), dpi=150, layout="constrained")
     panels = out.subplots(1, 3, sharey=True)
-    handles: list[Any] = []
+    handles: list[object] = []
     for ax, diameter in zip(panels, STATED_AGREEMENT, strict=True):
         shown = [*_draw_model(ax, diameter, loads, h_0), *_draw_explicit(ax, diameter)]
         handles = handles or shown

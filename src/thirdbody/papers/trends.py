@@ -76,7 +76,7 @@ class Reading:
     inputs: Mapping[str, Any]
     """What the reading assumes, for the reader: numbers with units in words."""
 
-    def trend(self, pressures: Any = None, **factors: float) -> Trend:
+    def trend(self, pressures: object = None, **factors: float) -> Trend:
         """The contact with some inputs multiplied, at its own pressures unless others are given."""
         p = self.pressures if pressures is None else np.atleast_1d(np.asarray(pressures, float))
         return self.solve(p, factors)

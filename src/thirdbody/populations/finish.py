@@ -254,7 +254,7 @@ def _range_text(values: tuple[float, float, float], unit: str) -> str:
     )
 
 
-def check_faces(faces: Any) -> list[str]:
+def check_faces(faces: object) -> list[str]:
     """Mistakes in what should be one face or two."""
     if not (isinstance(faces, tuple) and len(faces) <= 2):
         rule = "must be a tuple of one or two Finish"
@@ -270,7 +270,7 @@ def check_faces(faces: Any) -> list[str]:
 def given_or_drawn(faces: Sequence[Finish], given: dict[str, float | None]) -> dict[str, Any]:
     """σ, R, α and ηRσ or η: what is given, and the usual values of the process for the rest."""
     found = drawing(faces)
-    out: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    out: dict[str, object] = {name: value for name, value in given.items() if value is not None}
     if found.R is None:
         if "R" not in out:
             raise InvalidValue(needs_process(faces))

@@ -346,13 +346,13 @@ def _text(name: str, entry: dict[str, Any]) -> str:
 
 
 @cache
-def _own_materials() -> dict[str, dict[str, Any]]:
+def _own_materials() -> dict[str, dict[str, object]]:
     text = resources.files("thirdbody").joinpath("data/materials.toml").read_text("utf-8")
     return tomllib.loads(text)
 
 
 # ------------------------------------------------------------------ files of one's own
-def _entries_of_file(file: Path) -> dict[str, dict[str, Any]]:
+def _entries_of_file(file: Path) -> dict[str, dict[str, object]]:
     """The entries of a file, in SI."""
     try:
         data = tomllib.loads(read_bytes(file, "a file of materials").decode("utf-8-sig"))
@@ -375,7 +375,7 @@ def _entries_of_file(file: Path) -> dict[str, dict[str, Any]]:
     return out
 
 
-def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, Any]:
+def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, object]:
     """An entry with its numbers in SI; mistakes are added to ``problems``."""
     known = (*NUMBERS, *_WORDS, "aliases", "range", "sources")
     out = dict(entry)
@@ -405,11 +405,11 @@ def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, 
     return out
 
 
-def _texts(values: Any) -> bool:
+def _texts(values: object) -> bool:
     return isinstance(values, list) and all(isinstance(value, str) for value in values)
 
 
-def _number(where: str, key: str, value: Any, problems: list[str]) -> float | None:
+def _number(where: str, key: str, value: object, problems: list[str]) -> float | None:
     from ..quantities.units import quantity_to_si
     from ..quantities.value import problem_with
 
@@ -424,7 +424,7 @@ def _number(where: str, key: str, value: Any, problems: list[str]) -> float | No
     return number
 
 
-def _ranges(where: str, given: Any, problems: list[str]) -> dict[str, list[float]]:
+def _ranges(where: str, given: object, problems: list[str]) -> dict[str, list[float]]:
     out: dict[str, list[float]] = {}
     for key, ends in given.items() if isinstance(given, dict) else [("range", given)]:
         if key not in NUMBERS or not isinstance(ends, list) or len(ends) != 2:

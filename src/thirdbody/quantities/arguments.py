@@ -148,7 +148,7 @@ def need_positive(**values: Any) -> None:
 
 def refuse_misfits(
     error: Exception,
-    function: Callable[..., Any],
+    function: Callable[..., object],
     args: tuple[object, ...],
     named: Mapping[str, object],
     *,
@@ -182,7 +182,7 @@ def refuse_misfits(
 
 
 def misfits(
-    function: Callable[..., Any],
+    function: Callable[..., object],
     args: tuple[object, ...],
     named: Mapping[str, object],
     *,
@@ -338,7 +338,7 @@ def _name(node: ast.expr) -> str:
 
 
 def _inside(node: ast.expr) -> list[ast.expr]:
-    """What stands in the brackets of a leaf."""
+    """Types in the brackets of a leaf."""
     if not isinstance(node, ast.Subscript):
         return []
     return list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
@@ -396,7 +396,7 @@ def _kind(name: str, space: Mapping[str, object]) -> type | None:
 
 
 def _words(node: ast.expr, space: Mapping[str, object]) -> Iterator[str]:
-    """What an annotation takes, in words."""
+    """Values that an annotation takes, in words."""
     names = [_name(each) for each in _alternatives(node)]
     for each, name in zip(_alternatives(node), names, strict=True):
         if name == "str" and ("PathLike" in names or "Path" in names):

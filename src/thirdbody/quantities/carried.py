@@ -326,7 +326,7 @@ def masked_words(value: object) -> str:
 
 
 def _refuse_no_numbers(
-    function: Callable[..., Any], args: tuple[object, ...], named: dict[str, object]
+    function: Callable[..., object], args: tuple[object, ...], named: dict[str, object]
 ) -> None:
     """Refuse masked and huge values, and truth values where a number with a unit is needed."""
     given = inspect.signature(function).bind_partial(*args, **named).arguments
@@ -364,7 +364,7 @@ def _need_contact(given: object) -> None:
 
 
 def _all_in_si(
-    function: Callable[..., Any], args: tuple[object, ...], named: dict[str, object]
+    function: Callable[..., object], args: tuple[object, ...], named: dict[str, object]
 ) -> tuple[tuple[object, ...], dict[str, object]]:
     """Arguments in SI."""
     given = inspect.signature(function).bind_partial(*args, **named)
@@ -433,7 +433,7 @@ def _unit_of_input(contact: Any, name: str) -> str | None:
 
 
 @cache
-def units_of(function: Callable[..., Any], owner: type = object) -> dict[str, str | None]:
+def units_of(function: Callable[..., object], owner: type = object) -> dict[str, str | None]:
     """Units of the arguments of a function, or of a method of a class, as documented.
 
     None where a docstring names none, or several.
@@ -444,7 +444,7 @@ def units_of(function: Callable[..., Any], owner: type = object) -> dict[str, st
     return found
 
 
-def _docstrings(function: Callable[..., Any], owner: type) -> Iterator[str]:
+def _docstrings(function: Callable[..., object], owner: type) -> Iterator[str]:
     """Docstrings of a function and of the methods that it overrides."""
     yield function.__doc__ or ""
     for base in owner.__mro__:

@@ -44,7 +44,7 @@ class Column(NamedTuple):
 
     @property
     def labels(self) -> dict[str, str]:
-        """Its attributes in a data set."""
+        """Attributes of the column in a data set."""
         return {"units": self.unit, "long_name": self.meaning, "symbol": self.symbol}
 
 

@@ -40,14 +40,14 @@ Fingerprint = list[Any] | None
 
 
 class Sealed(NamedTuple):
-    """What a small file says."""
+    """Content of a sealed file."""
 
     data: dict[str, Any]
     checked: bool
     """Whether a seal says that it is as it was written."""
 
 
-def sealed(data: Mapping[str, Any]) -> str:
+def sealed(data: Mapping[str, object]) -> str:
     """Text of a record, with its digest.
 
     Examples
@@ -59,7 +59,7 @@ def sealed(data: Mapping[str, Any]) -> str:
     return json.dumps({**data, SEAL: _digest(data)})
 
 
-def _digest(data: Mapping[str, Any]) -> str:
+def _digest(data: Mapping[str, object]) -> str:
     """SHA-256 of what a record says, whatever the order and the spaces of its text."""
     return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
@@ -124,10 +124,10 @@ MARK = "study.json"
 
 def claim_folder(
     path: str | os.PathLike[str],
-    study: Mapping[str, Any],
+    study: Mapping[str, object],
     *,
     files: re.Pattern[str],
-    unmarked: Callable[[Path], Mapping[str, Any] | None] = lambda _: None,
+    unmarked: Callable[[Path], Mapping[str, object] | None] = lambda _: None,
     growing: tuple[str, ...] = (),
 ) -> Path:
     """A folder for the results of one study alone, made when missing.
@@ -227,8 +227,8 @@ def print_of(text: str) -> Fingerprint:
 
 def refuse_another(
     place: Path,
-    found: Mapping[str, Any],
-    wanted: Mapping[str, Any],
+    found: Mapping[str, object],
+    wanted: Mapping[str, object],
     *,
     derived: tuple[str, ...] = (),
 ) -> None:
@@ -255,7 +255,7 @@ def refuse_another(
     raise InvalidValue(f"{place} holds another study: {shown}{more}; give another folder")
 
 
-def differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
+def differences(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, tuple[Any, Any]]:
     """Where two records differ, by dotted key."""
     flat_old, flat_new = _flat(old), _flat(json.loads(json.dumps(new)))
     return {
@@ -265,15 +265,15 @@ def differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, tup
     }
 
 
-def _flat(data: Any, path: str = "") -> dict[str, Any]:
+def _flat(data: object, path: str = "") -> dict[str, Any]:
     if not isinstance(data, Mapping):
         return {path: data}
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for key, value in data.items():
         out |= _flat(value, f"{path}.{key}" if path else key)
     return out
 
 
-def _say(value: Any) -> str:
+def _say(value: object) -> str:
     text = json.dumps(value, ensure_ascii=False)
     return text if len(text) < 60 else f"{text[:50]} ..."

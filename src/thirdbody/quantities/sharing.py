@@ -166,7 +166,7 @@ def _in_threads(parts: Parts[Result], workers: int) -> Results[Result]:
             todo.put(None)
 
 
-def _solve_task(task: Callable[[], Any]) -> Any:
+def _solve_task(task: Callable[[], object]) -> Any:
     return task()
 
 

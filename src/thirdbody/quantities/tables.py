@@ -101,7 +101,7 @@ class Table:
         return widths
 
     # ------------------------------------------------------------------ on the screen
-    def __rich_console__(self, console: Any, options: Any) -> Any:
+    def __rich_console__(self, console: object, options: Any) -> Any:
         every = list(range(len(self.heads)))
         shown, widths, gap = self._fit_columns(every, options.max_width)
         yield self._draw_table(shown, widths, gap)

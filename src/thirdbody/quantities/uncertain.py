@@ -19,7 +19,7 @@ HELD = (
 """Why such a number cannot stand where one number is needed."""
 
 
-def is_uncertain(value: Any) -> bool:
+def is_uncertain(value: object) -> bool:
     """Whether a value is a number with an uncertainty.
 
     >>> is_uncertain(1e-7)
@@ -28,7 +28,7 @@ def is_uncertain(value: Any) -> bool:
     return hasattr(value, "nominal_value") and hasattr(value, "std_dev")
 
 
-def are_correlated(one: Any, other: Any) -> bool:
+def are_correlated(one: object, other: object) -> bool:
     """Whether two numbers with an uncertainty rest on the same measurement."""
     return bool(set(getattr(one, "derivatives", ())) & set(getattr(other, "derivatives", ())))
 

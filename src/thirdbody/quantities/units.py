@@ -8,18 +8,52 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from fractions import Fraction
-from typing import Any, NoReturn
+from typing import Any, NoReturn, NotRequired, TypedDict
 
 from ..errors import InvalidValue, Problem
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
 from .nearest import near
 
 __all__ = [
-    *("EXAMPLES", "MICRONS", "comma_may_part_thousands", "not_among", "quantity_to_si", "say"),
-    "to_si",
+    *("EXAMPLES", "MICRONS", "Meant", "Quantity", "Range", "Usual", "comma_may_part_thousands"),
+    *("not_among", "quantity_to_si", "say", "to_si"),
 ]
+
+
+class Meant(TypedDict):
+    """Unit and meaning of a number."""
+
+    unit: str
+    meaning: str
+
+
+class Usual(TypedDict):
+    """Unit of a number, and the size up to which it looks like no slip."""
+
+    unit: str
+    usual: NotRequired[float | None]
+
+
+class Range(TypedDict):
+    """Unit and limits of a number, and the likely cause of one outside them."""
+
+    unit: str
+    gt: float | None
+    ge: float | None
+    lt: float | None
+    le: float | None
+    hint: str
+
+
+class Quantity(Range):
+    """Declaration of a number in SI, as `thirdbody.quantities.value.quantity` makes it."""
+
+    symbol: str
+    meaning: str
+    usual: NotRequired[float | None]
+
 
 MICRONS = "um are 1e-6 or '1 um'"
 EXAMPLES = {
@@ -71,7 +105,7 @@ _HARDNESS = re.compile(
 """A hardness number, as "700 HV", "700 HV10", "62 HRC"; the test load behind it is not used."""
 
 
-def to_si(value: Any, unit: str) -> float:
+def to_si(value: object, unit: str) -> float:
     """One number in SI from a plain number or a string with a unit.
 
     Parameters
@@ -159,7 +193,7 @@ def _about_comma(text: str, shown: str) -> str:
     )
 
 
-def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:
+def quantity_to_si(value: object, about: Meant) -> float:
     """One number in SI for a quantity; a hardness may be a number on a hardness scale.
 
     Parameters
@@ -193,11 +227,11 @@ def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:
         return to_si(value, about["unit"])
     from .hardness import pressure
 
+    number = to_si(match["number"], "1")
     try:
-        return pressure(to_si(match["number"], "1"), match["scale"])
+        return pressure(number, match["scale"])
     except InvalidValue as error:
-        told = str(error)
-        return _refuse(told if told.startswith('"') else f"{say(value)} cannot be used: {told}")
+        return _refuse(f"{say(value)} cannot be used: {error}")
 
 
 def _one(value: Any, unit: str) -> float:

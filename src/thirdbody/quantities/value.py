@@ -12,12 +12,12 @@ import inspect
 import math
 import sys
 import types
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import MISSING, field
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, Self, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict, get_args
 
 from ..errors import InvalidValue, NotCompiled, Note, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
@@ -25,6 +25,7 @@ from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
 from .plain_data import plain_data
 from .uncertain import HELD, is_uncertain
+from .units import Quantity, Range, Usual
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,7 +33,14 @@ if TYPE_CHECKING:
 
     from .notebook import Row
 
-__all__ = ["Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
+__all__ = ["Choice", "Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
+
+
+class Choice(TypedDict):
+    """Declaration of a word, as `choice` makes it."""
+
+    meaning: str
+    options: tuple[str, ...]
 
 
 def quantity(
@@ -40,7 +48,7 @@ def quantity(
     unit: str,
     meaning: str,
     *,
-    default: Any = MISSING,
+    default: object = MISSING,
     gt: float | None = None,
     ge: float | None = None,
     lt: float | None = None,
@@ -64,13 +72,15 @@ def quantity(
         Lengths up to it, and pressures from it on, are no slip; `USUAL_LENGTH` by default, and as
         for a modulus.
     """
-    about = dict(symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint)
+    about = Quantity(
+        symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint
+    )
     if usual is not None:
         about["usual"] = usual
     return field(default=default, metadata={"quantity": about})
 
 
-def several(unit: str, meaning: str, *, default: Any = MISSING) -> Any:
+def several(unit: str, meaning: str, *, default: object = MISSING) -> Any:
     """A dataclass field that holds a tuple of numbers in SI."""
     return field(default=default, metadata={"several": {"unit": unit, "meaning": meaning}})
 
@@ -91,24 +101,30 @@ def _take_options(kind: type) -> None:
         choices[name]["options"] = get_args(words)
 
 
-def allowed_range(about: dict[str, Any]) -> str:
-    """The allowed range of a quantity in words, e.g. ``"must be > 0 [Pa]"``."""
-    limits = [
-        f"{sign} {about[key]:g}"
-        for key, sign in (("gt", ">"), ("ge", ">="), ("lt", "<"), ("le", "<="))
-        if about[key] is not None
-    ]
-    text = " and ".join(limits) if limits else "a finite number"
+def limits_of(about: Range) -> dict[str, float]:
+    """The limits that a quantity has, by the names of their keys."""
+    every = {"gt": about["gt"], "ge": about["ge"], "lt": about["lt"], "le": about["le"]}
+    return {key: limit for key, limit in every.items() if limit is not None}
+
+
+SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
+
+
+def allowed_range(about: Range) -> str:
+    """The allowed range of a quantity in words, e.g. ``"> 0 [Pa]"``."""
+    limits = " and ".join(f"{SIGNS[key]} {limit:g}" for key, limit in limits_of(about).items())
+    text = limits or "a finite number"
     unit = "" if about["unit"] == "1" else f" [{about['unit']}]"
-    return f"must be {text}{unit}"
+    return f"{text}{unit}"
 
 
-def problem_with(about: dict[str, Any], value: Any) -> str | None:
+def problem_with(about: Range, value: Any) -> str | None:
     """Why ``value`` cannot stand for this quantity, or None when it can."""
-    if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
-        return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
-    if is_uncertain(value):
-        return HELD
+    if type(value) not in (float, int):
+        if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
+            return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+        if is_uncertain(value):
+            return HELD
     try:
         number = float(value)
     except OverflowError:
@@ -123,7 +139,7 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
         or (about["le"] is not None and not number <= about["le"])
     )
     if outside:
-        return allowed_range(about) + ("; " + about["hint"] if about["hint"] else "")
+        return f"must be {allowed_range(about)}" + ("; " + about["hint"] if about["hint"] else "")
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 
@@ -164,7 +180,7 @@ coefficient below 10 /MPa; no surface has 5 J/m^2; and no circuit 50 m³ of oil,
 filter, or 20 kg in it."""
 
 
-def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -> str | None:
+def unit_meant(about: Usual, number: float, *, load: bool = False) -> str | None:
     """The unit that was probably forgotten, where a number in SI is allowed but looks like a slip.
 
     Lengths of 1 cm and more, moduli, hardnesses and stresses below 0.1 MPa, loads below 100 Pa, and
@@ -176,8 +192,8 @@ def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -
         return "mm" if usual >= 1 else "nm" if size >= 10 else "um"
     if unit == "Pa" and load:
         return "MPa" if 0 < number < USUAL_LOAD else None
-    if unit == "Pa" and "usual" in about:
-        return "kPa" if 0 < number < about["usual"] else None
+    if unit == "Pa" and about.get("usual"):
+        return "kPa" if 0 < number < usual else None
     if unit == "Pa":
         return "GPa" if 0 < number < USUAL_STRESS else None
     least, most, meant = SLIPS.get(unit, (0.0, math.inf, ""))
@@ -197,7 +213,7 @@ def slips_are_told() -> Iterator[None]:
         _told.reset(token)
 
 
-def warn_of_slip(where: str, about: Mapping[str, Any], number: float) -> None:
+def warn_of_slip(where: str, about: Usual, number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
     if not _told.get() and (meant := unit_meant(about, number)):
         what = f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI"
@@ -228,7 +244,7 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
 @cache
 def _declarations(
     kind: type,
-) -> tuple[tuple[str, dict[str, Any] | None, dict[str, Any] | None], ...]:
+) -> tuple[tuple[str, Quantity | None, Choice | None], ...]:
     """Fields of a class, each with its declared quantity or choice."""
     return tuple(
         (item.name, item.metadata.get("quantity"), item.metadata.get("choice"))
@@ -236,7 +252,7 @@ def _declarations(
     )
 
 
-def _values_in(name: str, part: Any) -> Iterator[tuple[str, Value]]:
+def _values_in(name: str, part: object) -> Iterator[tuple[str, Value]]:
     """The values in a field, by dotted names."""
     if isinstance(part, Value):
         yield name, part
@@ -256,7 +272,7 @@ class Value:
     _tells_of_slips: ClassVar[bool] = False
     """Whether it warns of numbers in it that look like slips, when it is made."""
 
-    def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: Any) -> None:
+    def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
         if not stand_in:
             Value._classes[cls.__name__] = cls
@@ -316,10 +332,10 @@ class Value:
 
         return card(type(self).__name__, _rows(self))
 
-    def replace(self, **changes: Any) -> Self:
+    def replace(self, **changes: object) -> Self:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
-        now: dict[str, Any] = {}
-        inner: dict[str, dict[str, Any]] = {}
+        now: dict[str, object] = {}
+        inner: dict[str, dict[str, object]] = {}
         names = {name for name, _, _ in _declarations(type(self))}  # type: ignore[arg-type]
         for key, value in changes.items():
             head, _, rest = key.partition(".")
@@ -338,7 +354,7 @@ class Value:
             warn_of_slips(out, before=self)
         return out
 
-    def unchecked(self, **changes: Any) -> Self:
+    def unchecked(self, **changes: object) -> Self:
         """A copy with some fields changed to what needs no check and no warning."""
         out = object.__new__(type(self))
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
@@ -347,7 +363,7 @@ class Value:
 
     @names_arguments
     def value_at(self, path: str) -> Any:
-        """What a dotted name stands for: a field, or an item of a tuple by place or name."""
+        """Value of a dotted name: a field, or an item of a tuple by place or name."""
         where: Any = self
         for step in filter(None, path.split(".")):
             if isinstance(where, tuple):
@@ -411,14 +427,14 @@ class Value:
 
     def to_dict(self) -> dict[str, Any]:
         """Every field in SI, ready for JSON; ``type`` names the class."""
-        out: dict[str, Any] = {"type": type(self).__name__}
+        out: dict[str, object] = {"type": type(self).__name__}
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
             out[item.name] = plain_data(getattr(self, item.name))
         return out
 
     @staticmethod
     @names_arguments
-    def from_dict(data: dict[str, Any]) -> Any:
+    def from_dict(data: Mapping[str, object]) -> Any:
         """The inverse of `to_dict`."""
         kind = data.get("type")
         if kind not in Value._classes:
@@ -446,7 +462,7 @@ def _placed(owner: str, problem: str) -> str:
     return problem
 
 
-def _taker(member: Any) -> Any:
+def _taker(member: object) -> Any:
     """A method that takes quantities with a unit; None for what is no method."""
     if isinstance(member, types.FunctionType):
         return takes_units(member)
@@ -472,7 +488,7 @@ def paths_of(value: Value, prefix: str = "") -> Iterator[str]:
                 yield from paths_of(each, f"{name}." if place is None else f"{name}.{label}.")
 
 
-def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
+def _without_unit(kind: type[Value], name: str, value: object) -> tuple[Any, str]:
     """The value of a field in SI where it carries a unit, and why it cannot be."""
     item = kind.__dataclass_fields__[name]  # type: ignore[attr-defined]
     about = item.metadata.get("quantity") or item.metadata.get("several")
@@ -567,7 +583,7 @@ def _stand_in(kind: type[Value]) -> type[Any]:
     return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))
 
 
-def _replace_at(where: str, part: Any, changes: dict[str, Any]) -> Any:
+def _replace_at(where: str, part: object, changes: Mapping[str, object]) -> Any:
     """A value, or a tuple of them with the number of the one before the dot, with changes."""
     if isinstance(part, Value):
         return part.replace(**changes)
@@ -583,7 +599,7 @@ def _replace_at(where: str, part: Any, changes: dict[str, Any]) -> Any:
     return tuple(items)
 
 
-def _index(where: str, items: list[Any], which: str) -> int:
+def _index(where: str, items: Sequence[object], which: str) -> int:
     """Place of an item by its number or its name."""
     names = [getattr(item, "name", "") for item in items]
     if which.isdecimal() and int(which) < len(items):
@@ -596,7 +612,7 @@ def _index(where: str, items: list[Any], which: str) -> int:
     )
 
 
-def _revive(value: Any) -> Any:
+def _revive(value: object) -> Any:
     if isinstance(value, dict):
         return Value.from_dict(value)
     if isinstance(value, list):

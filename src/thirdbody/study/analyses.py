@@ -20,7 +20,7 @@ from ..numerics.sampling import Span
 from ..quantities.progress import stages
 from ..quantities.say import value_of
 from ..systems.bodies import press
-from .amounts import is_span
+from .reader import is_span
 from .vocabulary import LOADS
 
 if TYPE_CHECKING:

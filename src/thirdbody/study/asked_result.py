@@ -2,16 +2,38 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 from ..quantities.plain_data import plain_data
 from ..quantities.record import MappedRecord, declared_columns
 from ..version import __version__
+from .described import Described
 from .what_ifs import WhatIf
 
 __all__ = ["AskedResult", "QuestionResult"]
+
+
+class Asked(Protocol):
+    """Protocol of a study that asks one question."""
+
+    @property
+    def title(self) -> str:
+        """Title as in the file, or empty."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes of reading, one sentence each."""
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """Notes on numbers that were taken because the file leaves them out."""
+
+    @property
+    def described(self) -> Described:
+        """Inputs with symbols and units."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -20,11 +42,11 @@ class QuestionResult(MappedRecord):
 
     Attributes
     ----------
-    asked
-        What the study says, with ``title``, ``notes``, ``assumed`` and ``described``.
+    asked : Asked
+        What the study says.
     """
 
-    asked: Any
+    asked: Asked
     title_without: ClassVar[str]
     """Title of a study without one."""
     citations: ClassVar[tuple[str, ...]]
@@ -33,28 +55,28 @@ class QuestionResult(MappedRecord):
     @property
     def title(self) -> str:
         """Title of the study, or of its kind."""
-        return str(self.asked.title or self.title_without)
+        return self.asked.title or self.title_without
 
     @property
+    @abstractmethod
     def run_notes(self) -> tuple[str, ...]:
         """Notes of computing, one sentence each."""
-        raise NotImplementedError
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Notes of reading and of computing, one sentence each."""
         return tuple(dict.fromkeys((*self.asked.notes, *self.run_notes)))
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    @abstractmethod
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, and their units."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def meanings(self) -> Mapping[str, str]:
         """Meanings of the columns."""
-        raise NotImplementedError
 
-    def whole(self, **parts: Any) -> dict[str, Any]:
+    def whole(self, **parts: object) -> dict[str, Any]:
         """Plain data of the parts between title and warnings."""
         return {
             "title": self.asked.title,
@@ -82,27 +104,27 @@ class AskedResult(QuestionResult):
 
     @property
     def run_notes(self) -> tuple[str, ...]:
-        """Those of ``run_warnings``."""
+        """The sentences of ``run_warnings``."""
         return self.run_warnings
 
     @property
     def meanings(self) -> Mapping[str, str]:
-        """Those that the columns declare."""
+        """Meanings as the columns declare them."""
         return {name: each.meaning for name, each in declared_columns(type(self)).items()}
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, and their units."""
         declared = declared_columns(type(self))
         columns = {name: plain_data(getattr(self, name)) for name in declared}
         return columns, {name: each.unit for name, each in declared.items()}
 
-    def inputs(self) -> dict[str, Any]:
+    @abstractmethod
+    def inputs(self) -> dict[str, object]:
         """Inputs as plain data."""
-        raise NotImplementedError
 
-    def numbers(self) -> dict[str, Any]:
+    @abstractmethod
+    def numbers(self) -> dict[str, object]:
         """Results beside the table, as plain data."""
-        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""

@@ -42,7 +42,7 @@ def _made_heights(reader: Reader, path: str, values: dict[str, Any]) -> Heights:
     return made
 
 
-def _heights_of_word(reader: Reader, path: str, value: Any) -> Heights:
+def _heights_of_word(reader: Reader, path: str, value: object) -> Heights:
     name = read_word(HEIGHTS, reader, path, value)
     if needed := needed_fields(HEIGHTS[name]):
         shown = ", ".join(f"{field} = ..." for field in needed)
@@ -51,8 +51,8 @@ def _heights_of_word(reader: Reader, path: str, value: Any) -> Heights:
     return _made_heights(reader, path, {"name": name})
 
 
-def _heights(reader: Reader, path: str, data: Any) -> Any:
-    def build(values: dict[str, Any]) -> Heights:
+def _heights(reader: Reader, path: str, data: object) -> object:
+    def build(values: dict[str, object]) -> Heights:
         return _made_heights(reader, path, values)
 
     return reader.variant(path, data, "name", HEIGHTS, build)
@@ -76,7 +76,7 @@ RATIOS = {"first": "first_ratio", "second": "second_ratio"}
 RADII = ("R_first", "R_second")
 
 
-def _ellipticity(reader: Reader, path: str, data: Any) -> Any:
+def _ellipticity(reader: Reader, path: str, data: Any) -> object:
     """Classes of ratios, or two faces at an angle."""
     given = data if isinstance(data, dict) else {}
     if "ratios" in given or not {"first", "second", "angle"} & given.keys():
@@ -100,7 +100,7 @@ def _ellipticity(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, FACE_KEYS | {"angle": ANGLE}, build)
 
 
-def _angle(reader: Reader, path: str, value: Any) -> Any:
+def _angle(reader: Reader, path: str, value: object) -> object:
     """An angle between two faces, or the word "random"."""
     if value == "random":
         return value
@@ -123,7 +123,7 @@ FIELDS["Ellipticity | None"] = ELLIPTICITY
 
 
 # -------------------------------------------------------------------------- waves of the roughness
-def _measured_spectrum(reader: Reader, path: str, value: Any) -> OwnSpectrum | None:
+def _measured_spectrum(reader: Reader, path: str, value: object) -> OwnSpectrum | None:
     """The waves of the topography, for the law of one field."""
     if value != "measured":
         rule = 'must be "measured", for the waves of the topography in [roughness], or a table'

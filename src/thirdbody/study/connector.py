@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,9 +13,8 @@ from ..laws.particle.series import Series
 from ..quantities.value import quantity
 from ..systems.connector import Connector
 from ..systems.film_formulas import Point
-from .amounts import amounts
 from .described import Described, describe
-from .reader import NOTHING, Key, Reader, Table, keys_of, words
+from .reader import NOTHING, Key, Reader, Table, amounts, keys_of, words
 
 __all__ = ["CONNECTOR", "AskedConnector", "connector_of", "populations_of"]
 
@@ -49,7 +49,7 @@ class AskedConnector:
 
     @property
     def described(self) -> Described:
-        """What the tables describe."""
+        """Inputs with symbols and units."""
         return describe("connector.", self.connector)
 
     def pressure(self, E: float) -> float:
@@ -61,7 +61,7 @@ class AskedConnector:
         return float(bodies.hertz(float(self.forces[0]), E=2 * E).mean)
 
 
-def _connector(reader: Reader, path: str, data: Any) -> Any:
+def _connector(reader: Reader, path: str, data: object) -> object:
     """The contacts of [connector], as a table of arguments."""
     keys = keys_of(Connector) | {
         "force": amounts("force", FORCE)._replace(required=True),
@@ -70,7 +70,7 @@ def _connector(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys)
 
 
-def populations_of(values: dict[str, Any]) -> tuple[Any, ...]:
+def populations_of(values: Mapping[str, object]) -> tuple[object, ...]:
     """Every population of particles that the tables hold."""
     dust = values.get("particles", ())
     return dust if isinstance(dust, tuple) else (dust,)

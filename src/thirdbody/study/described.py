@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from ..populations.materials import Material
+    from ..quantities.units import Quantity
     from ..quantities.value import Value
 
 __all__ = ["BareNumber", "Described", "describe"]
@@ -17,7 +18,7 @@ class BareNumber(NamedTuple):
 
     name: str
     """As the file calls it."""
-    about: Mapping[str, Any]
+    about: Quantity
     """Symbol, unit and meaning."""
     value: float
     """In SI."""

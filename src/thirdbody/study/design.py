@@ -13,7 +13,6 @@ from ..errors import InvalidValue, Problem
 from ..populations.measured import cleanliness
 from ..quantities.nearest import guess
 from ..quantities.units import say, to_si
-from .amounts import amounts
 from .inputs import inputs_of
 from .particles import AMOUNT as OF_FLUID
 from .reader import (
@@ -21,6 +20,7 @@ from .reader import (
     Key,
     Reader,
     Table,
+    amounts,
     count,
     get,
     numbers,
@@ -43,7 +43,7 @@ WORDS = {
 EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
-def _design(reader: Reader, path: str, data: Any) -> Any:
+def _design(reader: Reader, path: str, data: Any) -> object:
     """The task of [design]: variables, objectives, limits."""
     if all(get(data, name) is not None for name in ("F_star", "pressure")):
         rule = f"and {path}.pressure: only one of these can be given"
@@ -57,7 +57,7 @@ def _design(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- what may be chosen
-def _vary(reader: Reader, path: str, given: Any) -> dict[str, Any]:
+def _vary(reader: Reader, path: str, given: object) -> dict[str, object]:
     """Ranges and lists of materials by the names of the library."""
     if not isinstance(given, dict) or not given:
         rule = "must be a table, e.g. "
@@ -71,7 +71,7 @@ def _vary(reader: Reader, path: str, given: Any) -> dict[str, Any]:
     )
 
 
-def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Any]:
+def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, object]:
     """One variable: its name in the library, and its range or its materials."""
     label, entry = told
     if isinstance(entry, list):
@@ -104,9 +104,9 @@ def _amount(where: str, value: Any) -> cleanliness.Concentration:
         raise InvalidValue(Problem(where, f"= {error}")) from None
 
 
-def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, Any]:
+def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, object]:
     """Entries by dotted name, from names in quotes or nested tables."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         inner = isinstance(value, dict) and not {"low", "high"} & set(value)
@@ -138,8 +138,8 @@ def _fluid(reader: Reader) -> Suspension | None:
 
 # -------------------------------------------------------------------------- what is good
 def _several(
-    kind: type[Objective] | type[Limit], reader: Reader, path: str, given: Any
-) -> list[Any]:
+    kind: type[Objective] | type[Limit], reader: Reader, path: str, given: object
+) -> list[object]:
     """One objective or limit, or a list of them."""
     entries = {path: given}
     if isinstance(given, list):
@@ -147,7 +147,7 @@ def _several(
     return list(reader.read_each(entries, partial(_one, kind)))
 
 
-def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: Any) -> Any:
+def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: object) -> Any:
     example = EXAMPLE if kind is Objective else '{ of = "plastic_share", most = 0.3 }'
     if not isinstance(entry, dict) or not isinstance(entry.get("of"), str):
         raise wrong(where, f"must be a table such as {example}", entry)
@@ -179,7 +179,7 @@ def _unit(of: str) -> str:
         return "1"
 
 
-def _in_si(where: str, value: Any, unit: str) -> float:
+def _in_si(where: str, value: object, unit: str) -> float:
     try:
         return float(to_si(value, unit))
     except InvalidValue as error:

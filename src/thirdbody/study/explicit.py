@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from ..quantities.value import quantity
 from .fields import about_of
@@ -33,16 +32,16 @@ def _seats() -> Mapping[str, type]:
     return SEATS
 
 
-def _seat(reader: Reader, path: str, value: Any) -> Any:
-    """Where particles lie, by the word of a rule."""
+def _seat(reader: Reader, path: str, value: object) -> object:
+    """Rule of the seats of particles, by its word."""
     return _seats()[read_word(_seats(), reader, path, value)]()
 
 
-def _seat_with_numbers(reader: Reader, path: str, data: Any) -> Any:
+def _seat_with_numbers(reader: Reader, path: str, data: object) -> object:
     return reader.variant(path, data, "rule", _seats())
 
 
-def _cap(reader: Reader, path: str, value: Any) -> str | float:
+def _cap(reader: Reader, path: str, value: object) -> str | float:
     """The highest pressure of asperities."""
     if isinstance(value, str) and value in CAPS:
         return value
@@ -51,7 +50,7 @@ def _cap(reader: Reader, path: str, value: Any) -> str | float:
     return read_number(CAP, reader, path, value)
 
 
-def _explicit(reader: Reader, path: str, data: Any) -> Any:
+def _explicit(reader: Reader, path: str, data: object) -> object:
     """How many surfaces, how large and how fine, where particles lie, how well to solve."""
     keys = KEYS | {
         "seats": Key(_seat, False, "where they lie", {"enum": _seats()}, _seat_with_numbers)

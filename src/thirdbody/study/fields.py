@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any, Literal
 
 from ..laws import asperity
-from ..quantities.units import EXAMPLES
+from ..quantities.units import EXAMPLES, Quantity
 from ..quantities.value import allowed_range, problem_with
 
 __all__ = ["Declaration", "about_of", "declarations", "filled_in", "idle", "needed_fields"]
@@ -64,7 +64,7 @@ class Declaration:
     declared: str
     needed: bool
     default: Any = None
-    quantity: dict[str, Any] | None = None
+    quantity: Quantity | None = None
     options: tuple[str, ...] = ()
     meaning: str = ""
     unit: str = ""
@@ -101,7 +101,7 @@ def _declaration(item: dataclasses.Field[Any]) -> Declaration:
     if about := item.metadata.get("quantity"):
         plain |= {
             "meaning": about["meaning"],
-            "allowed": allowed_range(about).removeprefix("must be "),
+            "allowed": allowed_range(about),
         }
         return Declaration(kind="number", quantity=about, **plain)
     if about := item.metadata.get("choice"):
@@ -149,7 +149,7 @@ def idle(kind: type) -> dict[str, str]:
     return out
 
 
-def about_of(name: str, about: dict[str, Any]) -> str:
+def about_of(name: str, about: Quantity) -> str:
     """Meaning of a quantity, with an example of how to write it."""
     unit, symbol = about["unit"], about["symbol"]
     example = EXAMPLES.get(unit, f"1 [{unit}]")

@@ -12,8 +12,7 @@ from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
 from ..systems.film_formulas import AbstractFilm, Line, Oil, Point
-from .amounts import amounts
-from .reader import NOTHING, Key, Reader, Table, get, keys_of, table_of, variants
+from .reader import NOTHING, Key, Reader, Table, amounts, get, keys_of, table_of, variants
 from .surfaces import law_key
 
 __all__ = ["FILM", "SHAPES", "SPEED", "on_body"]
@@ -64,12 +63,16 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
 
 
 def on_body(
-    reader: Reader, film: Any, bodies: Body | None, forces: np.ndarray | None, E_star: float
-) -> FilmConditions | None:
+    reader: Reader,
+    film: FilmConditions | dict[str, Any],
+    bodies: Body | None,
+    forces: np.ndarray | None,
+    E_star: float,
+) -> FilmConditions:
     """The film, with conjunction, load and speed of one contact of [body] where not given."""
-    if not isinstance(film, dict):
+    if isinstance(film, FilmConditions):
         return film
-    own: dict[str, Any] = {}
+    own: dict[str, object] = {}
     shape = None if bodies is None else bodies.conjunction
     if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:
         own = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from ..effects import REGISTRY as OUTPUTS
 from ..laws import asperity, particle
@@ -13,9 +13,10 @@ from ..populations.materials import BULK, Material
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
 from ..populations.strength import WeibullStrength
+from ..quantities.units import Quantity
+from ..quantities.value import Choice
 from .fields import filled_in, idle
-from .grains import SHAPES
-from .particles import populations
+from .particles import SHAPES, populations
 from .reader import get
 from .surfaces import class_of
 from .vocabulary import DISTRIBUTIONS
@@ -29,8 +30,8 @@ class Input:
 
     table: str
     key: str
-    quantity: dict[str, Any] | None
-    choice: dict[str, Any] | None
+    quantity: Quantity | None
+    choice: Choice | None
     idle: str
     """Why varying it changes nothing; empty where it does."""
 
@@ -53,7 +54,7 @@ def field_of(table: str, key: str) -> str:
     return f"{table}.{key}"
 
 
-def inputs_of(whole: dict[str, Any]) -> list[Input]:
+def inputs_of(whole: Mapping[str, object]) -> list[Input]:
     """Every field of the tables of a file that holds a number, a word or a label."""
     found: dict[tuple[str, str], Input] = {}
     for table, kind in _kinds(whole):
@@ -74,7 +75,7 @@ def inputs_of(whole: dict[str, Any]) -> list[Input]:
     return list(found.values())
 
 
-def _kinds(whole: dict[str, Any]) -> list[tuple[str, type]]:
+def _kinds(whole: Mapping[str, object]) -> list[tuple[str, type]]:
     """The classes whose fields each table of the file holds."""
     found: list[tuple[str, type | None]] = [
         ("surfaces.first", Material),

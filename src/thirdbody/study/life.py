@@ -13,6 +13,7 @@ from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
 from ..quantities.say import value_of
+from ..quantities.units import Quantity
 from ..quantities.value import Value, quantity
 from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
@@ -253,7 +254,7 @@ def _uncertainty(
         some += f', "filters.0.beta.{value_of(circuit.filters[0].sizes[0], "m")}"'
     some += "".join(f', "{name}"' for name in more)
 
-    def about(label: str) -> tuple[str, dict[str, Any] | None]:
+    def about(label: str) -> tuple[str, Quantity | None]:
         if label in more:
             return label.removeprefix("contact."), more[label]
         name = label.removeprefix("oil.")

@@ -13,9 +13,8 @@ from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife
 from .life_bands import COUNT, LifeBands
 from .life_uncertainty import names_life
-from .overrides import override
 from .run_life import bands_of
-from .toml import read
+from .toml import override, read
 
 __all__ = ["LifeAssessment", "asks_for_bands", "assess_life"]
 

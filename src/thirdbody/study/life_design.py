@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import InvalidValue, Problem
-from ..quantities.units import say
+from ..quantities.units import Quantity, say
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.until import Until
 from ..systems.oil_filter import Filter
@@ -20,7 +20,7 @@ CHOICES = (
     'e.g. [[life.design.choices]] name = "larger filter", "filters.0.capacity" = "100 g", at '
     "least two"
 )
-About = Callable[[OilCircuit, str], dict[str, Any] | None]
+About = Callable[[OilCircuit, str], Quantity | None]
 """What says what a number of a circuit is, by its dotted name."""
 
 

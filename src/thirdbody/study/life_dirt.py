@@ -9,7 +9,7 @@ from typing import Any
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
 from ..populations.measured import cleanliness
-from ..quantities.units import say
+from ..quantities.units import Quantity, say
 from ..quantities.value import quantity
 from ..systems.life.ingress import Ingress
 from ..systems.life.oil_dirt import OilDirt
@@ -77,7 +77,7 @@ ENDS = {
 }
 
 
-def sized_numbers(about: dict[str, Any], what: str) -> Key:
+def sized_numbers(about: Quantity, what: str) -> Key:
     """The key of a table from sizes to numbers, of any sizes."""
 
     def read(reader: Reader, path: str, data: Any) -> tuple[tuple[float, float], ...]:

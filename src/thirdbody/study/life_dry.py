@@ -11,6 +11,7 @@ from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.contact import Contact
 from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
+from ..quantities.units import Quantity
 from ..quantities.value import quantity
 from ..systems.life.debris import Debris
 from ..systems.life.ingress import Ingress
@@ -179,7 +180,7 @@ def _uncertainty(reader: Reader, given: Mapping[str, Any], debris: Debris | None
         known[BANDS_HARDNESS] = (BANDS_HARDNESS, HARDNESS)
     some = ", ".join(f'"{name}"' for name in known)
 
-    def about(label: str) -> tuple[str, dict[str, Any] | None]:
+    def about(label: str) -> tuple[str, Quantity | None]:
         return known.get(label, (label, None))
 
     names = f"is not a number of the dry contact; it has {some}"

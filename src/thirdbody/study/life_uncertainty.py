@@ -8,7 +8,7 @@ from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
 from ..errors import InvalidValue, Problem
-from ..quantities.units import say
+from ..quantities.units import Quantity, say
 from ..quantities.value import quantity
 from ..systems.life.circuit import OilCircuit
 from .inputs import inputs_of
@@ -21,7 +21,7 @@ __all__ = ["FACTOR", "KnownOfLife", "about_circuit", "known_of_life", "names_lif
 FACTOR = quantity("f", "1", "factor on all that enters or arrives", gt=0).metadata["quantity"]
 BETA = quantity("β", "1", "particles before over particles behind", ge=1).metadata["quantity"]
 INGRESS_FACTOR = "ingress"
-About = Callable[[str], tuple[str, dict[str, Any] | None]]
+About = Callable[[str], tuple[str, Quantity | None]]
 """Name of a number, and what it is, by the name in the file; None for what is none."""
 
 
@@ -44,7 +44,7 @@ class KnownOfLife:
     seed: int = 0
 
 
-def about_circuit(circuit: OilCircuit, name: str) -> dict[str, Any] | None:
+def about_circuit(circuit: OilCircuit, name: str) -> Quantity | None:
     """What a number of a circuit is, by its dotted name; None where it is none."""
     if name == INGRESS_FACTOR:
         return FACTOR
@@ -121,7 +121,7 @@ def known_of_life(
     )
 
 
-def _inputs_of_contact(reader: Reader) -> dict[str, tuple[str, dict[str, Any]]]:
+def _inputs_of_contact(reader: Reader) -> dict[str, tuple[str, Quantity]]:
     """Numbers of the contact by their names in the file; its particles are those of the oil."""
     return {
         each.name: (each.field, each.quantity)

@@ -10,8 +10,7 @@ from ..contact.contact import Contact
 from ..errors import InvalidValue, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
-from .amounts import amounts
-from .reader import NOTHING, Key, Reader, Table, get, variants
+from .reader import NOTHING, Key, Reader, Table, amounts, get, variants
 from .vocabulary import LOADS
 
 __all__ = ["BODY", "FORCE", "LOAD", "force_sentences", "loads_of", "pressed", "told_forces"]
@@ -25,7 +24,7 @@ MOST_INTEGRATED = 3
 KEYS = {name: amounts(name, about) for name, about in (LOADS | {"force": FORCE}).items()}
 
 
-def _load(reader: Reader, path: str, data: Any) -> Any:
+def _load(reader: Reader, path: str, data: Any) -> object:
     """Name and values of the load."""
     reader.only_one(path, data)
 

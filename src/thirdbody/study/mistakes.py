@@ -60,7 +60,7 @@ class Known:
         about = self.keys.get(path, {}).get(key, "")
         return Problem(_join(path, key), "is missing" + (f": {about}" if about else ""))
 
-    def unknown(self, path: str, key: str, value: Any) -> tuple[Problem, str | None]:
+    def unknown(self, path: str, key: str, value: object) -> tuple[Problem, str | None]:
         """Problem of an unknown key, and the key that was probably meant."""
         known = self.keys.get(path, {})
         place, shown = _join(path, key), say(value)
@@ -98,13 +98,15 @@ class Known:
         return not_known(hint=guess(key, known, meant=meant)), meant
 
 
-def clash(path: str, data: Mapping[str, Any], keys: Sequence[str], rule: str) -> Problem:
+def clash(path: str, data: Mapping[str, object], keys: Sequence[str], rule: str) -> Problem:
     """Keys of a table that cannot stand side by side."""
     others = "".join(f", {path}.{key} = {say(data[key])}" for key in keys[1:])
     return Problem(f"{path}.{keys[0]}", f"{others}: {rule}", say(data[keys[0]]))
 
 
-def in_file(error: InvalidValue, kind: type, path: str, values: Mapping[str, Any]) -> InvalidValue:
+def in_file(
+    error: InvalidValue, kind: type, path: str, values: Mapping[str, object]
+) -> InvalidValue:
     """Problems of a value class at the keys of its table, each with its value."""
     out = []
     for each in error.problems:
@@ -126,7 +128,7 @@ def _heading(table: str) -> str:
     return f"[[{name}]]" if number.isdecimal() else f"[{table}]"
 
 
-def _is_table(value: Any) -> bool:
+def _is_table(value: object) -> bool:
     several = isinstance(value, list) and value and all(isinstance(item, dict) for item in value)
     return isinstance(value, dict) or bool(several)
 

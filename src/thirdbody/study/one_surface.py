@@ -52,7 +52,7 @@ class OneSurface:
     warnings: tuple[str, ...]
 
 
-def one_surface(study: Study, F_star: Any, *, points: int = POINTS) -> OneSurface:
+def one_surface(study: Study, F_star: object, *, points: int = POINTS) -> OneSurface:
     """Press one small surface of a study: a window of its measured map, or a synthetic one.
 
     Parameters
@@ -81,7 +81,7 @@ def one_surface(study: Study, F_star: Any, *, points: int = POINTS) -> OneSurfac
         raise InvalidValue("explicit.seats: positions belong to a whole map, not to a part of it")
     loads = np.unique(np.atleast_1d(np.asarray(F_star, dtype=float)))
     spacing: float | None = None
-    surface: Any
+    surface: object
     if len(study.faces) == 1:
         surface, spacing, words = _window(study.faces[0], points)
     else:
@@ -145,7 +145,7 @@ def _window(face: Topography, points: int) -> tuple[np.ndarray, float, str]:
 
 
 def _corner(known: np.ndarray, side: int) -> tuple[int, int] | None:
-    """Where a window begins in which all is known, nearest the middle."""
+    """Corner of the window nearest the middle in which all heights are known."""
     gaps = np.pad(np.cumsum(np.cumsum(~known, axis=0), axis=1), ((1, 0), (1, 0)))
     inside = gaps[side:, side:] - gaps[:-side, side:] - gaps[side:, :-side] + gaps[:-side, :-side]
     free = np.argwhere(inside == 0)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["OUTPUTS", "on_area"]
 
 
-def _outputs(reader: Reader, path: str, data: Any) -> Any:
+def _outputs(reader: Reader, path: str, data: object) -> object:
     """Every output that the file names."""
     keys = {name: table_of(kind, kind.title) for name, kind in REGISTRY.items()}
     return reader.table(path, data, keys, lambda values: tuple(values.values()))

@@ -14,7 +14,6 @@ from collections.abc import Callable
 from dataclasses import is_dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from ..contact.output import AbstractOutput
 from ..errors import InvalidValue, Problem, tell_of_range
@@ -109,7 +108,7 @@ def _load_entry_points() -> None:
             tell_of_range(f"{error}; it is left out", UserWarning)
 
 
-def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[type[Named]]:
+def _looked_over(where: str, run: Callable[[], object], file: Path | None) -> list[type[Named]]:
     """Run an import; if it fails, the registries are as before."""
     before = [(word, kind.registry, dict(kind.registry)) for kind, word in KINDS.items()]
     try:

@@ -11,12 +11,14 @@ from ..populations.distributions import Histogram
 from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
 from ..populations.particles import Particles
+from ..populations.shape import SPHERE, Angular, Sphere
+from ..populations.strength import WeibullStrength
 from ..quantities.units import say, to_si
 from ..quantities.value import quantity
-from .grains import SHAPE, STRENGTH, with_strength
 from .mistakes import clash
 from .reader import (
     ANYTHING,
+    FIELDS,
     NOTHING,
     Key,
     Reader,
@@ -26,12 +28,14 @@ from .reader import (
     number,
     quantity_key,
     table_of,
+    variants,
     word,
+    wrong,
 )
 from .surfaces import PARTICLE_LAW
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "gaps_of", "populations"]
+__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "SHAPES", "gaps_of", "populations"]
 
 AMOUNT = {
     name: declared.metadata["quantity"]
@@ -71,7 +75,101 @@ OF_SIZES = "weibull_shape"
 """The key for the shape of Weibull sizes, where that of particles has its name."""
 
 
-def populations(whole: dict[str, Any]) -> dict[str, Any]:
+# -------------------------------------------------------------------------- sizes
+def _parts(reader: Reader, path: str, value: object) -> object:
+    """The components of a mixture, a list of tables."""
+    if not (isinstance(value, list) and value):
+        rule = 'must be a list of size distributions, e.g. [{ distribution = "monodisperse", '
+        raise wrong(path, f'{rule}mean = "100 nm" }}, ...]', value)
+    return reader.read_each({f"{path}.{i}": item for i, item in enumerate(value)}, _component)
+
+
+def _component(reader: Reader, path: str, data: object) -> object:
+    return reader.variant(path, data, "distribution", DISTRIBUTIONS)
+
+
+FIELDS["tuple[Distribution, ...]"] = Key(
+    _parts, about="a list of size distributions", schema=NOTHING, items=_component
+)
+
+
+# -------------------------------------------------------------------------- shape
+SHAPES = {"sphere": Sphere, "angular": Angular}
+ABOUT_SHAPE = 'sphere, or the table { kind = "angular", roundness = 0.25, angle = "25 deg" }'
+
+
+def _sphere(reader: Reader, path: str, value: object) -> Sphere:
+    if value == "sphere":
+        return SPHERE
+    raise wrong(path, f"must be {ABOUT_SHAPE}", value)
+
+
+SHAPE = variants("kind", SHAPES, ABOUT_SHAPE)._replace(read=_sphere, schema={"const": "sphere"})
+
+
+# -------------------------------------------------------------------------- strength
+NO_STRENGTH = (
+    'must be "material", for the strength that the material has in the library, or a table: '
+    '{ sigma_0 = "67 MPa", at = "1 mm", m = 3, size_exponent = 0.55 }'
+)
+OWN = ("sigma_0", "x_0", "at", "m")
+"""Keys of a strength of one's own; a table without them changes that of the material."""
+
+
+def _of_material(reader: Reader, path: str, value: object) -> dict[str, object]:
+    """The strength that the material has, and nothing of one's own."""
+    if value != "material":
+        raise wrong(path, NO_STRENGTH, value)
+    return {}
+
+
+def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[str, Any]:
+    """A strength with its numbers, or changes to that of the material."""
+    given = data if isinstance(data, dict) else {}
+    keys = dict(keys_of(WeibullStrength))
+    keys["at"] = keys["x_0"]._replace(required=False)
+    of_material = not any(key in given for key in OWN)
+    if of_material:
+        keys = {name: key._replace(required=False) for name, key in keys.items()}
+    elif "at" in given:
+        keys["x_0"] = keys["at"]
+        if "x_0" in given:
+            rule = "both are the size of the test; keep one of them"
+            reader.mistakes.append(clash(path, data, ("at", "x_0"), rule))
+
+    def build(values: dict[str, object]) -> WeibullStrength | dict[str, Any]:
+        if "at" in values:
+            values["x_0"] = values.pop("at")
+        return values if of_material else reader.make(WeibullStrength, path, values)
+
+    return reader.table(path, data, keys, build)
+
+
+STRENGTH = Key(
+    _of_material,
+    False,
+    "how strong the particles are",
+    {"const": "material"},
+    _strength,
+    ({"m": 1},),
+)
+
+
+def with_strength(particles: Particles, path: str, asked: object) -> Particles:
+    """The particles, with the strength of their material where the file says so."""
+    if not isinstance(asked, dict):
+        return particles
+    try:
+        found = WeibullStrength.of(particles.material, **asked)
+    except InvalidValue as error:
+        raise error.under(path) from None
+    return particles.replace(strength=found)
+
+
+# -------------------------------------------------------------------------- populations
+
+
+def populations(whole: Mapping[str, object]) -> dict[str, Any]:
     """The tables of all populations of a file by their paths, particles or particles.0, ..."""
     given = whole.get("particles")
     if isinstance(given, list) and given:
@@ -79,13 +177,13 @@ def populations(whole: dict[str, Any]) -> dict[str, Any]:
     return {"particles": given} if "particles" in whole else {}
 
 
-def gaps_of(whole: dict[str, Any]) -> tuple[float | None, ...]:
+def gaps_of(whole: Mapping[str, object]) -> tuple[float | None, ...]:
     """Heights of the oil whose particles each population is [m]; None where a file has none."""
     given = [get(table, "gap") or get(table, "film") for table in populations(whole).values()]
     return tuple(None if gap is None else to_si(gap, "m") for gap in given)
 
 
-def _particles(reader: Reader, path: str, data: Any) -> Any:
+def _particles(reader: Reader, path: str, data: object) -> object:
     """One population, or a list of them."""
     if not (isinstance(data, list) and data):
         return _population(reader, path, data)
@@ -98,7 +196,7 @@ def _particles(reader: Reader, path: str, data: Any) -> Any:
     return reader.read_each({f"{path}.{i}": table for i, table in enumerate(data)}, _population)
 
 
-def _population(reader: Reader, path: str, data: Any) -> Any:
+def _population(reader: Reader, path: str, data: Any) -> object:
     """One population, whose sizes are a distribution or were counted."""
     given = data if isinstance(data, dict) else {}
     sources = [key for key in ("distribution", *COUNTED) if given.get(key) is not None]
@@ -134,7 +232,7 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- keys
-def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) -> dict[str, Key]:
+def _keys_of_population(given: Mapping[str, object], kind: str, by_volume: bool) -> dict[str, Key]:
     """Every key but those of the sizes."""
     keys = dict(keys_of(Particles))
     keys["material"] = keys["material"]._replace(
@@ -166,7 +264,7 @@ def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) ->
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
 
-def _unread(reader: Reader, path: str, value: Any) -> Any:
+def _unread(reader: Reader, path: str, value: object) -> object:
     """Value of a source of sizes that is not read, since another source is."""
     return value
 
@@ -182,7 +280,7 @@ def _names_of_amount(kind: str) -> tuple[str, ...]:
 
 
 def _problems_of_amount(
-    path: str, given: Mapping[str, Any], kind: str, by_volume: bool
+    path: str, given: Mapping[str, object], kind: str, by_volume: bool
 ) -> list[Problem]:
     """Problems of the keys for the number of particles."""
     if kind == SETTLED:
@@ -221,7 +319,7 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
         keys["exposure"] = keys["exposure"]._replace(required=True)
     weighting = given.get("weighting")
 
-    def read(reader: Reader, path: str, value: Any) -> Any:
+    def read(reader: Reader, path: str, value: object) -> object:
         try:
             if kind != "sizes":
                 return _checked_code(reader, path, kind, value)
@@ -236,7 +334,7 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
     }
 
 
-def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> Any:
+def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> object:
     """A code or the word of a dust, of which the library knows the counts."""
     if kind == SETTLED:
         return clean_room.read_class(value)
@@ -254,7 +352,7 @@ def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> Any:
     return value
 
 
-def _sizes_of_file(reader: Reader, value: Any, weighting: str) -> MeasuredSizes:
+def _sizes_of_file(reader: Reader, value: object, weighting: str) -> MeasuredSizes:
     """A measured histogram."""
     if not isinstance(value, str):
         raise InvalidValue(

@@ -11,10 +11,9 @@ from ..errors import InvalidValue
 from ..laws.particle.series import Series
 from ..quantities.value import quantity
 from ..systems.chuck import Chuck
-from .amounts import amounts
 from .connector import populations_of
 from .described import Described, describe
-from .reader import NOTHING, Key, Reader, Table, keys_of
+from .reader import NOTHING, Key, Reader, Table, amounts, keys_of
 
 __all__ = ["PLATE", "AskedPlate", "plate_of"]
 
@@ -49,11 +48,11 @@ class AskedPlate:
 
     @property
     def described(self) -> Described:
-        """What the tables describe."""
+        """Inputs with symbols and units."""
         return describe("plate.", self.chuck)
 
 
-def _plate(reader: Reader, path: str, data: Any) -> Any:
+def _plate(reader: Reader, path: str, data: object) -> Any:
     """The plate of [plate], as a table of arguments."""
     return reader.table(path, data, keys_of(Chuck) | {"grain": amounts("grain", GRAIN)})
 

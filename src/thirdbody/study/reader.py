@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeVar
+
+import numpy as np
 
 from ..errors import InvalidValue, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
-from ..quantities.units import EXAMPLES, quantity_to_si, say
-from ..quantities.value import allowed_range, problem_with, unit_meant
+from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
+from ..quantities.value import allowed_range, limits_of, problem_with, quantity, unit_meant
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
 from .vocabulary import near
@@ -27,8 +29,10 @@ __all__ = [
     "Key",
     "Reader",
     "Table",
+    "amounts",
     "count",
     "get",
+    "is_span",
     "keys_of",
     "number",
     "numbers",
@@ -70,6 +74,8 @@ SLIP = "unit of "
 NOTHING: dict[str, Any] = {"enum": []}
 """What JSON Schema says of a key under which all, or nothing, can stand."""
 
+Item = TypeVar("Item")
+Read = TypeVar("Read")
 ReadOne = Callable[["Reader", str, Any], Any]
 """What reads the value at a path."""
 
@@ -106,7 +112,7 @@ class Key(NamedTuple):
     items: ReadOne | None = None
     default: bool | float | str | None = None
 
-    def read_any(self, reader: Reader, path: str, value: Any) -> Any:
+    def read_any(self, reader: Reader, path: str, value: object) -> object:
         """A value, whether it is a table or none."""
         if self.table is not None and (self.read is None or isinstance(value, dict)):
             return self.table(reader, path, value)
@@ -139,7 +145,7 @@ class Table:
     required: Callable[[Mapping[str, Any]], bool] | None = None
     role: str = "contact"
 
-    def is_required(self, whole: Mapping[str, Any]) -> bool:
+    def is_required(self, whole: Mapping[str, object]) -> bool:
         """Whether a file must hold it."""
         return self.key.required if self.required is None else self.required(whole)
 
@@ -183,7 +189,7 @@ class Reader:
     def table(
         self,
         path: str,
-        data: Any,
+        data: object,
         keys: Mapping[str, Key],
         build: Callable[[dict[str, Any]], Any] = dict,
     ) -> Any:
@@ -211,9 +217,11 @@ class Reader:
         # in the order of the file, which decides what each sampled input is given
         return build({name: values[name] for name in data})
 
-    def read_each(self, items: Mapping[str, Any], read: ReadOne) -> tuple[Any, ...]:
-        """What several values are read as, by their paths; all of their mistakes."""
-        out: list[Any] = []
+    def read_each(
+        self, items: Mapping[str, Item], read: Callable[[Reader, str, Item], Read]
+    ) -> tuple[Read, ...]:
+        """Several values, each read at its path; their mistakes are raised together."""
+        out: list[Read] = []
         problems: list[Problem] = []
         for path, item in items.items():
             try:
@@ -224,19 +232,19 @@ class Reader:
             raise InvalidValue(*problems)
         return tuple(out)
 
-    def value(self, path: str, data: Any, kind: type) -> Any:
+    def value(self, path: str, data: object, kind: type) -> Any:
         """A table that stands for a value class: its fields are the keys."""
         return self.table(path, data, keys_of(kind), partial(self.make, kind, path))
 
     def variant(
         self,
         path: str,
-        data: Any,
+        data: object,
         tag: str,
         kinds: Mapping[str, type],
         build: Callable[[dict[str, Any]], Any] | None = None,
         common: Mapping[str, Key] | None = None,
-    ) -> Any:
+    ) -> object:
         """A table whose other keys depend on the word under ``tag``.
 
         When the word is missing or misspelt, the rest of the table is checked all the same:
@@ -261,7 +269,7 @@ class Reader:
             self.mistakes.append(clash(path, data, given, rule))
         return given[1:]
 
-    def make(self, kind: type, path: str, values: dict[str, Any]) -> Any:
+    def make(self, kind: type, path: str, values: Mapping[str, object]) -> Any:
         """The object, its own complaints told with the keys of the file."""
         try:
             return kind(**values)
@@ -305,7 +313,7 @@ def tag_key(options: tuple[str, ...]) -> Key:
 def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
     """The key of a table that stands for a value class."""
 
-    def read(reader: Reader, path: str, data: Any) -> Any:
+    def read(reader: Reader, path: str, data: object) -> object:
         return reader.value(path, data, kind)
 
     return Key(None, required, about, NOTHING, read)
@@ -316,7 +324,7 @@ def variants(
 ) -> Key:
     """Key of a table for one of several classes, chosen by a word in it."""
 
-    def read(reader: Reader, path: str, data: Any) -> Any:
+    def read(reader: Reader, path: str, data: object) -> object:
         return reader.variant(path, data, tag, kinds)
 
     return Key(None, required, about, NOTHING, read)
@@ -336,24 +344,24 @@ class Unsaid:
         self.notes: list[str] = []
 
 
-def wrong(path: str, rule: str, value: Any, *, hint: str = "") -> InvalidValue:
+def wrong(path: str, rule: str, value: object, *, hint: str = "") -> InvalidValue:
     """The error of one value of a file."""
     return InvalidValue(Problem(path, rule, say(value), hint=hint))
 
 
-def quantity_key(name: str, about: dict[str, Any], *, required: bool = False) -> Key:
-    """The key of a number, told with its name."""
+def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
+    """Key of a number whose meaning is told with its name."""
     return number(about)._replace(about=about_of(name, about), required=required)
 
 
-def number(about: dict[str, Any]) -> Key:
-    """A number in SI inside the range of its quantity; text has a unit."""
-    limits = {word: about[key] for key, word in LIMITS.items() if about[key] is not None}
+def number(about: Quantity) -> Key:
+    """Key of a number in SI inside the range of its quantity; text has a unit."""
+    limits = {LIMITS[key]: limit for key, limit in limits_of(about).items()}
     schema = {"type": ["number", "string"]} | limits
     return Key(partial(read_number, about), schema=schema)
 
 
-def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> float:
+def read_number(about: Quantity, reader: Notes, path: str, value: object) -> float:
     """The number in SI that a value of a file stands for."""
     try:
         found = quantity_to_si(value, about)
@@ -362,8 +370,7 @@ def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> 
         cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
         raise InvalidValue(Problem(path, f"= {error}{cause}")) from None
     if not math.isfinite(found):
-        allowed = allowed_range(about).removeprefix("must be ")
-        allowed = "" if allowed.startswith("a finite") else f"; it must be {allowed}"
+        allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value)
     if why := problem_with(about, found):
         meant = "" if about["hint"] else f"; it is the {about['meaning']}"
@@ -374,7 +381,7 @@ def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> 
     return found
 
 
-def _refuse_slip(reader: Notes, path: str, value: Any, taken: str, meant: str) -> None:
+def _refuse_slip(reader: Notes, path: str, value: object, taken: str, meant: str) -> None:
     """Refuse a number without a unit that no interface has; note one with a unit."""
     if not isinstance(value, str):
         has_unit = not isinstance(value, (int, float))  # a quantity of a library of units
@@ -391,14 +398,13 @@ def _refuse_slip(reader: Notes, path: str, value: Any, taken: str, meant: str) -
 
 
 def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
-    """A list of numbers; the class of the table checks their range.
+    """Key of a list of numbers; the class of the table checks their range.
 
     Lengths up to ``usual`` are no slip: infinity where numbers without a unit may be in any unit.
     """
-    limits: dict[str, Any] = dict.fromkeys(LIMITS)
-    one = limits | {"symbol": "", "unit": unit, "meaning": "number", "hint": "", "usual": usual}
+    one: Quantity = quantity("", unit, "number").metadata["quantity"] | {"usual": usual}
 
-    def read(reader: Reader, path: str, value: Any) -> tuple[float, ...]:
+    def read(reader: Reader, path: str, value: object) -> tuple[float, ...]:
         if not isinstance(value, list):
             raise wrong(path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value)
         return read_numbers(one, Unsaid(), path, value)
@@ -408,7 +414,7 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
 
 
 def read_numbers(
-    about: dict[str, Any], reader: Notes, path: str, value: list[Any]
+    about: Quantity, reader: Notes, path: str, value: Sequence[object]
 ) -> tuple[float, ...]:
     """The numbers in SI of a list."""
     out: list[float] = []
@@ -423,8 +429,73 @@ def read_numbers(
     return tuple(out)
 
 
+def amounts(name: str, about: Quantity, *, sampled: bool = False) -> Key:
+    """The key of one value, a list of values, or a range; one to sample has no ``points``."""
+    one = number(about).schema
+    schema = {"anyOf": [one, {"type": "array", "items": one}]}
+    table = partial(_range, about, sampled)
+    return Key(partial(_amounts, about), False, about_of(name, about), schema, table)
+
+
+def _amounts(about: Quantity, reader: Reader, path: str, value: object) -> np.ndarray:
+    if not isinstance(value, list):
+        return np.array([read_number(about, reader, path, value)])
+    if not value:
+        raise InvalidValue(Problem(path, "is empty; give at least one value", "[]"))
+    return np.array(read_numbers(about, reader, path, value))
+
+
+def _range(about: Quantity, sampled: bool, reader: Reader, path: str, data: Any) -> Any:
+    spacings = ("linear", "log") if about["gt"] is None else ("log", "linear")
+    example = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
+    end, points = number(about)._replace(required=True), count(f"how many values, {example}")
+    keys = {
+        "from": end._replace(about=f"the lowest value, {example}"),
+        "to": end._replace(about=f"the highest value, {example}"),
+        "points": points._replace(required=not (sampled or reader.every_way)),
+        "spacing": word(spacings),
+    }
+
+    log = get(data, "spacing") in ((None, "log") if spacings[0] == "log" else ("log",))
+    problems = _problems_of_ends(about, path, data, log)
+    reader.mistakes += problems
+
+    def build(values: dict[str, Any]) -> Any:
+        low, high = values["from"], values["to"]
+        if problems:
+            raise InvalidValue
+        if "points" not in values:
+            return {"low": low, "high": high, "scale": "log" if log else "linear"}
+        space = np.geomspace if log else np.linspace
+        return space(low, high, values["points"])
+
+    return reader.table(path, data, keys, build)
+
+
+def _problems_of_ends(about: Quantity, path: str, data: Any, log: bool) -> list[Problem]:
+    """Problems of the two ends of a range together."""
+    try:
+        low, high = (read_number(about, Unsaid(), path, data[end]) for end in ("from", "to"))
+    except (InvalidValue, LookupError, TypeError):
+        return []
+    problems = []
+    if low >= high:
+        ends = f"from = {say(data['from'])} must be below to = {say(data['to'])}"
+        hint = "exchange them" if low > high else "for one value write it alone"
+        problems.append(Problem(path, f"is an empty range: {ends}", hint=hint))
+    if log and low <= 0:
+        rule, hint = 'must be > 0 with spacing = "log"', 'use spacing = "linear"'
+        problems.append(Problem(f"{path}.from", rule, say(data["from"]), hint=hint))
+    return problems
+
+
+def is_span(values: object) -> bool:
+    """Whether this is what a range to sample is read as."""
+    return isinstance(values, dict) and set(values) == {"low", "high", "scale"}
+
+
 def count(about: str = "", *, least: int = 1, most: int = MOST_POINTS) -> Key:
-    """A whole number."""
+    """Key of a whole number."""
 
     def read(reader: Reader, path: str, value: Any) -> int:
         whole = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -436,11 +507,11 @@ def count(about: str = "", *, least: int = 1, most: int = MOST_POINTS) -> Key:
 
 
 def word(options: Iterable[str], about: str = "", *, required: bool = False) -> Key:
-    """One of a few words."""
+    """Key of one of a few words."""
     return Key(partial(read_word, options), required, about, {"enum": options})
 
 
-def read_word(options: Iterable[str], reader: Any, path: str, value: Any) -> str:
+def read_word(options: Iterable[str], reader: object, path: str, value: object) -> str:
     """The word that a value of a file is."""
     if isinstance(value, str) and value in options:
         return value
@@ -450,7 +521,7 @@ def read_word(options: Iterable[str], reader: Any, path: str, value: Any) -> str
 
 
 def words(options: Iterable[str] | None, about: str = "") -> Key:
-    """One word or a list of words; any where there are no options."""
+    """Key of one word or a list of words; any word where there are no options."""
 
     def read(reader: Reader, path: str, value: Any) -> list[str]:
         values = value if isinstance(value, list) else [value]
@@ -467,27 +538,27 @@ def words(options: Iterable[str] | None, about: str = "") -> Key:
 def refused(why: str) -> Key:
     """A key that is known and has no place here."""
 
-    def read(reader: Reader, path: str, value: Any) -> Any:
+    def read(reader: Reader, path: str, value: object) -> object:
         raise wrong(path, why, value)
 
     return Key(read, schema=NOTHING)
 
 
-def _read_word_or_number(reader: Reader, path: str, value: Any) -> str | float:
+def _read_word_or_number(reader: Reader, path: str, value: object) -> str | float:
     """A word or a pure number; the object checks which words it takes."""
     if isinstance(value, str) or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
     raise wrong(path, "must be a word in quotes or a number", value)
 
 
-def _read_text(reader: Reader, path: str, value: Any) -> str:
+def _read_text(reader: Reader, path: str, value: object) -> str:
     if isinstance(value, str):
         return value
     simple = isinstance(value, (int, float)) and not isinstance(value, bool)
     raise wrong(path, "must be text in quotes" + f', e.g. "{value}"' * simple, value)
 
 
-def _read_switch(reader: Reader, path: str, value: Any) -> bool:
+def _read_switch(reader: Reader, path: str, value: object) -> bool:
     if isinstance(value, bool):
         return value
     raise wrong(path, "must be true or false, without quotes", value)

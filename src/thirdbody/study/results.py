@@ -34,7 +34,7 @@ EYRING = "Eyring 1936, J. Chem. Phys. 4, 283, doi:10.1063/1.1749836"
 
 __all__ = ["Entrained", "FilmResult", "Passing", "StudyResult"]
 
-Columns = dict[str, list[Any]]
+Columns = dict[str, list[object]]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -74,7 +74,7 @@ class _Result(MappedRecord):
         """What the particles of each population are: do they conduct, dent, break?"""
         return natures(self.study.contact)
 
-    def _plain_data(self, inputs: dict[str, Any], **found: Any) -> dict[str, Any]:
+    def _plain_data(self, inputs: dict[str, object], **found: object) -> dict[str, object]:
         """Plain data with what every study says: title, version, inputs, warnings, citations."""
         return {
             "title": self.study.title,
@@ -144,7 +144,7 @@ class StudyResult(_Result):
 
     @property
     def force_sentences(self) -> list[str]:
-        """What forces do to their bodies, in words."""
+        """Sentences on the forces that press the bodies."""
         return force_sentences(list(self.forces))
 
     @takes_units
@@ -214,7 +214,7 @@ class StudyResult(_Result):
             what_ifs=[each.to_dict() for each in self.what_ifs],
         )
         if self.forces:
-            body: dict[str, Any] = {} if self.study.body is None else self.study.body.to_dict()
+            body: dict[str, object] = {} if self.study.body is None else self.study.body.to_dict()
             said = {"forces": plain_data(self.forces), "sentences": self.force_sentences}
             return data | {"body": body | said}
         held = {} if self.study.film is None else {"particles_held": self.particles_held}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -14,13 +15,13 @@ from ..populations.roughness import Roughness
 from ..quantities.say import value_of
 from ..quantities.units import say, to_si
 from ..quantities.value import quantity
-from .amounts import amounts
 from .asperities import ELLIPTICITY, HEIGHT, RADII
 from .reader import (
     NOTHING,
     Key,
     Reader,
     Table,
+    amounts,
     get,
     keys_of,
     quantity_key,
@@ -69,12 +70,12 @@ SIDES = ("first", "second")
 KNOWN_BETTER = ("R", "alpha", "eta_R_sigma", "eta")
 
 
-def is_drawn(data: Any) -> bool:
+def is_drawn(data: object) -> bool:
     """Whether [roughness] is given as on a drawing."""
     return isinstance(data, dict) and not data.keys().isdisjoint({*STATED, *SIDES, "process"})
 
 
-def _read_drawing(reader: Reader, path: str, data: dict[str, Any]) -> Any:
+def _read_drawing(reader: Reader, path: str, data: dict[str, object]) -> Any:
     """Heights of the pair or of each face, the process, and numbers that replace its ranges."""
     keys = {name: key._replace(required=False) for name, key in keys_of(Roughness).items()}
     keys |= _height_keys() | dict.fromkeys(SIDES, FACE)
@@ -111,12 +112,12 @@ def _read_drawing(reader: Reader, path: str, data: dict[str, Any]) -> Any:
     return reader.table(path, data, keys, build)
 
 
-def _refuse(values: dict[str, Any]) -> None:
+def _refuse(values: Mapping[str, object]) -> None:
     """Build nothing, because of what was told."""
     raise InvalidValue
 
 
-def _problems_of_drawing(path: str, data: dict[str, Any]) -> list[Problem]:
+def _problems_of_drawing(path: str, data: Mapping[str, object]) -> list[Problem]:
     """Problems of the heights of a drawing taken together."""
     pair = [key for key in ("sigma", *STATED) if key in data]
     sides = [key for key in SIDES if key in data]
@@ -143,7 +144,7 @@ def _height_keys() -> dict[str, Key]:
     return keys | {"process": word(processes(), f"one of {', '.join(processes())}")}
 
 
-def _face(reader: Reader, path: str, data: Any) -> Any:
+def _face(reader: Reader, path: str, data: object) -> object:
     """The height of one face and its process."""
     return reader.table(path, data, _height_keys())
 
@@ -160,14 +161,14 @@ NO_SHAPE = (
 )
 
 
-def _shape_measured(reader: Reader, path: str, value: Any) -> str:
+def _shape_measured(reader: Reader, path: str, value: object) -> str:
     """Shapes of the summits counted."""
     if value != "measured":
         raise wrong(path, NO_SHAPE, value)
     return "measured"
 
 
-def _shape_beside(reader: Reader, path: str, data: dict[str, Any]) -> Any:
+def _shape_beside(reader: Reader, path: str, data: Mapping[str, object]) -> object:
     """Classes and faces as elsewhere, without the radii."""
     if radii := [key for key in RADII if get(data, key) is not None]:
         both = "both" if len(radii) == 2 else "it"
@@ -177,7 +178,7 @@ def _shape_beside(reader: Reader, path: str, data: dict[str, Any]) -> Any:
     return ELLIPTICITY.table(reader, path, data)  # type: ignore[misc]
 
 
-def _heights_measured(reader: Reader, path: str, value: Any) -> Any:
+def _heights_measured(reader: Reader, path: str, value: object) -> object:
     """The heights of the summits counted, or a distribution as elsewhere."""
     return value if value == "measured" else HEIGHT.read(reader, path, value)  # type: ignore[misc]
 
@@ -217,7 +218,7 @@ BESIDE = {
 TWICE = refused("is told by the topography as well; remove one of the two")
 
 
-def _topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
+def _topography(reader: Reader, path: str, data: dict[str, object]) -> object:
     """A measured surface instead of σ, R and η; two files are the two faces."""
 
     def build(values: dict[str, Any]) -> Roughness:

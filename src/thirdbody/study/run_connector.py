@@ -6,7 +6,6 @@ import contextlib
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -76,13 +75,13 @@ class ConnectorResult(AskedResult):
         "Panjer 1981, ASTIN Bulletin 12, 22, doi:10.1017/S0515036100006796",
     )
 
-    def inputs(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, object]:
         """The connector, and the forces that are asked for."""
         connector = self.asked.connector.to_dict()
         return {"connector": connector, "force": plain_data(self.asked.forces)}
 
-    def numbers(self) -> dict[str, Any]:
-        """What holds for every force."""
+    def numbers(self) -> dict[str, object]:
+        """Numbers that hold for every force."""
         return {"in_the_way": self.in_the_way, "threshold": self.threshold}
 
 
@@ -197,7 +196,7 @@ def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
 
 
 def _bounds_note(found: ConnectorResult, at: int) -> list[Note]:
-    """Where rounding blurs the answer."""
+    """Note where rounding blurs the answer."""
     low, high = found.failure_low[at], found.failure_high[at]
     if not high > 0 or (high - low) < VAGUE * high:
         return []

@@ -58,7 +58,7 @@ class ExplicitResult:
     """
 
     data: dict[str, Any]
-    columns: dict[str, list[Any]]
+    columns: dict[str, list[object]]
     units: dict[str, str]
     state: ExplicitState
     converged: bool
@@ -195,7 +195,7 @@ def claim_results(out: str | os.PathLike[str], study: Study, *, maps: str = "las
     return claim_folder(out, told, files=FILES, unmarked=_unmarked_study, growing=("surfaces",))
 
 
-def _unmarked_study(folder: Path) -> dict[str, Any] | None:
+def _unmarked_study(folder: Path) -> dict[str, object] | None:
     """Study whose results lie in a folder without a mark, as read from these."""
     found = read_json(folder / "explicit.json")
     if found is not None and {"version", "inputs", "table"} <= set(found):

@@ -19,9 +19,8 @@ from .life import AskedDry, AskedLife, life_of, oil_of
 from .life_bands import LifeBands, propagate_life
 from .life_dents import LifeDents, dents_of_life
 from .life_dirt import CLEAN
-from .overrides import override
 from .run_dry import DryResult, bands_of_dry, life_of_asked, run_dry
-from .toml import read
+from .toml import override, read
 from .whole import load_tables, read_tables
 
 __all__ = [

@@ -18,10 +18,9 @@ from ..systems.life.until import ContactUntil
 from .asked_result import QuestionResult
 from .life import AskedLife
 from .life_design import AskedDesign
-from .overrides import override
 from .reader import get
 from .run_life import history_of
-from .toml import read
+from .toml import override, read
 
 __all__ = ["LifeDesign", "asks_for_design", "design_life"]
 

@@ -6,7 +6,6 @@ import math
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -80,11 +79,11 @@ class PlateResult(AskedResult):
     title_without = "Plate"
     citations = ("Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed., ch. 3",)
 
-    def inputs(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, object]:
         """The plate on its chuck."""
         return {"plate": self.asked.chuck.to_dict()}
 
-    def numbers(self) -> dict[str, Any]:
+    def numbers(self) -> dict[str, object]:
         """Number of bumps above the limit, and the particles that lift the plate to it."""
         return {"bumps": self.bumps, "none": self.none, "lifting": list(self.lifting)}
 
@@ -199,7 +198,7 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
 
 
 def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
-    """Where the theory of thin plates ends."""
+    """Notes where the theory of thin plates ends."""
     out = []
     t = chuck.thickness
     if stiff := [bump.height for bump in found if not bump.thin]:

@@ -67,7 +67,7 @@ class Describer(Reader):
         path: str,
         data: Any,
         keys: Mapping[str, Key],
-        build: Callable[[dict[str, Any]], Any] = dict,
+        build: Callable[[dict[str, object]], object] = dict,
     ) -> Any:
         """The schema of a table with these keys and no others."""
         if path.count(".") >= DEEPEST:
@@ -80,13 +80,13 @@ class Describer(Reader):
             if not self.every_way:  # of which the keys alone are wanted
                 deque(ways, maxlen=0)
                 continue
-            described: dict[str, Any] = {"description": key.about} if key.about else {}
+            described: dict[str, object] = {"description": key.about} if key.about else {}
             if _in_json(key.default):
                 described["default"] = key.default
             properties[name] = described | _any_of(ways)
         return _schema_of(properties, [name for name, key in keys.items() if key.required])
 
-    def read_each(self, items: Mapping[str, Any], read: ReadOne) -> Any:
+    def read_each(self, items: Mapping[str, object], read: ReadOne) -> Any:
         """The schema of a list."""
         ways = [read(self, *item) for item in items.items()]
         return {"type": "array", "items": _any_of(ways)} if self.every_way else {}
@@ -94,10 +94,10 @@ class Describer(Reader):
     def variant(
         self,
         path: str,
-        data: Any,
+        data: object,
         tag: str,
         kinds: Mapping[str, type],
-        build: Callable[[dict[str, Any]], Any] | None = None,
+        build: Callable[[dict[str, object]], object] | None = None,
         common: Mapping[str, Key] | None = None,
     ) -> Any:
         """The schema of a table whose keys depend on a word: of all of them, for whatever data."""
@@ -125,10 +125,10 @@ class Describer(Reader):
             )
 
 
-def _any_of(ways: Iterable[dict[str, Any]]) -> dict[str, Any]:
+def _any_of(ways: Iterable[dict[str, object]]) -> dict[str, Any]:
     """Schema of a value that may be written in any of these ways; tables become one."""
-    tables: list[dict[str, Any]] = []
-    out: list[dict[str, Any]] = []
+    tables: list[dict[str, object]] = []
+    out: list[dict[str, object]] = []
     for schema in _each_way(ways):
         if "properties" in schema:
             tables.append(schema)
@@ -141,7 +141,7 @@ def _any_of(ways: Iterable[dict[str, Any]]) -> dict[str, Any]:
     return out[0] if len(out) == 1 else {"anyOf": out}
 
 
-def _each_way(ways: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+def _each_way(ways: Iterable[dict[str, Any]]) -> Iterator[dict[str, object]]:
     for schema in ways:
         if "anyOf" in schema:
             yield from _each_way(schema["anyOf"])
@@ -152,16 +152,16 @@ def _each_way(ways: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
             yield schema | ({"items": _any_of([schema["items"]])} if "items" in schema else {})
 
 
-def _merged(tables: list[dict[str, Any]]) -> dict[str, Any]:
+def _merged(tables: list[dict[str, Any]]) -> dict[str, object]:
     """The schema of a table that is written in these ways: all their keys, and no others."""
-    ways: dict[str, list[dict[str, Any]]] = {}
+    ways: dict[str, list[dict[str, object]]] = {}
     for table in tables:
         for name, schema in table["properties"].items():
             ways.setdefault(name, []).append(schema)
     properties = {}
     for name, several in ways.items():
         about = next((each["description"] for each in several if "description" in each), None)
-        described: dict[str, Any] = {} if about is None else {"description": about}
+        described: dict[str, object] = {} if about is None else {"description": about}
         defaults = [each.get("default") for each in several]
         if defaults[0] is not None and all(each == defaults[0] for each in defaults):
             described["default"] = defaults[0]
@@ -179,7 +179,7 @@ def _in_json(default: object) -> bool:
     return default is not None and default != ""
 
 
-def _schema_of(properties: dict[str, Any], needed: list[str]) -> dict[str, Any]:
+def _schema_of(properties: Mapping[str, object], needed: list[str]) -> dict[str, object]:
     """The schema of a table with these keys and no others."""
     needs = {"required": needed} if needed else {}
     return {"type": "object", "properties": properties} | needs | {"additionalProperties": False}

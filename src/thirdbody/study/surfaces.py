@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import partial
 from typing import Any
 
@@ -28,13 +29,14 @@ BOTH = 'a table [surfaces] with the two materials, e.g. first = "S45C", second =
 
 
 # -------------------------------------------------------------------------- materials
-def _from_library(reader: Reader, path: str, value: Any) -> Material:
+def _from_library(reader: Reader, path: str, value: object) -> Material:
     """The material of a name."""
     known = reader.library
     if known is None:
         return materials["S45C"]  # no name can be judged, and the study is refused anyway
-    if isinstance(value, str) and value in known:
-        return known[value]
+    if isinstance(value, str):
+        with suppress(KeyError):
+            return known[value]
     near = known.near(str(value))
     some = ", ".join(list(known)[:3])
     rule = (
@@ -50,12 +52,12 @@ FIELDS["Material"] = MATERIAL
 SIDES = {side: MATERIAL._replace(required=True, about=ONE) for side in ("first", "second")}
 
 
-def _surfaces(reader: Reader, path: str, data: Any) -> Any:
+def _surfaces(reader: Reader, path: str, data: object) -> object:
     """The two bodies."""
     return reader.table(path, data, SIDES, partial(reader.make, MaterialPair, path))
 
 
-def _own_materials(reader: Reader, path: str, given: Any) -> Any:
+def _own_materials(reader: Reader, path: str, given: object) -> object:
     """Name of a file of materials; tables read after this one may use its names."""
     name = text.read(reader, path, given)  # type: ignore[misc]
     try:
@@ -72,7 +74,7 @@ def _own_materials(reader: Reader, path: str, given: Any) -> Any:
 def law_key(registry: Mapping[str, type], about: str = "") -> Key:
     """The key of a law: its name, or a table with its name and options."""
 
-    def read(reader: Reader, path: str, data: Any) -> Any:
+    def read(reader: Reader, path: str, data: object) -> object:
         if not isinstance(data, str):
             return table(reader, path, data)
         return reader.make(registry[read_word(registry, reader, path, data)], path, {})
@@ -83,7 +85,7 @@ def law_key(registry: Mapping[str, type], about: str = "") -> Key:
     return Key(read, False, about, {"enum": registry}, table)
 
 
-def class_of(data: Any, registry: Mapping[str, type]) -> type | None:
+def class_of(data: object, registry: Mapping[str, type]) -> type | None:
     """The class of the law that a file names, by a word or in a table."""
     return registry.get(str(get(data, "name") if isinstance(data, dict) else data))
 

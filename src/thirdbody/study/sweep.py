@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
@@ -15,16 +16,28 @@ from ..contact.output import every_column
 from ..equilibrium.columns import COLUMNS
 from ..errors import InvalidValue
 from ..numerics.sampling import DESIGNS
-from .amounts import amounts, is_span
 from .inputs import Input, field_of, inputs_of
-from .reader import NOTHING, Key, Reader, Table, count, get, switch, word, words, wrong
+from .reader import (
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    amounts,
+    count,
+    get,
+    is_span,
+    switch,
+    word,
+    words,
+    wrong,
+)
 from .vocabulary import LOADS
 
 __all__ = ["SWEEP", "ends", "plan", "with_nested_names"]
 
 
-def _sweep(reader: Reader, path: str, data: Any) -> Any:
-    """The plan of [sweep]: what varies, how, and what is stored."""
+def _sweep(reader: Reader, path: str, data: object) -> object:
+    """Entries of [sweep]: what varies, how, and what is stored."""
     sampled = get(data, "design") not in (None, "grid", "zip")
     keys = {
         "design": word(("grid", "zip", *DESIGNS)),
@@ -40,7 +53,7 @@ def _sweep(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys)
 
 
-def _vary(sampled: bool, reader: Reader, path: str, data: Any) -> Any:
+def _vary(sampled: bool, reader: Reader, path: str, data: object) -> object:
     """The inputs that may vary, in tables like those of the file."""
     if reader.every_way:
         return {"type": "object"}  # the inputs of whatever study it is
@@ -51,8 +64,13 @@ def _vary(sampled: bool, reader: Reader, path: str, data: Any) -> Any:
 
 
 def _inputs_that_vary(
-    sampled: bool, tables: dict[str, list[Input]], prefix: str, reader: Reader, path: str, data: Any
-) -> Any:
+    sampled: bool,
+    tables: dict[str, list[Input]],
+    prefix: str,
+    reader: Reader,
+    path: str,
+    data: object,
+) -> object:
     """Inputs of the table of this name and of the tables in it."""
     keys: dict[str, Key] = {}
     refused: dict[str, str] = {}
@@ -79,7 +97,7 @@ def _quantiles(reader: Reader, path: str, value: Any) -> list[float]:
     return [float(item) for item in values]
 
 
-def _thresholds(reader: Reader, path: str, value: Any) -> dict[str, Any]:
+def _thresholds(reader: Reader, path: str, value: object) -> dict[str, object]:
     if isinstance(value, dict):
         return value
     raise wrong(path, "must be a table, e.g. { A_t = 0.2 }", value)
@@ -94,8 +112,8 @@ REDUCTIONS = {
 }
 
 
-def _reductions(reader: Reader, path: str, data: Any) -> Any:
-    """What is kept of many states."""
+def _reductions(reader: Reader, path: str, data: object) -> object:
+    """Reductions of many states."""
     return reader.table(path, data, REDUCTIONS)
 
 
@@ -140,7 +158,7 @@ def ends(asked: dict[str, Any]) -> tuple[str, np.ndarray] | None:
     return name, np.array([values["low"], values["high"]]) if is_span(values) else values
 
 
-def with_nested_names(data: dict[str, Any]) -> dict[str, Any]:
+def with_nested_names(data: dict[str, Any]) -> dict[str, object]:
     """Names in quotes under [sweep.vary], "particles.mean", as the tables they stand for."""
     vary = get(data.get("sweep"), "vary")
     if not isinstance(vary, dict):
@@ -160,9 +178,9 @@ def with_nested_names(data: dict[str, Any]) -> dict[str, Any]:
     return data | {"sweep": data["sweep"] | {"vary": tree}}
 
 
-def _dotted_names(tree: dict[str, Any], path: str = "") -> dict[str, tuple[str, Any]]:
+def _dotted_names(tree: Mapping[str, object], path: str = "") -> dict[str, tuple[str, object]]:
     """Names as in the file, each with the dotted name of the field and the values."""
-    out: dict[str, tuple[str, Any]] = {}
+    out: dict[str, tuple[str, object]] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         if isinstance(value, dict) and not is_span(value):

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
 from ..errors import InvalidValue, Problem
 from ..quantities.nearest import guess, near_path
-from ..quantities.units import say
+from ..quantities.units import Quantity, say
 from .inputs import Input, inputs_of
 from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
 from .vocabulary import LOADS
@@ -18,7 +19,7 @@ LIFE = "life."
 """How names of numbers of a life begin: `thirdbody.study.life_uncertainty` reads these."""
 
 
-def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
+def _inputs(reader: Reader, path: str, given: object) -> dict[str, Uncertain]:
     """Distributions of the inputs, by names as in the file."""
     if not isinstance(given, dict) or not given:
         rule = "must be a table of inputs, e.g. "
@@ -30,7 +31,7 @@ def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
     if any(label.startswith(LIFE) for label in entries) and "life" not in reader.whole:
         raise InvalidValue(Problem(path, "names numbers of [life], and there is no such table"))
 
-    def one(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Uncertain]:
+    def one(reader: Reader, where: str, told: tuple[str, object]) -> tuple[str, Uncertain]:
         label, entry = told
         found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
         return "+".join(name for name, _ in found), read_uncertain(
@@ -64,8 +65,8 @@ def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
 
 
 def field_of_input(
-    where: str, name: str, inputs: list[Input], whole: dict[str, Any]
-) -> tuple[str, dict[str, Any]]:
+    where: str, name: str, inputs: list[Input], whole: Mapping[str, object]
+) -> tuple[str, Quantity]:
     """Dotted name of the field and its meaning, for an input as the file calls it."""
     name = name.strip()
     table, _, last = name.rpartition(".")
@@ -90,7 +91,7 @@ def field_of_input(
     raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
 
 
-def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
+def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -> Uncertain:
     """One distribution; its keys decide which."""
     given = dict(entry) if isinstance(entry, dict) else {}
     spacing = given.pop("spacing", None)
@@ -102,8 +103,8 @@ def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any
         spacing = read_word(("linear", "log"), reader, f"{where}.spacing", spacing)
         kind = "log-uniform" if spacing == "log" else kind
     # of a spread only the sign is known: the range is that of the input
-    spread = about | {"gt": 0, "ge": None, "lt": None, "le": None, "hint": ""}
-    meant = {"std": spread, "gsd": spread | {"unit": "1"}}
+    spread: Quantity = {**about, "gt": 0, "ge": None, "lt": None, "le": None, "hint": ""}
+    meant: dict[str, Quantity] = {"std": spread, "gsd": {**spread, "unit": "1"}}
 
     def number(reader: Reader, path: str, name: str) -> float:
         return read_number(meant.get(name, about), reader, path, given[name])
@@ -115,9 +116,9 @@ def read_uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any
         raise InvalidValue(*(Problem(where, f": {text}") for text in error.problems)) from None
 
 
-def ranges_of(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
+def ranges_of(tree: dict[str, Any], path: str = "") -> dict[str, object]:
     """Entries of uncertain inputs, from names in quotes or nested tables."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         inner = isinstance(value, dict) and any(isinstance(part, dict) for part in value.values())

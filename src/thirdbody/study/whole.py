@@ -27,7 +27,6 @@ from .film import on_body
 from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
-from .overrides import override
 from .own_code import load_installed
 from .particles import gaps_of
 from .plate import AskedPlate, plate_of
@@ -35,7 +34,7 @@ from .reader import Reader, Table
 from .schema import Describer
 from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
-from .toml import read
+from .toml import override, read
 
 __all__ = ["Study", "check", "load_study", "load_tables", "read_tables"]
 
@@ -165,7 +164,7 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
     own = Path(path)
     out, waiting = [own], [override(read(own), list(overrides))] if own.is_file() else []
     while waiting:
-        value: Any = waiting.pop()
+        value: object = waiting.pop()
         if isinstance(value, dict):
             waiting += value.values()
         elif isinstance(value, list):
@@ -176,7 +175,7 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
     return out
 
 
-def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
+def check(data: dict[str, object], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     return read_tables(data, folder, _study, lambda table: table.is_required(data))
 
@@ -184,7 +183,7 @@ def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
 def load_tables(
     path: str | os.PathLike[str],
     overrides: Iterable[str],
-    build: Callable[[Reader, dict[str, Any]], Asked],
+    build: Callable[[Reader, dict[str, object]], Asked],
     needed: Collection[str],
 ) -> Asked:
     """Object that some tables of a file describe; of them these are needed, and no others."""
@@ -193,14 +192,15 @@ def load_tables(
 
 
 def read_tables(
-    data: dict[str, Any],
+    data: dict[str, object],
     folder: Path,
-    build: Callable[[Reader, dict[str, Any]], Asked],
+    build: Callable[[Reader, dict[str, object]], Asked],
     needs: Callable[[Table], bool],
 ) -> Asked:
     """Object that a parsed file in ``folder`` describes, built from its tables."""
     load_installed()
-    data = with_nested_names(data)
+    if "sweep" in data:
+        data = with_nested_names(data)
     reader = Reader(folder, data)
     keys = {table.name: table.key._replace(required=needs(table)) for table in TABLES}
     with slips_are_told():
@@ -213,7 +213,7 @@ def read_tables(
             raise InvalidValue(*known.problems([*reader.mistakes, *error.problems])) from None
 
 
-def _study(reader: Reader, values: dict[str, Any]) -> Study:
+def _study(reader: Reader, values: dict[str, object]) -> Study:
     """The study, from the objects that its tables stand for."""
 
     def tables_of(role: str) -> dict[str, Any]:
@@ -232,9 +232,11 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     loaded = own.get("load") or ends(asked or {})
     bodies: Any = own.get("body")
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
-    contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
-    reader.notes += notes
-    film = on_body(reader, film, bodies, given_forces, contact.E_ss)
+    if contact.outputs:
+        contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
+        reader.notes += notes
+    if film is not None:
+        film = on_body(reader, film, bodies, given_forces, contact.E_ss)
     connector = connector_of(reader, values) if "connector" in own else None
     plate = plate_of(reader, values) if "plate" in own else None
     life = life_of(reader, values) if "life" in own else None

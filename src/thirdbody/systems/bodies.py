@@ -248,7 +248,7 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
 
 
 def _with_and_without(
-    contact: Contact, body: Body, force: float, hertz: Hertz, held: float, shared: dict[str, Any]
+    contact: Contact, body: Body, force: float, hertz: Hertz, held: float, shared: dict[str, object]
 ) -> dict[str, Any]:
     """Contacts with a particle and contacts without, each under its whole load.
 
@@ -299,7 +299,7 @@ def _integrals(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict
     return found | ({"note": why} if why and not found.get("note") else {})
 
 
-def _values(contact: Contact, found: Any, length: float) -> dict[str, Any]:
+def _values(contact: Contact, found: Any, length: float) -> dict[str, object]:
     share = None if contact.two_body else found.particle_load_share
     return {
         "method": "rough body",
@@ -310,7 +310,7 @@ def _values(contact: Contact, found: Any, length: float) -> dict[str, Any]:
     }
 
 
-def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -> dict[str, Any]:
+def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -> dict[str, object]:
     """Over the pressure of the smooth bodies, each place as if it were alone."""
     pressure, weights = _places(shape, float(hertz.maximum))
     with warnings.catch_warnings():
@@ -333,7 +333,7 @@ def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -
     }
 
 
-def _crowd(share: float | None, status: str) -> dict[str, Any]:
+def _crowd(share: float | None, status: str) -> dict[str, object]:
     """The part of the load at crowded places, and what that means."""
     return {"crowded_share": share, "note": status} if share else {}
 

@@ -45,11 +45,11 @@ class Body(Value, ABC):
         """What the second surface is."""
         return "surface 2"
 
-    def load_on_one(self, force: Any, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Any:
         """Load on the contact that carries most of the force on all [N]."""
         return np.asarray(force, float) / self.bodies
 
-    def hertz(self, force: Any, E_star: float) -> Hertz:
+    def hertz(self, force: object, E_star: float) -> Hertz:
         """Area and pressures of one smooth dry contact under the force on all [N]."""
         shape = self.conjunction
         assert shape is not None
@@ -258,7 +258,7 @@ class Flat(Body):
         """No curvature."""
         return None
 
-    def hertz(self, force: Any, E_star: float) -> Hertz:
+    def hertz(self, force: object, E_star: float) -> Hertz:
         """The even pressure."""
         even = np.asarray(force, float) / self.bodies / self.area
         return Hertz(np.full_like(even, self.area), even, even)

@@ -70,7 +70,7 @@ class RadialBearing(Body):
         """Load over approach of the rings to the power ``exponent``, of one rolling body."""
 
     @abstractmethod
-    def widths(self, loads: Any, ring: Ring, E_star: float) -> Any:
+    def widths(self, loads: object, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks of rolling bodies under their loads [N] on a ring [m]."""
 
     @property
@@ -111,13 +111,13 @@ class RadialBearing(Body):
             exponent=self.exponent,
         )
 
-    def load_on_one(self, force: Any, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Any:
         """Load on the most loaded rolling body, of a radial load [N]."""
         forces = np.asarray(force, float)
         found = [self.share_load(float(each), E_star).largest for each in forces.ravel()]
         return np.reshape(found, forces.shape)[()]
 
-    def hertz_of(self, load: Any, ring: Ring, E_star: float) -> Hertz:
+    def hertz_of(self, load: object, ring: Ring, E_star: float) -> Hertz:
         """The smooth dry contact of a rolling body under its own load [N] on one of the rings."""
         return self.on_ring(ring).hertz(load, E=2 * E_star)
 
@@ -365,7 +365,7 @@ class RollerBearing(RadialBearing):
         """Load over approach of the rings to the power 10/9, of one roller [N/m^(10/9)]."""
         return float((self.length**0.8 / (2 * 1.36)) ** ROLLERS * E_star)
 
-    def widths(self, loads: Any, ring: Ring, E_star: float) -> Any:
+    def widths(self, loads: object, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks: the length of the rollers [m]."""
         return np.full_like(np.asarray(loads, float), self.length)
 
@@ -571,7 +571,7 @@ class BallScrew(Body):
         f = self.screw_conformity if self.side == "screw" else self.nut_conformity
         return Point(R=1 / along, R_y=1 / (2 / self.diameter - 1 / (f * self.diameter)))
 
-    def load_on_one(self, force: Any, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Any:
         """Load on a ball of the nut that carries more, of an axial force [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -657,7 +657,7 @@ class LinearGuide(Body):
         """An ellipse, long across the motion."""
         return BallInGroove(diameter=self.diameter, conformity=self.conformity).conjunction
 
-    def load_on_one(self, force: Any, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Any:
         """Load on a ball of the pressed rows, of a force on the carriage [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -760,7 +760,7 @@ class Gear(Body):
         length = self.face_width / math.cos(self.base_helix)
         return Line(R=1 / (1 / first + 1 / second), length=length)
 
-    def load_on_one(self, force: Any, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Any:
         """Load normal to the teeth, of a tangential force [N]."""
         tilt = math.cos(self.transverse_angle) * math.cos(self.base_helix)
         return np.asarray(force, float) / tilt

@@ -127,7 +127,7 @@ def _by_hardness(contact: Contact, dust: Particles) -> Pressed:
     return "dents" if all(harder) else "dents the softer surface" if any(harder) else "is squashed"
 
 
-def _breaks_from(dust: Particles, one: Any) -> float | None:
+def _breaks_from(dust: Particles, one: object) -> float | None:
     """Size at which a particle has its strength as tension by the time the surfaces meet [m]."""
     try:
         strength = dust.strength or WeibullStrength.of(dust.material)

@@ -41,7 +41,7 @@ def stribeck(
     oil: Oil,
     load: float,
     speed: ArrayLike,
-    **options: Any,
+    **options: object,
 ) -> xarray.Dataset:
     r"""The Stribeck curve: traction and load shares over entrainment speed.
 

@@ -40,7 +40,7 @@ def once_in(failure: float) -> str:
 
 
 def _count(failure: float) -> str:
-    """One over it, to three digits.
+    """Closings for one failure, to three digits.
 
     >>> _count(0.0048), _count(2.6e-5), _count(1.5e-9)
     ('208', '38 500', '6.67×10⁸')

@@ -125,7 +125,7 @@ def _coefficient(value: float | None) -> str:
 
 
 def _lacking(result: FilmResult) -> list[str]:
-    """What a study must say to have a friction coefficient."""
+    """Keys that a study must give to have a friction coefficient."""
     film, outputs = result.conditions, result.study.contact.outputs
     needs = {
         "film.slide_roll": film.slide_roll is None,

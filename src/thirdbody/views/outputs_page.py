@@ -32,7 +32,7 @@ def entries() -> list[dict[str, Any]]:
     return [_entry(kind) for _, kind in sorted(AbstractOutput.registry.items())]
 
 
-def _entry(kind: Any) -> dict[str, Any]:
+def _entry(kind: Any) -> dict[str, object]:
     about = ("name", "title", "year", "citation", "doi", "provenance", "valid_range")
     return {
         **{key: getattr(kind, key) for key in about},
@@ -43,7 +43,7 @@ def _entry(kind: Any) -> dict[str, Any]:
     }
 
 
-def _option(each: Declaration) -> dict[str, Any]:
+def _option(each: Declaration) -> dict[str, object]:
     about = each.quantity or {"symbol": "", "unit": ""}
     return {
         "key": each.name,
@@ -85,7 +85,7 @@ def outputs_page() -> str:
     return "\n".join(parts)
 
 
-def _default_text(default: Any) -> str:
+def _default_text(default: object) -> str:
     return "" if default is None else f"{default:g}" if isinstance(default, float) else str(default)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import ranked
 from ..populations.materials import NUMBERS
@@ -28,9 +28,9 @@ def question_sheets(
     table: tuple[Sequence[str], Sequence[Sequence[str]]] | None,
     last: Sequence[str | Grid],
     *,
-    states: tuple[Mapping[str, Sequence[Any]], Mapping[str, str]],
+    states: tuple[Mapping[str, Sequence[object]], Mapping[str, str]],
     meanings: Mapping[str, str],
-    inputs: Sequence[tuple[Any, ...]],
+    inputs: Sequence[tuple[object, ...]],
     warnings: Iterable[str],
     citations: Iterable[str],
 ) -> list[Sheet]:
@@ -79,7 +79,7 @@ def inputs_of(
     values: Mapping[str, Value],
     bodies: Mapping[str, Material],
     numbers: Iterable[BareNumber] = (),
-) -> list[tuple[Any, ...]]:
+) -> list[tuple[object, ...]]:
     """A row an input: of values by what their names begin with, "plate.", then of materials.
 
     Numbers that are no fields of a value stand first.
@@ -90,7 +90,7 @@ def inputs_of(
         for each in numbers
     ]  # fmt: skip
     rows += [row for name, value in values.items() for row in value_rows(value, name)]
-    out: list[tuple[Any, ...]] = [
+    out: list[tuple[object, ...]] = [
         (row.meaning, row.symbol, *amount_cells(row), "default" if row.default else "study",
          row.name)
         for row in rows

@@ -119,7 +119,7 @@ def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
     return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))
 
 
-def _with_column(grid: Grid, head: str, words: Sequence[Any]) -> Grid:
+def _with_column(grid: Grid, head: str, words: Sequence[object]) -> Grid:
     rows = [(*row, str(word)) for row, word in zip(grid.rows, words, strict=True)]
     return Grid([*grid.heads, head], rows)
 
@@ -267,7 +267,7 @@ def amount_cells(row: Row) -> tuple[Cell | str, str]:
 
 def _notes(
     result: StudyResult | FilmResult,
-    columns: Mapping[str, Any],
+    columns: Mapping[str, object],
     units: Mapping[str, str],
     meanings: Mapping[str, str],
 ) -> tuple[Grid, ...]:

@@ -102,7 +102,7 @@ def cell_of_words(text: str) -> tuple[Cell | str, str]:
 
 
 def sheet_of_table(
-    name: str, columns: Mapping[str, Sequence[Any]], units: Mapping[str, str]
+    name: str, columns: Mapping[str, Sequence[object]], units: Mapping[str, str]
 ) -> Sheet:
     """All columns of a table as they are, their SI units in their heads, a row a state."""
     named = with_units(columns, units)

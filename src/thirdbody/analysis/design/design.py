@@ -181,13 +181,13 @@ def _dataset(table: dict[str, Values], dim: str, coords: dict[str, Array]) -> xa
 def design(
     contact: Contact,
     *,
-    vary: Mapping[str, Any],
+    vary: Mapping[str, object],
     objective: Objective | Sequence[Objective],
     limits: Sequence[Limit] = (),
     pressure: ArrayLike | Span | None = None,
     F_star: ArrayLike | Span | None = None,
     weights: ArrayLike | None = None,
-    scatter: Mapping[str, Any] | None = None,
+    scatter: Mapping[str, object] | None = None,
     samples: int = 16,
     points: int | None = None,
     seed: int = 0,
@@ -416,7 +416,7 @@ def _bands(task: Task, best: Point) -> tuple[Bands, Bands]:
 def _band(
     task: Task, best: Point, name: str, part: float, places: tuple[float, float]
 ) -> tuple[float, float]:
-    """Where the first objective loses less than this part of it, between two places."""
+    """Range between two places in which the first objective loses less than this part of it."""
     label = task.objectives[0].label
     value, own = best.costs[label], best.numbers[name]
     among = task.variables[name].span.values_at(np.linspace(*places, GRID + 1))

@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 
 
 def front(costs: Array) -> NDArray[np.bool_]:
-    """Which points no other beats: nowhere worse, somewhere better (N,) for costs (N, K).
+    """Mask (N,) of the points that no other beats, for costs (N, K).
 
     Examples
     --------

@@ -70,7 +70,7 @@ class Objective(Value):
 
     @property
     def label(self) -> str:
-        """What results call it."""
+        """Name of the objective in results."""
         how = [self.of]
         if self.aim == "window" or self.over_loads == "worst":
             how.append("window" if self.aim == "window" else "worst")
@@ -79,7 +79,7 @@ class Objective(Value):
         return ":".join(how)
 
     def cost(self, metric: Array, weights: Array) -> Array:
-        """What is to be small: (P,) for metrics (P, S, J), sample 0 nominal."""
+        """Cost (P,) of metrics (P, S, J), where sample 0 is nominal."""
         if self.aim == "window":
             inside = ((metric >= self.low) & (metric <= self.high)).astype(float)
             values = -(np.where(np.isnan(metric), np.nan, inside) @ weights)

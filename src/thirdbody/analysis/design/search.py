@@ -66,7 +66,7 @@ class Variable(NamedTuple):
         return Span(self.low, self.high, "log" if self.low > 0 else "linear")
 
     def place(self, value: float) -> float:
-        """Where in the range: 0 to 1."""
+        """Place of a value in the range, 0 to 1."""
         if self.low > 0:
             return math.log(value / self.low) / math.log(self.high / self.low)
         return (value - self.low) / (self.high - self.low)
@@ -304,7 +304,7 @@ class Task:
             self.report(points)
 
     def judged(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
-        """What points cost, and which limits they break."""
+        """Costs of points, and the limits that they break."""
         metric = self.metrics(numbers, materials)
         costs = {each.label: each.cost(metric[each.of], self.weights) for each in self.objectives}
         broken = {str(limit): limit.excess(metric[limit.of]) for limit in self.limits}
@@ -385,7 +385,7 @@ class Task:
             self._from(u, apart, rows[0], materials)
 
     def _along(self, rows: list[Point], materials: Materials) -> None:
-        """One variable, between the neighbours of the best point."""
+        """Points that vary one variable between the neighbours of the best point."""
         from scipy.optimize import minimize_scalar
 
         u = np.array([self.where(point.numbers)[0] for point in rows])

@@ -31,7 +31,7 @@ CASES = 32
 def _load_cases(
     contact: Contact, F_star: Any, pressure: Any, weights: ArrayLike | None
 ) -> tuple[str, Array, Array]:
-    """Which load, its values, and their weights."""
+    """Name of the load, its values, and their weights."""
     cases = {
         name: np.geomspace(v.low, v.high, CASES) if isinstance(v, Span) else v
         for name, v in (("F_star", F_star), ("pressure", pressure))
@@ -58,7 +58,7 @@ def design_task(
     seed: int,
     suspension: Suspension | None,
 ) -> Task:
-    """What `design` is to do, every mistake in it told."""
+    """Task of `design`; all mistakes in it are raised together."""
     problems: list[str] = []
     load, loads, share = "F_star", np.ones(1), np.ones(1)
     try:
@@ -120,7 +120,7 @@ def _choices(
 def _unknown(
     contact: Contact, objectives: Sequence[Objective], limits: Sequence[Limit]
 ) -> list[str]:
-    """What objectives and limits name that is no number of a state, or name twice."""
+    """Problems of objectives and limits: names of no column, or names given twice."""
     problems = []
     if not objectives:
         problems.append("objective is empty; say what should be small or large")
@@ -144,7 +144,7 @@ def _suspension_problems(
     variables: Mapping[str, Variable],
     materials: Mapping[str, list[Material]],
 ) -> list[str]:
-    """What does not fit the fluid that brings the particles."""
+    """Problems of the fluid that brings the particles."""
     if suspension is None:
         if AMOUNT in moving:
             return [f"vary[{AMOUNT!r}] needs suspension=Suspension(gap=...), which says of what"]

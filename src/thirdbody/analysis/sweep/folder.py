@@ -81,7 +81,7 @@ MUCH = 10**9
 
 @dataclass(eq=False)
 class Found:
-    """What a look at every file of a sweep says."""
+    """Result of a check of every file of a sweep."""
 
     blocks: dict[int, dict[str, Any]] = field(default_factory=dict)
     """Blocks whose files are as they were written, with their summaries."""
@@ -117,7 +117,7 @@ class Folder:
 
     @property
     def data(self) -> Path:
-        """Where the data are."""
+        """Path of the data."""
         return self.path / ("states.zarr" if self.format == "zarr" else "states.nc")
 
     @property
@@ -163,7 +163,9 @@ class Folder:
     def part_file(self, number: int) -> Path:
         return self.path / "parts" / f"{number}.npz"
 
-    def mark(self, number: int, study: str, summary: Mapping[str, Any], files: list[Path]) -> None:
+    def mark(
+        self, number: int, study: str, summary: Mapping[str, object], files: list[Path]
+    ) -> None:
         """Say that a block is on the disk."""
         prints = {file.relative_to(self.path).as_posix(): fingerprint(file) for file in files}
         text = sealed({"study": study, **summary, "files": prints})
@@ -232,14 +234,14 @@ class Folder:
         write_text(self.path / "files.json", sealed(told))
 
     def shared_files(self, study: str | None) -> tuple[dict[str, Fingerprint], int] | None:
-        """What ``files.json`` says: fingerprints, and the number of blocks."""
+        """Content of ``files.json``: fingerprints, and the number of blocks."""
         found = read_record(self.path / "files.json", ())
         if found is None or (study is not None and found.data.get("study") != study):
             return None
         return found.data["files"], found.data["blocks"]
 
     def markers(self, study: str | None) -> dict[int, dict[str, Any] | None]:
-        """What each marker says; None for one that is broken or of another study."""
+        """Content of each marker; None for a broken one or one of another study."""
         out: dict[int, dict[str, Any] | None] = {}
         for path in sorted((self.path / "done").glob("*.json")):
             if not (path.stem.isdecimal() and path.stem.isascii()):
@@ -336,7 +338,7 @@ class Folder:
         why = misfit(self.path / name, wanted)
         return [f"{self.path / name} {why}"] if why else []
 
-    def _parts_only(self, files: Mapping[str, Any]) -> bool:
+    def _parts_only(self, files: Mapping[str, object]) -> bool:
         return all(name.startswith("parts/") for name in files)
 
     # ------------------------------------------------------------------ what may be removed
@@ -366,11 +368,11 @@ class Folder:
         remove_files(self.path / "done", MARKERS)
 
     # ------------------------------------------------------------------ whose folder it is
-    def says(self, study: Mapping[str, Any]) -> bool:
+    def says(self, study: Mapping[str, object]) -> bool:
         """Whether ``study.json`` is that of a study, to the last byte."""
         return misfit(self.path / "study.json", print_of(text_of(study))) == ""
 
-    def refuse_others(self, study: dict[str, Any]) -> None:
+    def refuse_others(self, study: Mapping[str, object]) -> None:
         """Refuse a folder that holds something else."""
         path = self.path
         if path.exists() and not path.is_dir():
@@ -442,12 +444,12 @@ class Folder:
             yield
 
 
-def name_of(study: Mapping[str, Any]) -> str:
+def name_of(study: Mapping[str, object]) -> str:
     """The digest of a study, which every marker says."""
     return hashlib.sha256(text_of(study).encode()).hexdigest()[:16]
 
 
-def text_of(study: Mapping[str, Any]) -> str:
+def text_of(study: Mapping[str, object]) -> str:
     """A study as it stands in ``study.json``."""
     return json.dumps(study, indent=1, ensure_ascii=False, sort_keys=True)
 
@@ -540,7 +542,7 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
 
 
 def damage_words(path: Path, found: Found) -> str:
-    """What is damaged and made again, in one sentence; "" where nothing is."""
+    """Sentence on damaged blocks that are computed again; "" where there are none."""
     if not found.problems:
         return ""
     shown = "; ".join(found.problems[:SHOWN])
@@ -555,7 +557,7 @@ def _much(markers: Mapping[int, dict[str, Any] | None]) -> bool:
 
 
 def unchecked_words(path: Path, found: Found) -> str:
-    """What of a folder cannot be checked, and what to do about it; "" where all can."""
+    """Sentence on files that cannot be checked, and what to do; "" where all can."""
     if not found.unchecked:
         return ""
     return (

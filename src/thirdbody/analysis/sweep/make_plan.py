@@ -17,6 +17,7 @@ from ...equilibrium.states import unknown_inputs
 from ...errors import InvalidValue, Problem
 from ...numerics.sampling import DESIGNS, Span, SweepDesign
 from ...quantities.arguments import only_one
+from ...quantities.units import Range
 from ...quantities.value import Value, problem_with
 from .plan import CHUNK, Arrays, Listed, Plan, Sampled
 from .reduction import Reduction
@@ -166,7 +167,7 @@ def _span(label: str, entry: Any) -> tuple[Span | None, list[str]]:
     low, high, scale = keys["low"], keys["high"], keys.get("scale", "linear")
     problems = _not_known(f"{label} scale", scale, ("linear", "log"))
     for end in (low, high):
-        about = {"unit": "SI", "gt": None, "ge": None, "lt": None, "le": None, "hint": ""}
+        about: Range = {"unit": "SI", "gt": None, "ge": None, "lt": None, "le": None, "hint": ""}
         if problem_with(about, end):
             problems.append(Problem(label, f": {end!r} must be a finite number in SI units"))
     if problems:

@@ -270,7 +270,7 @@ class Plan:
         return math.prod(self.grid)
 
     def region(self, number: int) -> Box:
-        """Where a block lies."""
+        """Slices of a block along each dimension."""
         place = np.unravel_index(number, self.grid)
         sizes = zip(place, self.box, self.whole.sizes, strict=True)
         return tuple(slice(int(i) * b, min((int(i) + 1) * b, n)) for i, b, n in sizes)
@@ -332,7 +332,7 @@ class Plan:
         return Layout(sizes, sizes | chunks, variables, coords, inputs, attrs)
 
     def notes(self) -> list[str]:
-        """What the inputs of some states, evenly spread, say about the model's validity.
+        """Notes on the validity of the model for some states, evenly spread.
 
         Raises
         ------
@@ -431,7 +431,7 @@ def _largest(values: NDArray[Any]) -> float:
     return float(np.fmax.reduce(values, axis=None, initial=0.0))
 
 
-def _axis_values(values: NDArray[Any]) -> Any:
+def _axis_values(values: NDArray[Any]) -> object:
     """Values of an axis for JSON: themselves, or their fingerprint when there are many."""
     if values.dtype == object:
         return [v.to_dict() if isinstance(v, Value) else v for v in values]

@@ -30,7 +30,7 @@ SUMS |= {"max": np.max}
 
 @dataclass(frozen=True)
 class Reduction:
-    """What is kept of every cell.
+    """Reduction of the samples of every cell.
 
     A state without equilibrium, and a share of nothing (NaN), counts for no statistic; ``solved``
     says which part of the samples was solved.
@@ -160,7 +160,7 @@ class Reduction:
                 out[f"{name}_quantile"] = part[f"{name}:quantile"]
         return out
 
-    def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, dict[str, Any]]]:
+    def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, dict[str, object]]]:
         """Every stored variable: whether it has quantiles as its last dimension, and attributes."""
         words = {"mean": "mean of the {}", "min": "smallest {}", "max": "largest {}"}
         kinds = ["mean"] if self.mean else []

@@ -94,7 +94,7 @@ def in_memory(
     return xr.Dataset(variables, coords=layout.coords | inputs, attrs=attrs)
 
 
-def _memory(name: str, kind: str) -> Any:
+def _memory(name: str, kind: str) -> object:
     return np.int64 if name == "iterations" else np.dtype(kind)
 
 
@@ -105,7 +105,7 @@ def _into(data: Arrays, layout: Layout, plan: Plan, number: int, arrays: Arrays)
 
 
 def _where(plan: Plan, number: int) -> dict[str, slice]:
-    """Where a block lies, by dimension."""
+    """Slices of a block, by dimension."""
     return {dim.name: s for dim, s in zip(plan.dims, plan.region(number), strict=True)}
 
 
@@ -119,7 +119,7 @@ def _reduced(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
 
 
 def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    out: dict[str, Any] = {"states": 0, "unsolved": 0, "A_t": 0.0, "shadow": 0.0}
+    out: dict[str, object] = {"states": 0, "unsolved": 0, "A_t": 0.0, "shadow": 0.0}
     paths: Counter[str] = Counter()
     for one in summaries:
         out["states"] += one["states"]
@@ -131,7 +131,7 @@ def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def _attributes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
-    """What a run says of itself, a line each."""
+    """Attributes of a run, one line each."""
     paths = (f"{word} ({count} states)" for word, count in summary["engine"].items())
     return {"warnings": "\n".join(all_notes(plan, notes, summary)), "engine": "\n".join(paths)}
 
@@ -243,12 +243,12 @@ def _require_packages(format: str) -> None:
 def _carry_out(
     plan: Plan,
     folder: Folder,
-    study: dict[str, Any],
+    study: Mapping[str, object],
     notes: list[str],
     results: Callable[[Cost, Iterable[int]], Iterator[tuple[int, Result]]],
     progress: bool | Report,
 ) -> None:
-    """What is left of the study, under the lock."""
+    """Solve the blocks that are missing; the folder is locked."""
     path, name = folder.path, name_of(study)
     folder.remove_drafts()
     if not folder.says(study):
@@ -287,7 +287,7 @@ def _carry_out(
             states += summary["states"]
             cost.finished(states)
     total = _summary(done.values())
-    attrs: dict[str, Any] = dict(_attributes(plan, notes, total))
+    attrs: dict[str, object] = dict(_attributes(plan, notes, total))
     if direct:
         store.label(attrs)
         folder.relabel(name)

@@ -257,7 +257,7 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
 
 
 def as_uncertain(given: Any) -> Uncertain:
-    """What is known of an input: as it is told, by two ends, or as a ufloat."""
+    """Distribution of an input from a distribution, two ends, or a ufloat."""
     if isinstance(given, Uncertain):
         return given
     return Uncertain.from_ufloat(given) if is_uncertain(given) else _between(*given)
@@ -267,7 +267,7 @@ def _between(low: float, high: float) -> Uncertain:
     return Uncertain.uniform(low=low, high=high)
 
 
-def _correlated(inputs: Mapping[str, Any], where: str) -> list[str]:
+def _correlated(inputs: Mapping[str, object], where: str) -> list[str]:
     """Ufloats that rest on the same measurement, which no two inputs here may."""
     told = [(label, given) for label, given in inputs.items() if is_uncertain(given)]
     return [
@@ -284,7 +284,7 @@ class Drawn(NamedTuple):
     moved: tuple[Moved | str, ...]
     known: tuple[Uncertain, ...]
 
-    def moved_numbers(self, values: Sequence[Any]) -> Arrays:
+    def moved_numbers(self, values: Sequence[object]) -> Arrays:
         """Every number of the contact that moves, from the values of the inputs."""
         out: Arrays = {}
         for moved, value in zip(self.moved, values, strict=True):
@@ -306,7 +306,7 @@ class Drawn(NamedTuple):
 
 def drawn_inputs(
     contact: Contact,
-    inputs: Mapping[str, Any],
+    inputs: Mapping[str, object],
     load: str,
     loads: ArrayLike,
     where: str = "vary[{!r}]",

@@ -129,7 +129,7 @@ class Propagation(Record):
 
         one = np.ndim(self.loads) == 0
         dims = () if one else (self.load,)
-        data: dict[str, Any] = {}
+        data: dict[str, object] = {}
         for name, band in self.bands.items():
             if name == self.load and not one:
                 continue  # a coordinate
@@ -143,7 +143,7 @@ class Propagation(Record):
             values = np.stack([np.asarray(table[mode]) for mode in MODES_OR_NONE], axis=-1)
             said = {"units": "1", "long_name": f"{name} of each contact mode"}
             data[f"mode_{name}"] = ((*dims, "mode"), values, said)
-        coordinates: dict[str, Any] = {
+        coordinates: dict[str, object] = {
             "quantile": list(self.probabilities),
             "mode": list(MODES_OR_NONE),
         }
@@ -160,7 +160,7 @@ class Propagation(Record):
         return xarray.Dataset(data, coords=coordinates, attrs=attributes)
 
     @takes_units
-    def ufloat(self, of: str) -> Any:
+    def ufloat(self, of: str) -> object:
         """The band of an output as a number with an uncertainty.
 
         Parameters
@@ -226,7 +226,7 @@ class Propagation(Record):
 
     @takes_units
     def at_load(self, at: int) -> Propagation:
-        """What is said of one of several loads."""
+        """Propagation at one of several loads."""
         need_place("at", at, np.size(self.loads))
         if np.ndim(self.loads) == 0:
             return self
@@ -419,7 +419,7 @@ def propagate(
     pressure: ArrayLike | None = None,
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
-    vary: Mapping[str, Any],
+    vary: Mapping[str, object],
     samples: int = 2**14,
     seed: int = 0,
     outputs: Sequence[str] | None = None,
@@ -532,7 +532,7 @@ def propagate(
         tell_of_range(sentence)
     fixed = {name for name in names if name in CRITICAL}
 
-    def shaped(table: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+    def shaped(table: Mapping[str, Sequence[object]]) -> dict[str, object]:
         flat = {n for n in table if one or n in fixed}
         return {n: part[0] if n in flat else np.array(part) for n, part in table.items()}
 
@@ -614,7 +614,7 @@ class _Bands:
         self.crowded: list[float] = []
 
     def add(self, state: Arrays, middle: Arrays) -> None:
-        """One more load: states of the samples, and the nominal one."""
+        """Add one load: the states of its samples, and the nominal one."""
         for name, bands in self.bands.items():
             if name in CRITICAL and bands:
                 continue

@@ -121,14 +121,14 @@ def power_of_two(count: int) -> int:
 
 
 def points_of(each: int, width: int, seed: int, replicates: int) -> Array:
-    """Scramblings of the Sobol sequence, one after another; a short one of its own for none."""
+    """Scrambled Sobol sequences, one after another; for none a short unscrambled one."""
     rows: Iterator[int] = iter(range(replicates)) if replicates else iter([REPLICATES])
     seeds = [int(np.random.SeedSequence([seed, r]).generate_state(1)[0]) for r in rows]
     return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
 
 
 def crowded_samples(shares: Sequence[float]) -> list[str]:
-    """What is said of the shares of samples, one a load, that are crowded.
+    """Notes on the shares of samples that are crowded, one a load.
 
     >>> crowded_samples([0.0, 0.0])
     []

@@ -70,7 +70,7 @@ def _start() -> AskedLife:
 def _slid(asked: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:
     """The oil with its sliders where they are: factors on what the study says."""
     circuit = asked.circuit
-    changes: dict[str, Any] = {}
+    changes: dict[str, object] = {}
     for i, each in enumerate(circuit.filters):
         assert each.flow is not None
         changes[f"filters.{i}.flow"] = flow * each.flow

@@ -15,7 +15,7 @@ __all__ = ["command"]
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: Path = argument(
         "A study file; its table [uncertainty] says what scatters.", "STUDY.toml"

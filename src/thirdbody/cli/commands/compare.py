@@ -53,7 +53,7 @@ PLACES = ("start", "middle", "end")
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: StudyFile
     names: str | None = option(
@@ -115,7 +115,7 @@ def command(options: Options) -> None:
 
 
 def _of_folder(out: Path | None) -> list[Path]:
-    """What lies in the folder of --out in the end."""
+    """Names of the files that --out writes."""
     return [] if out is None else [out / f"compare.{end}" for end in ("csv", "png", "svg")]
 
 

@@ -27,7 +27,7 @@ __all__ = ["command"]
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: Path = argument("A study file with a table [design], or [life.design].", "STUDY.toml")
     json: JsonFile = None
@@ -218,7 +218,7 @@ class _Words:
         return ("chosen", "value", "within 5 % from", "to"), rows
 
     def sentence(self) -> str:
-        """What to take, how far it may be off, and what it gives."""
+        """Sentence on the best inputs, their tolerance, and the results there."""
         chosen = []
         for name, value in self.best.values.items():
             band = self.best.tolerance.get(name)

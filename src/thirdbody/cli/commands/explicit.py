@@ -27,7 +27,7 @@ MAPS = ("last", "all")
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: StudyFile
     surfaces: int | None = option("--surfaces", "How many synthetic surfaces, e.g. 4.", "N")

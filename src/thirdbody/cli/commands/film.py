@@ -48,7 +48,7 @@ DROP = ("lambda", "on film")
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: Path = argument("A study file with a table [film].", "STUDY.toml")
     json: JsonFile = None
@@ -137,15 +137,17 @@ class _Found(NamedTuple):
         return sentences(self.result.natures)
 
     def rest(self) -> list[str]:
-        """What stands below the tables; the answer of an oil without particles holds the first."""
+        """Sentences below the tables; without particles in the oil the first is in the answer."""
         from ...views.film_words import summary
 
         return summary(self.result)[self.oil is None :]
 
 
-def _data(found: _Found) -> dict[str, Any]:
+def _data(found: _Found) -> dict[str, object]:
     oils = {"oil": found.oil, "oil_filtered": found.filtered}
-    out: dict[str, Any] = {name: each.to_dict() for name, each in oils.items() if each is not None}
+    out: dict[str, object] = {
+        name: each.to_dict() for name, each in oils.items() if each is not None
+    }
     if found.what_ifs:
         out["what_ifs"] = [each.to_dict() for each in found.what_ifs]
     return found.result.to_dict() | out
@@ -229,7 +231,7 @@ def _show_bearing(console: Any, result: FilmResult) -> None:
     console.print(table)
 
 
-def _curve(result: FilmResult) -> Any:
+def _curve(result: FilmResult) -> object:
     """A row a speed; of many speeds some, evenly spread."""
     from ...views.columns import film_columns
 

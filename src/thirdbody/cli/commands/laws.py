@@ -76,7 +76,7 @@ def _about_law(law: type) -> dict[str, Any]:
     return {key: getattr(law, key) for key in about} | {"options": options}
 
 
-def _about_option(each: Declaration, default: Any) -> dict[str, Any]:
+def _about_option(each: Declaration, default: object) -> dict[str, object]:
     from ...quantities.units import say
 
     default = getattr(default, "name", default)

@@ -20,7 +20,7 @@ __all__ = ["command"]
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     paper: str = argument(f"One of: {', '.join(PAPERS)}.", "PAPER")
     out: Path | None = option("--out", "Write figures and ledger into a folder.", "DIR")

@@ -65,7 +65,7 @@ Columns = dict[str, Callable[[int], str]]
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: StudyFile
     json: JsonFile = None
@@ -200,7 +200,7 @@ def _output_table(states: Any) -> Table:
     return table
 
 
-def _transition_table(critical: Transitions, E_ss: float) -> Any:
+def _transition_table(critical: Transitions, E_ss: float) -> object:
     heads = ("critical load", "F*", "pressure", "status")
     table = Table(heads, words=heads[:1], drop=["F*"], more=ALL)
     for name, entry in critical.entries().items():

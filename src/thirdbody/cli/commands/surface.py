@@ -35,7 +35,7 @@ MEANS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     file: Path = argument(
         'A measured surface or profile (x3p, sur, al3d, npy, txt, ...), or the word "example".',
@@ -127,7 +127,7 @@ def _sheets(found: Any, result: dict[str, Any]) -> list[Sheet]:
 
 
 def _of_folder(folder: Path) -> list[Path]:
-    """What lies in the folder of --out in the end."""
+    """Names of the files that --out writes."""
     return [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]
 
 
@@ -135,7 +135,7 @@ def _lengths(
     cutoff: str | None, resolution: str | None, spacing: str | None, problems: list[str]
 ) -> dict[str, Any]:
     """Lengths as `from_topography` takes them [m]."""
-    lengths: dict[str, Any] = {
+    lengths: dict[str, object] = {
         name: None if text is None else metres(f"--{name}", text, problems)
         for name, text in (("cutoff", cutoff), ("resolution", resolution))
     }
@@ -145,7 +145,7 @@ def _lengths(
     return lengths
 
 
-def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool) -> list[Path]:
+def _write_surface(folder: Path, found: Any, result: dict[str, object], force: bool) -> list[Path]:
     import matplotlib as mpl
 
     from ...quantities.files import make_folder, whole, write_text
@@ -166,7 +166,7 @@ def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool
     return out
 
 
-def _show_surface(found: Any, result: dict[str, Any]) -> None:
+def _show_surface(found: object, result: dict[str, Any]) -> None:
     """What was read, the answer at the cut-off used, and its course with the cut-off."""
     console = terminal()
     console.print(_in_one_sentence(found, result["cutoff"]["used"]))

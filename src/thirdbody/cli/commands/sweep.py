@@ -31,7 +31,7 @@ MOST_IN_A_TABLE = 100_000
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: Path | None = argument(
         "A study file with a table [sweep].", "STUDY.toml", show_default=False, default=None

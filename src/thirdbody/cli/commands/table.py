@@ -17,7 +17,7 @@ __all__ = ["command"]
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command is told."""
+    """Options of the command."""
 
     study: StudyFile
     out: Path = option("--out", "Write the table here, e.g. a.inp.", "FILE", default=MISSING)
@@ -79,7 +79,7 @@ def command(options: Options) -> None:
 
 
 def _format(form: str | None, out: Path, units: str | None) -> tuple[str, list[str]]:
-    """The format by its name or the suffix of the file, and what is wrong with it."""
+    """Format by its name or the suffix of the file, and its problems."""
     from ...equilibrium.table.writers import FORMATS
 
     suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}

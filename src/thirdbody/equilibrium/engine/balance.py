@@ -210,9 +210,7 @@ def lay(given, skin, work, laid, rules, level):
         elif own[WAY] == BY_FRAGMENTS:
             own[SLOT] = (2 * p + level) * SLOTS
             if given[p, SEAT] == ROUGH:
-                piece = lay_fragments(
-                    given, panels, p, own[COUNT], grid, own, rules[level], way[0]
-                )
+                piece = lay_fragments(given, panels, p, own[COUNT], grid, own, rules[level], way[0])
             good &= piece >= 0
         elif given[p, SEAT] == ROUGH and good:
             if given[p, BREAKS] == 1:

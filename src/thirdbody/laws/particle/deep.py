@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
@@ -437,7 +438,7 @@ class DeepSide(Side):
         low, high = self._reduced(eps[[after - 1, after]])
         return [float(brentq(excess, low, high, xtol=1e-15 * high, rtol=1e-15))]
 
-    def _disc(self, t: Any) -> tuple[Any, Any]:
+    def _disc(self, t: object) -> tuple[Any, Any]:
         """Load over πR²H and area over πR² of a disc of the height t left, beyond the table."""
         load, area = self._at_top
         thick = self.thick

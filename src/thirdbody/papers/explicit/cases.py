@@ -64,7 +64,7 @@ def _contact(
     alpha: float = 5.0,
     H: tuple[float, float] | None = None,
     sizes: tb.Distribution | None = None,
-    law: Any = None,
+    law: object = None,
     harder: float = 4.0,
 ) -> tb.Contact:
     """The interface of the stored runs, with other numbers.

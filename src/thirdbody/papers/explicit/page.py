@@ -162,7 +162,7 @@ def _worst(points: tuple[Point, ...]) -> list[str]:
 
 
 # -------------------------------------------------------------------------- the record
-def _columns(point: Point) -> dict[str, Any]:
+def _columns(point: Point) -> dict[str, object]:
     """A state as plain numbers."""
     stored = point.stored or (math.nan, math.nan)
     return {
@@ -209,7 +209,7 @@ def _csv(points: tuple[Point, ...]) -> str:
     return out.getvalue()
 
 
-def _as_json(summary: Summary) -> dict[str, Any]:
+def _as_json(summary: Summary) -> dict[str, object]:
     return {
         "version": __version__,
         "effort": summary.effort.words,

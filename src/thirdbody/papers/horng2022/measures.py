@@ -164,14 +164,14 @@ def add_measures(family: Callable[..., Measurement], **values: Value) -> None:
 
 
 def curve_measure(
-    value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: Any
+    value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: object
 ) -> Measurement:
     """A function of one curve."""
     return _measurement(value(curves(material, sigma, x_a), **more))
 
 
 def two_body_measure(
-    value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: Any
+    value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: object
 ) -> Measurement:
     """A function of one curve, and of that of the surface without particles."""
     return _measurement(value(curves(material, sigma, x_a), curves.two_body(sigma), **more))
@@ -191,7 +191,7 @@ def extreme_over_materials(
 
 
 def material_measure(
-    extreme: Reduce, value: Value, curves: Curves, sigma: Numbers, x_a: Numbers, **more: Any
+    extreme: Reduce, value: Value, curves: Curves, sigma: Numbers, x_a: Numbers, **more: object
 ) -> Measurement:
     """The ``extreme`` over roughnesses and sizes of a function of the curves of both materials."""
     pairs = product(np.ravel(sigma).tolist(), np.ravel(x_a).tolist())

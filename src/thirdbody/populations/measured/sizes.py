@@ -440,7 +440,7 @@ def _unit(path: object, line: int, names: list[str]) -> str:
     return units[0]
 
 
-def _number(path: Any, line: int, cell: str) -> float:
+def _number(path: object, line: int, cell: str) -> float:
     try:
         value = float(cell)
     except ValueError:

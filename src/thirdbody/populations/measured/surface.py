@@ -567,8 +567,8 @@ class Topography:
         moments = self.moments
         spectrum = self.moments_at(method="spectrum")
         names = ("sigma", "R", "eta", "alpha", "sigma_s", "y_s")
-        rough: dict[str, Any] = {name: getattr(moments, name) for name in names}
-        counted: dict[str, Any] = {"count": summits.count, "density": summits.density}
+        rough: dict[str, object] = {name: getattr(moments, name) for name in names}
+        counted: dict[str, object] = {"count": summits.count, "density": summits.density}
         counted |= {"R": summits.R, "sigma_s": summits.sigma_s, "y_s": summits.y_s}
         curve = self.curve()
         return {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +38,7 @@ FEWEST_POINTS = {1: 64, 2: 16}
 
 @takes_units
 def from_topography(
-    source: str | os.PathLike[str] | Any,
+    source: str | os.PathLike[str] | object,
     *,
     cutoff: float | None = None,
     detrend: str | None = None,
@@ -133,7 +134,7 @@ def from_topography(
 
 
 def _options(
-    cutoff: Any, detrend: Any, unit: str | None, spacing: Any, resolution: Any
+    cutoff: Any, detrend: Any, unit: str | None, spacing: object, resolution: Any
 ) -> tuple[float | None, tuple[float, ...] | None]:
     """The unit [m] and the spacing [m] given, or None, when every option has a meaning."""
     problems: list[str] = []

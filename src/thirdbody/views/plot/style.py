@@ -103,7 +103,7 @@ class Curve(NamedTuple):
 
 
 # ------------------------------------------------------------------ reading the argument
-def _legend_entry(name: str, value: Any) -> str:
+def _legend_entry(name: str, value: object) -> str:
     symbol, unit = SYMBOLS.get(name, (name, "1"))
     if isinstance(value, (str, np.str_)):
         return f"{symbol}: {value}"
@@ -203,7 +203,7 @@ def _legend_above(ax: Axes, handles: Sequence[Artist], *, ncols: int = 1, y: flo
 
 def _styles(curves: Sequence[Curve]) -> list[dict[str, Any]]:
     count = itertools.count()
-    styles: list[dict[str, Any]] = []
+    styles: list[dict[str, object]] = []
     for curve in curves:
         if curve.two_body and len(curves) > 1:
             styles.append(dict(color="black", linestyle="-", linewidth=1.0))

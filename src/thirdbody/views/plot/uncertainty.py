@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -184,7 +184,7 @@ def tornado(
     return ax
 
 
-def _ends() -> tuple[tuple[str, Any, str], ...]:
+def _ends() -> tuple[tuple[str, object, str], ...]:
     """Name, colour and hatch of the part of a bar towards each end of its input."""
     return (
         ("low end of the input", _tint(OKABE_ITO["blue"], 0.8), ""),

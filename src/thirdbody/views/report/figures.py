@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...equilibrium.modes import FAINT
-from ...quantities.say import join_words, plural, value_of
+from ...quantities.say import join_words, value_of
 from ..html import figure, svg_of, words
 from .found import Found
 
@@ -43,7 +43,7 @@ def figures_of(report: Found) -> list[str]:
     legend = f"F* = F/(A_n E_ss), with E_ss = {value_of(report.contact.E_ss, 'Pa')}."
     loads = len(set(_marks(report)))
     if loads:
-        mark = "Bar" if loads > FEW else plural(loads, "Triangle").partition(" ")[2]
+        mark = "Bar" if loads > FEW else "Triangle" if loads == 1 else "Triangles"
         legend += f" {mark} on the axis: the load{'s' if loads > 1 else ''} of the study."
     if drawn := _critical_loads(report):
         legend += f" Dotted: {join_words(list(drawn))}."

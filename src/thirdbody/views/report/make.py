@@ -1,4 +1,4 @@
-"""Everything that the page of a study tells, found."""
+"""Everything that the page of a study shows, computed."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def report(
 
 
 def _press_surface(study: Study, loads: list[float]) -> OneSurface | str:
-    """One small surface under a few of the loads; why not, where it cannot be pressed."""
+    """Press one small surface under a few of the loads; where that fails, the reason."""
     few = [loads[i] for i in some_of(len(loads), MOST_PRESSED)]
     try:
         return one_surface(study, few)

@@ -183,7 +183,7 @@ def _when(report: Found) -> str:
 
 
 def ranked_inputs(report: Found) -> tuple[str, list[str]]:
-    """Which result inputs are ranked by, and the inputs, the strongest first.
+    """Result by which inputs are ranked, and the inputs, the strongest first.
 
     A share at its end hardly answers to anything, so that the area ranks then.
     """

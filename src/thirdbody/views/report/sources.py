@@ -217,7 +217,7 @@ def value_rows(value: Value, path: str) -> Iterator[Row]:
                 yield Row(name, "", text, about["meaning"], default)
 
 
-def _is_default(item: dataclasses.Field[Any], value: Any) -> bool:
+def _is_default(item: dataclasses.Field[Any], value: object) -> bool:
     if item.default is not dataclasses.MISSING:
         return bool(item.default == value)
     if item.default_factory is not dataclasses.MISSING:
