@@ -394,7 +394,7 @@ def _solve(
 def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     """Whether states that differ in these inputs each need new tables: 0.1 s a state.
 
-    Or nearly so: of particles that break, each takes 1 to 3 ms by the compiled engine.
+    Or nearly so: of particles that break, each takes 1 to 60 ms by the compiled engine.
     """
     names = [name for name in vary if name not in LOADS]
     if contact.asperity_law.of_surface:  # any input that carries is one of the whole surface
