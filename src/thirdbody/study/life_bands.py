@@ -19,7 +19,6 @@ from ..populations.measured.cleanliness import iso4406_of_counts
 from ..quantities.carried import takes_units
 from ..quantities.progress import Report, reporting
 from ..quantities.record import Record
-from ..quantities.units import to_si
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.contact_history import DryHistory
 from ..systems.life.debris import Debris
@@ -29,6 +28,7 @@ from ..systems.life.oil_history import run_oil_history
 from ..systems.life.run import life
 from ..systems.life.until import Until
 from .life_kept import KeptEnds
+from .life_uncertainty import place_of_beta
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("End", "LifeBands", "Swing", "is_of_contact"),
-    *("place_of_beta", "propagate_dry", "propagate_life"),
+    *("propagate_dry", "propagate_life"),
 ]
 
 INGRESS = "ingress"
@@ -151,20 +151,6 @@ class LifeBands(Record):
             Of the event.
         """
         return round(self.samples * (1 - self.reached[name]))
-
-
-def place_of_beta(circuit: OilCircuit, name: str) -> tuple[int, int] | None:
-    """Which β ratio of which filter "filters.0.beta.7 um" is; None for another name."""
-    head, found, size = name.partition(".beta.")
-    which = head.removeprefix("filters.")
-    if not found or not which.isdecimal() or int(which) >= len(circuit.filters):
-        return None
-    try:
-        at = to_si(size.replace("(c)", "").strip(), "m")
-    except InvalidValue:
-        return None
-    near = [abs(each / at - 1) < 1e-9 for each in circuit.filters[int(which)].sizes]
-    return (int(which), near.index(True)) if any(near) else None
 
 
 def _number_of(circuit: OilCircuit, name: str) -> Any:

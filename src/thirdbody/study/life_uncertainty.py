@@ -8,15 +8,14 @@ from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
 from ..errors import InvalidValue, Problem
-from ..quantities.units import Quantity, say
+from ..quantities.units import Quantity, say, to_si
 from ..quantities.value import quantity
 from ..systems.life.circuit import OilCircuit
 from .inputs import inputs_of
-from .life_bands import place_of_beta
 from .reader import Reader, get
 from .uncertainty import LIFE, ranges_of, read_uncertain
 
-__all__ = ["FACTOR", "KnownOfLife", "about_circuit", "known_of_life", "names_life"]
+__all__ = ["FACTOR", "KnownOfLife", "about_circuit", "known_of_life", "names_life", "place_of_beta"]
 
 FACTOR = quantity("f", "1", "factor on all that enters or arrives", gt=0).metadata["quantity"]
 BETA = quantity("β", "1", "particles before over particles behind", ge=1).metadata["quantity"]
@@ -42,6 +41,20 @@ class KnownOfLife:
     vary: Mapping[str, Uncertain] = field(default_factory=dict)
     samples: int | None = None
     seed: int = 0
+
+
+def place_of_beta(circuit: OilCircuit, name: str) -> tuple[int, int] | None:
+    """Which β ratio of which filter "filters.0.beta.7 um" is; None for another name."""
+    head, found, size = name.partition(".beta.")
+    which = head.removeprefix("filters.")
+    if not found or not which.isdecimal() or int(which) >= len(circuit.filters):
+        return None
+    try:
+        at = to_si(size.replace("(c)", "").strip(), "m")
+    except InvalidValue:
+        return None
+    near = [abs(each / at - 1) < 1e-9 for each in circuit.filters[int(which)].sizes]
+    return (int(which), near.index(True)) if any(near) else None
 
 
 def about_circuit(circuit: OilCircuit, name: str) -> Quantity | None:

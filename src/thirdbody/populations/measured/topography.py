@@ -38,7 +38,7 @@ FEWEST_POINTS = {1: 64, 2: 16}
 
 @takes_units
 def from_topography(
-    source: str | os.PathLike[str] | object,
+    source: str | os.PathLike[str] | Any,
     *,
     cutoff: float | None = None,
     detrend: str | None = None,
