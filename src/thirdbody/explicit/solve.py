@@ -69,7 +69,7 @@ def solve(
     F_star: ArrayLike | None = None,
     h: ArrayLike | None = None,
     spacing: float | None = None,
-    seats: object = "random",
+    seats: Any = "random",
     particles: Mapping[str, object] | None = None,
     seed: int = 0,
     cap: Cap | float | None = "hardness",
