@@ -95,6 +95,9 @@ def test_readme_says_what_the_book_says():
         f"within {said['agreement_separation']}",
         f"{said['measurements_word']} published measurements",
         said["measurements_verdict"],
+        f"{said['life_measurements']} measurements of the life of an oil",
+        f"{said['life_lost']} lost, {said['life_undecided']} undecided, {said['life_met']} met**, "
+        f"{said['life_built_in']} that test nothing",
         f"{said['paper_statements']} statements",
         f"{said['paper_published']} hold, {said['paper_consistent']} hold",
         f"[{said['materials']} materials]",

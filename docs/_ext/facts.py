@@ -121,7 +121,7 @@ def pressed():
 def counted(verdicts):
     """Verdicts of one kind in words: six lost, nine undecided, none met."""
     words = list(verdicts.values())
-    return {each: words.count(each) for each in ("lost", "undecided", "met")}
+    return {each: words.count(each) for each in ("lost", "undecided", "met", "by construction")}
 
 
 @cache
@@ -133,7 +133,9 @@ def facts():
     share, gap = differences()
     parts = [math.ceil(100 * share[case]) for case in SIZES]
     verdicts = stored("verdicts")
-    measured, computed = (counted(verdicts[kind]) for kind in ("measurements", "computations"))
+    measured, computed, life = (
+        counted(verdicts[kind]) for kind in ("measurements", "computations", "life")
+    )
     of = verdicts["horng2022"]
     errata = (Path(__file__).parent.parent / "errata.md").read_text("utf-8")
     two, one, small = parts
@@ -151,6 +153,11 @@ def facts():
         f"{measured['met'] or 'none'} met",
         "computations_word": word(len(verdicts["computations"])),
         "computations_verdict": f"{computed['lost']} lost, {computed['met']} met",
+        "life_measurements": f"{len(verdicts['life'])}",
+        "life_lost": f"{life['lost']}",
+        "life_undecided": f"{life['undecided']}",
+        "life_met": f"{life['met']}",
+        "life_built_in": f"{life['by construction']}",
         "paper_statements": f"{of['statements']}",
         "paper_published": f"{of['published']}",
         "paper_consistent": f"{of['series-rough']}",

@@ -1,32 +1,17 @@
 """The ledger of the life of an oil: lost rows first, each with its standing, nothing fitted."""
 
 import json
+from pathlib import Path
 
 import pytest
 
+import thirdbody
 from thirdbody import InvalidValue
 from thirdbody.papers import PAPERS, life, panels
 from thirdbody.papers.measurements.row import STANDINGS, WORDS, word_of
 
-VERDICTS = {
-    "diesel1983": "lost",
-    "balance2017": "by construction",
-    "anderson": "by construction",
-    "filters1979": "lost",
-    "ultraclean1982": "undecided",
-    "needelman": "by construction",
-    "microabrasion1999": "met",
-    "rabinowicz1961": "lost",
-    "ronen1980": "lost",
-    "ringliner": "lost",
-    "koulocheris2013": "undecided",
-    "oleic1970": "lost",
-    "akchurin2016": "undecided",
-    "equilibrium1991": "by construction",
-    "runningin2016": "met",
-    "siniawski2007": "lost",
-    "fillot2007": "met",
-}
+BOOK = Path(thirdbody.__file__).parent / "data" / "verdicts.json"
+VERDICTS = json.loads(BOOK.read_text("utf-8"))["life"]
 pytestmark = pytest.mark.slow
 
 

@@ -4,7 +4,8 @@ The life of an oil
 
 Dust of a quarry enters 200 L of oil, 125 mg each hour. Three filters of one flow hold it back,
 and the code that the oil comes to says which of them is enough: all of it passes the filter every
-three minutes, so that a finer one than the usual changes little. Widths of the flows are masses.
+three minutes, so that a finer one than the usual changes little. Above, steps are the code and thin
+lines the counts, with their scale on the right. Below, widths are masses.
 """
 
 from matplotlib.figure import Figure

@@ -25,6 +25,8 @@ __all__ = ["draw_flows", "draw_history", "flows", "histories", "life"]
 HOUR = 3600.0
 SIZES = {"4 µm": "blue", "6 µm": "vermilion", "14 µm": "green"}
 DASHES = ("-", "--", "-.")
+AWAY = ("--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
+"""Dashes of what leaves, so that its lines differ without their colours."""
 LEAST = 0.01
 """Particles per mL that the code number 0 ends at."""
 THINNEST = 0.004
@@ -114,16 +116,24 @@ def draw_masses(axes: Axes, history: Histories) -> None:
     ]
     inside = f"in the {_pool(history)}"
     columns = {**history.ledger.came, **history.ledger.went, inside: history.ledger.in_oil}
-    moved = {name: values for name, values in columns.items() if np.any(values > 0)}
+    least = 1e-6 * max(np.max(values) for values in columns.values())
+    moved = {name: values for name, values in columns.items() if np.any(values > least)}
+    arrived = [name for name in moved if name in history.ledger.came]
     for i, (name, values) in enumerate(moved.items()):
-        dash = "-" if name in history.ledger.came else ":" if name == inside else "--"
         seen = np.where(values > 0, values, np.nan)  # a logarithm has no 0
-        axes.plot(hours, 1e3 * seen, dash, color=colours[i % len(colours)], label=name, lw=1.6)
+        line = axes.plot(hours, 1e3 * seen, color=colours[i % len(colours)], label=name, lw=1.6)[0]
+        if name in arrived:
+            line.set_linewidth(3.2 / 2 ** arrived.index(name))
+        else:
+            line.set_linestyle(":" if name == inside else AWAY[(i - len(arrived)) % len(AWAY)])
     axes.set(xlabel="Time [h]", ylabel="Mass since the beginning [g]", xscale="log", yscale="log")
     axes.margins(x=0)
     low, high = axes.get_ylim()
-    axes.set_ylim(max(low, 1e-6 * high), high)
-    axes.legend(frameon=False)
+    low = max(low, 1e3 * least)
+    # the legend lies above every line
+    free = 0.11 * ((len(moved) + 1) // 2)
+    axes.set_ylim(low, high * (high / low) ** (free / (1 - free)))
+    axes.legend(frameon=False, ncols=2, loc="upper left")
 
 
 def _pool(history: Histories) -> str:
