@@ -44,6 +44,8 @@ TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
 GETTING = "Getting ready: the page loads and compiles what it needs, once after its start."
 LEAST = 0.5
 """Seconds of starting that are told of."""
+TOLD = 0.5e-3
+"""Seconds below which an answer is not told to have taken time: no answer is there at once."""
 WITHOUT_ANSWER = ("surface", "dust", "take_away")
 """Tabs that a study with mistakes may need: there files are dropped, and its text stands."""
 
@@ -128,6 +130,8 @@ def _plain_names(study: object) -> Any:
 def _took(seconds: float, since: float) -> str:
     """How long the answer took, and how long before it a process was being started."""
     starting = solver().prepared(since)
+    if seconds - starting < TOLD:  # it was another process that was being started
+        starting = 0.0
     text = f"answered in {1e3 * (seconds - starting):.0f} ms"
     if starting < LEAST:
         return text
@@ -204,7 +208,9 @@ class Page:
                 list(EXAMPLES), label="open an example", on_change=lambda e: self._opened(e.value)
             )
             self.names.props('dense dark options-dense standout data-path="example"')
-            self.names.classes("w-56")
+            self.names.classes("w-56 examples")
+            with self.names.add_slot("prepend"):
+                ui.icon("menu_book").classes("when-narrow")
             shade = ui.button(icon="contrast").on("click", js_handler=TURN)
             shade.props('flat dense color=white aria-label="light or dark"')
         return skip
