@@ -10,6 +10,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from io import StringIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 from thirdbody.app import figures
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.jobs import Job
-from thirdbody.app.page import _took
+from thirdbody.app.page import Page, _took
 from thirdbody.app.python_text import to_python
 from thirdbody.app.solver import TRIES, Died, Solver, ended_by
 from thirdbody.app.state import State
@@ -314,3 +315,37 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
     assert _took(18.0, 0.0) == "answered in 18000 ms"  # an answer that waited for no start
     said = _took(18.4, 0.0)
     assert said == "answered in 400 ms, after 18 s in which the page was getting ready"
+
+
+def test_a_tab_that_is_left_does_not_hold_up_the_next():
+    page = Page.__new__(Page)
+    page.state = SimpleNamespace(tab="film")
+    page.client, page.drawing, page.waiting = contextlib.nullcontext(), {}, {}
+    ended = []
+
+    async def go():
+        over = asyncio.Event()
+
+        async def slow():
+            await over.wait()
+            ended.append("film")
+            raise Died("no answer")  # told where the tab is in sight alone
+
+        page.draws = {"film": slow, "curves": lambda: ended.append("curves")}
+        first = asyncio.create_task(page._draw_in_sight("film"))
+        while not page.drawing:
+            await asyncio.sleep(0)
+        page.state.tab = "curves"
+        assert not await first
+        assert await page._draw_in_sight("curves")
+        assert ended == ["curves"]
+        left = page.drawing["film"]
+        over.set()
+        await left
+        assert ended == ["curves", "film"]
+        assert page.drawing == {}
+        page.state.tab = "film"
+        with pytest.raises(Died):
+            await page._draw_in_sight("film")
+
+    asyncio.run(go())
