@@ -36,7 +36,7 @@ def answer(found: PlateResult) -> list[str]:
         force = value_of(float(found.force[i]), "N", 3)
         out = [
             f"The plate does not stand on {of}: a force of {force} presses the particle into plate "
-            f"and chuck until the gap is {_high(height)}, less than an atom."
+            f"and chuck until the gap is {_height_in_words(height)}, less than an atom."
         ]
     if chuck.limit is None:
         return out
@@ -55,18 +55,18 @@ def answer(found: PlateResult) -> list[str]:
     ]
 
 
-def _high(height: float) -> str:
+def _height_in_words(height: float) -> str:
     """A height in words: none is told to less than an atom.
 
-    >>> _high(4.1e-7), _high(2.42e-14)
+    >>> _height_in_words(4.1e-7), _height_in_words(2.42e-14)
     ('410 nm', 'below 0.1 nm')
     """
     return f"below {value_of(ATOM, 'm')}" if height < ATOM else value_of(height, "m", 3)
 
 
-def _cell(height: float) -> str:
+def _height_in_cell(height: float) -> str:
     """The same in a table."""
-    return _high(height).replace("below", "<")
+    return _height_in_words(height).replace("below", "<")
 
 
 def uncertainty(found: PlateResult) -> list[str]:
@@ -75,7 +75,7 @@ def uncertainty(found: PlateResult) -> list[str]:
     if not most.ratio > 1:
         return []
     if found.bumps is None:
-        low, high = _high(most.low), _high(most.high)
+        low, high = _height_in_words(most.low), _height_in_words(most.high)
         ends = f"it stands {low} to {high} high" if low != high else f"it stands {low} high"
         if most.high < ATOM:
             ends = f"the gap stays {high}"
@@ -85,7 +85,7 @@ def uncertainty(found: PlateResult) -> list[str]:
     return [f"Most uncertain: {most.what}. With {most.between} {ends}; {most.action}."]
 
 
-def _part(height: float, grain: float) -> str:
+def _share_of_size(height: float, grain: float) -> str:
     """A height over the diameter of the particle."""
     return (
         f"< {percent(ATOM / grain, digits=2)}"
@@ -94,7 +94,7 @@ def _part(height: float, grain: float) -> str:
     )
 
 
-def _wide(found: PlateResult, i: int) -> str:
+def _width_of_bump(found: PlateResult, i: int) -> str:
     """How wide a bump is; a dash where there is none."""
     return "-" if found.height[i] < ATOM else value_of(float(found.width[i]), "m", 3)
 
@@ -106,9 +106,9 @@ def _columns(found: PlateResult, i: int) -> dict[str, str]:
     return {
         "particle": value_of(grain, "m", 3),
         **kinds,
-        "plate stands": _cell(height),
-        "of its size": _part(height, grain),
-        "bump wide": _wide(found, i),
+        "plate stands": _height_in_cell(height),
+        "of its size": _share_of_size(height, grain),
+        "bump wide": _width_of_bump(found, i),
         "force": value_of(float(found.force[i]), "N", 3),
     }
 
@@ -128,8 +128,8 @@ def facts(found: PlateResult) -> dict[str, str]:
     i = found.at
     out = {
         "particle": value_of(float(found.grain[i]), "m", 3),
-        "plate stands": _cell(float(found.height[i])),
-        "bump wide": _wide(found, i),
+        "plate stands": _height_in_cell(float(found.height[i])),
+        "bump wide": _width_of_bump(found, i),
         "force on the particle": value_of(float(found.force[i]), "N", 3),
     }
     if found.bumps is not None:

@@ -249,16 +249,16 @@ class Curves:
         answer to the move begins while the browser draws them.
         """
         while self.drawing is not None:  # the browser gets one message at a time
-            await self._end(self.drawing)
+            await self._wait_for(self.drawing)
         self.drawing = drawing = asyncio.ensure_future(show_figures(every))
         while not drawing.done():
             if self.state.tab != TAB or (below and self.state.study is not self.state.read):
                 return None
             await asyncio.wait([drawing], timeout=TICK if below else LOOKS)
-        await self._end(drawing)
+        await self._wait_for(drawing)
         return drawing.result()
 
-    async def _end(self, drawing: asyncio.Future[bool]) -> None:
+    async def _wait_for(self, drawing: asyncio.Future[bool]) -> None:
         await asyncio.wait([drawing])
         if self.drawing is drawing:
             self.drawing = None
