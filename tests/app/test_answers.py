@@ -10,6 +10,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from io import StringIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 from thirdbody.app import figures
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.jobs import Job
-from thirdbody.app.page import _took
+from thirdbody.app.page import Page, _took
 from thirdbody.app.python_text import to_python
 from thirdbody.app.solver import TRIES, Died, Solver, ended_by
 from thirdbody.app.state import State
@@ -229,6 +230,29 @@ def test_ctrl_c_does_not_reach_a_process_that_is_being_started():
     assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
+def test_a_call_takes_the_process_that_is_free_before_its_own_has_started(monkeypatch):
+    solver = Solver()
+    monkeypatch.setattr(solver, "_get_ready", lambda *_: None)  # this start takes for ever
+    freed = object()
+
+    class Free:
+        def is_alive(self):
+            return True
+
+    try:
+        with ThreadPoolExecutor(1) as threads:
+            call = threads.submit(solver._free)
+            while not solver.all and not call.done():
+                time.sleep(0.001)
+            one = (Free(), freed)
+            solver.idle.put(one)
+            assert call.result(timeout=20) is one
+        assert len(solver.all) == 1
+        assert solver.waiting == 0
+    finally:
+        solver.close()
+
+
 def test_a_study_is_read_again_after_nobody_could(tmp_path, monkeypatch):
     from thirdbody.app import state as states
 
@@ -288,5 +312,40 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
             return 18.0
 
     monkeypatch.setattr(page, "solver", Ready)
+    assert _took(18.0, 0.0) == "answered in 18000 ms"  # an answer that waited for no start
     said = _took(18.4, 0.0)
     assert said == "answered in 400 ms, after 18 s in which the page was getting ready"
+
+
+def test_a_tab_that_is_left_does_not_hold_up_the_next():
+    page = Page.__new__(Page)
+    page.state = SimpleNamespace(tab="film")
+    page.client, page.drawing, page.waiting = contextlib.nullcontext(), {}, {}
+    ended = []
+
+    async def go():
+        over = asyncio.Event()
+
+        async def slow():
+            await over.wait()
+            ended.append("film")
+            raise Died("no answer")  # told where the tab is in sight alone
+
+        page.draws = {"film": slow, "curves": lambda: ended.append("curves")}
+        first = asyncio.create_task(page._draw_in_sight("film"))
+        while not page.drawing:
+            await asyncio.sleep(0)
+        page.state.tab = "curves"
+        assert not await first
+        assert await page._draw_in_sight("curves")
+        assert ended == ["curves"]
+        left = page.drawing["film"]
+        over.set()
+        await left
+        assert ended == ["curves", "film"]
+        assert page.drawing == {}
+        page.state.tab = "film"
+        with pytest.raises(Died):
+            await page._draw_in_sight("film")
+
+    asyncio.run(go())

@@ -55,6 +55,21 @@ def test_how_high_a_wafer_stands_over_a_grain():
     assert done.stderr.count("warning: ") == 2
 
 
+def test_a_wafer_does_not_stand_on_a_grain_that_sinks_in():
+    assert "1 µm < 0.1 nm < 0.01 % - 0.0656 N" in said(run("plate", "wafer-chuck.toml"))
+    grain = ("--set", "plate.grain=0.3 um")
+    done = run("plate", "wafer-chuck.toml", *grain)
+    (height,) = json.loads(run("plate", "wafer-chuck.toml", *grain, "--json").stdout)["states"][
+        "height"
+    ]
+    assert 0 < height < 1e-10
+    told = said(done)
+    assert "The plate does not stand on a particle of 300 nm (quartz): a force of" in told
+    assert "the gap is below 0.1 nm, less than an atom" in told
+    assert "plate stands 0.3" not in told
+    assert "heights up to 0.1 nm are of bumps narrower" in done.stderr
+
+
 @pytest.mark.parametrize(("command", "kind"), FILES.items())
 def test_json_and_csv_hold_the_same_numbers(command, kind):
     done = run(command, f"{kind}.toml", "--json", "--csv", "rows.csv")

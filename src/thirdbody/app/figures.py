@@ -230,7 +230,7 @@ def band(x0: float, x1: float, colour: str, opacity: float, *, xref: str = "x") 
 
 
 def empty(height: int) -> Figure:
-    """A place for a figure: a grey field without axes, which nobody takes for an answer."""
+    """A place for a figure: a grey field without axes that says so."""
     hidden = {"visible": False, "fixedrange": True}
     layout: Layout = {
         "height": height,
@@ -240,6 +240,10 @@ def empty(height: int) -> Figure:
         "paper_bgcolor": CLEAR,
         "plot_bgcolor": CLEAR,
         "shapes": [band(0, 1, GREY, 0.1, xref="paper")],
+        "annotations": [
+            {"text": "not drawn yet", "xref": "paper", "yref": "paper", "x": 0.5, "y": 0.5}
+            | {"showarrow": False, "font": {"size": 13}}
+        ],
     }
     return {"data": [], "layout": layout, "config": CONFIG | {"staticPlot": True}}
 

@@ -141,11 +141,14 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
   .load { position: sticky; top: 72px; z-index: 3; width: 100%; flex: none; background: #fff; }
   .body--dark .load { background: #121212; }
   .knobs { flex: none; width: 100%; gap: 0.4rem 1rem; }
+  .answer .sliders { display: flex; }
+  .examples .q-field__native, .examples .q-field__label { opacity: 0; }
 }
 .skip { position: absolute; left: -9999px; }
 .skip:focus { left: 8px; top: 8px; z-index: 9999; padding: 8px 12px; }
 .skip:focus { background: #fff; color: #00518a; }
 h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-spacing: 0; }
+@media (min-width: 700px) { .when-narrow { display: none; } }
 .scroll-x { overflow-x: auto; }
 .section { display: block; width: 100%; min-width: 640px; height: auto; }
 .q-uploader { width: 260px; }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import shutil
 import time
 from collections.abc import Awaitable, Callable, Mapping
@@ -44,6 +45,10 @@ TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
 GETTING = "Getting ready: the page loads and compiles what it needs, once after its start."
 LEAST = 0.5
 """Seconds of starting that are told of."""
+LOOKS = 0.02
+"""Seconds after which it is looked whether a tab that is drawn is still in sight."""
+TOLD = 0.5e-3
+"""Seconds below which an answer is not told to have taken time: no answer is there at once."""
 WITHOUT_ANSWER = ("surface", "dust", "take_away")
 """Tabs that a study with mistakes may need: there files are dropped, and its text stands."""
 
@@ -128,6 +133,8 @@ def _plain_names(study: object) -> Any:
 def _took(seconds: float, since: float) -> str:
     """How long the answer took, and how long before it a process was being started."""
     starting = solver().prepared(since)
+    if seconds - starting < TOLD:  # it was another process that was being started
+        starting = 0.0
     text = f"answered in {1e3 * (seconds - starting):.0f} ms"
     if starting < LEAST:
         return text
@@ -158,6 +165,9 @@ class Page:
         """What stands in the place of each tab until it is drawn."""
         self.draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
         """How each tab that was opened is drawn."""
+        self.drawing: dict[str, asyncio.Future[None]] = {}
+        """Tabs that are being drawn: that in sight, and those that were left meanwhile."""
+        self.client = ui.context.client
         self.travels = 0
         """How often back or forward was pressed."""
         skip = self._header()
@@ -204,7 +214,9 @@ class Page:
                 list(EXAMPLES), label="open an example", on_change=lambda e: self._opened(e.value)
             )
             self.names.props('dense dark options-dense standout data-path="example"')
-            self.names.classes("w-56")
+            self.names.classes("w-56 examples")
+            with self.names.add_slot("prepend"):
+                ui.icon("menu_book").classes("when-narrow")
             shade = ui.button(icon="contrast").on("click", js_handler=TURN)
             shade.props('flat dense color=white aria-label="light or dark"')
         return skip
@@ -249,6 +261,8 @@ class Page:
     async def _shown(self) -> None:
         """Fields, sliders, the tab in sight."""
         state, library = self.state, self.state.library
+        if state.study is not state.read and self.drawing:  # no tab is drawn of two studies
+            await asyncio.wait(list(self.drawing.values()))
         await state.settle()
         if state.library != library:
             self.side.again()
@@ -259,13 +273,14 @@ class Page:
         if state.answer is None:
             self._say("; ".join(state.problems))
             if state.tab in WITHOUT_ANSWER:
-                await self._draw(state.tab)
+                await self._draw_in_sight(state.tab)
             return
         wrong = self._wrong()
         if not self.retry.visible:  # mistakes that are mended are not told while the tab is drawn
             self._say(wrong or self.told)
         try:
-            await self._draw(state.tab)
+            if not await self._draw_in_sight(state.tab):
+                return  # another tab is asked for
         except Died:
             raise
         except ThirdBodyError as error:
@@ -292,16 +307,41 @@ class Page:
             "shown is the last study without one."
         )
 
-    async def _draw(self, name: str) -> None:
-        """Draw a tab, built when it is opened first."""
+    async def _draw_in_sight(self, name: str) -> bool:
+        """Draw a tab; whether it is still in sight then. One that is left ends beside the next."""
+        while (drawing := self.drawing.get(name)) is not None:
+            await asyncio.wait([drawing], timeout=LOOKS)
+            if self.state.tab != name:
+                return False
+        self._build(name)
+        self.drawing[name] = drawing = asyncio.ensure_future(self._draw(name))
+        while not drawing.done():
+            if self.state.tab != name:
+                return False
+            await asyncio.wait([drawing], timeout=LOOKS)
+        drawing.result()
+        return True
+
+    def _build(self, name: str) -> None:
+        """Build a tab when it is opened first, and show it."""
         if name not in self.draws:
             with self.places[name]:
                 module = import_module(f".tabs.{name}", __package__)
                 self.draws[name] = module.build(self.state, self.side.again)
         self._unveil(name)
-        drawing = self.draws[name]()
-        if drawing is not None:
-            await drawing
+
+    async def _draw(self, name: str) -> None:
+        """Draw a tab to its end; what is wrong is told where it is still in sight."""
+        try:
+            with self.client:
+                drawing = self.draws[name]()
+                if drawing is not None:
+                    await drawing
+        except ThirdBodyError:
+            if self.state.tab == name:
+                raise
+        finally:
+            del self.drawing[name]
 
     def _unveil(self, name: str) -> None:
         """Show a tab in the place of what waits for it."""
@@ -347,6 +387,6 @@ class Page:
 
     def _turned(self) -> None:
         self.state.tab = str(self.tabs.value or TABS[0])
-        self.verdict.place()
+        self.verdict.turn()
         self.state.began = time.perf_counter()
         self.soon()

@@ -68,6 +68,8 @@ class Verdict:
         self.state = state
         self.noted: list[str] | None = None
         """What the badge tells."""
+        self.tab = state.tab
+        """The tab that the badge is of."""
         self.shown: tuple[Answer, float] | None = None
         """What the sentence is of."""
         with ui.element("div").classes("verdict") as self.line:
@@ -91,6 +93,13 @@ class Verdict:
         self.line.classes(**{"add" if beside else "remove": "beside"})
         self.sentence.set_visibility(self.state.tab not in OWN_ANSWER)
 
+    def turn(self) -> None:
+        """Another tab is in sight: a badge that may not be its own waits until it is drawn."""
+        self.place()
+        own = self.state.noted.get(self.tab), self.state.noted.get(self.state.tab)
+        if self.tab != self.state.tab and (any(own) or {self.tab, self.state.tab} & {*QUESTIONS}):
+            self.badge.set_visibility(False)
+
     async def show_sentence(self) -> None:
         """The sentence of the answer as it is now."""
         answer = self.state.answer
@@ -110,11 +119,12 @@ class Verdict:
         self.remark.set_text(remark)
         self.remark.set_visibility(bool(remark))
         known = ranked(notes)
+        self.tab = self.state.tab
+        self.badge.set_visibility(True)
         if known == self.noted:
             return
         self.noted = known
         made = badge_of(known)
-        self.badge.set_visibility(True)
         self.badge.set_icon(made.icon)
         self.badge.set_text(made.words)
         self.badge.classes(replace=f"badge {made.kind}")

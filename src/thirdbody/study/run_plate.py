@@ -15,7 +15,7 @@ from ..quantities.record import column
 from ..quantities.say import percent, value_of
 from ..systems.chuck import Chuck
 from ..systems.connector import name_of
-from ..systems.plate_over_particle import THIN, Bump
+from ..systems.plate_over_particle import ATOM, THIN, Bump
 from .asked_result import AskedResult
 from .plate import AskedPlate, plate_of
 from .what_ifs import HARDNESS, WhatIf
@@ -204,7 +204,7 @@ def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
     if stiff := [bump.height for bump in found if not bump.thin]:
         out.append(
             Note(
-                f"heights up to {value_of(max(stiff), 'm', 3)} are of bumps narrower than "
+                f"heights up to {value_of(max(ATOM, *stiff), 'm', 3)} are of bumps narrower than "
                 f"{2 * THIN:g} thicknesses, where a plate also shears and gives way locally",
                 code="thin plate",
                 action="take these as orders of magnitude; larger particles (plate.grain) decide",

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Bump", "PlateOverParticle"]
 
+ATOM = 1e-10
+"""Metres, about the size of an atom: a plate that stands less high does not stand on the particle,
+which is pressed into plate and chuck."""
 THIN = 3.0
 """Radius of the bump over the thickness below which a plate is no thin plate."""
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..quantities.say import number, percent, value_of
 from ..systems.connector import name_of
+from ..systems.plate_over_particle import ATOM
 
 if TYPE_CHECKING:
     from ..study.run_plate import PlateResult
@@ -25,11 +26,18 @@ def answer(found: PlateResult) -> list[str]:
     """Sentences on the height of the plate, and how often it is too high."""
     i, chuck = found.at, found.asked.chuck
     height, grain = float(found.height[i]), float(found.grain[i])
+    of = f"a particle of {value_of(grain, 'm', 3)} ({found.particles[i]})"
     out = [
-        f"The plate stands {value_of(height, 'm', 3)} high over a particle of "
-        f"{value_of(grain, 'm', 3)} ({found.particles[i]}), {percent(height / grain, digits=2)} of "
+        f"The plate stands {value_of(height, 'm', 3)} high over {of}, "
+        f"{percent(height / grain, digits=2)} of "
         f"its diameter, on a bump {value_of(float(found.width[i]), 'm', 3)} wide."
     ]
+    if height < ATOM:
+        force = value_of(float(found.force[i]), "N", 3)
+        out = [
+            f"The plate does not stand on {of}: a force of {force} presses the particle into plate "
+            f"and chuck until the gap is {_height_in_words(height)}, less than an atom."
+        ]
     if chuck.limit is None:
         return out
     limit = value_of(chuck.limit, "m")
@@ -47,17 +55,48 @@ def answer(found: PlateResult) -> list[str]:
     ]
 
 
+def _height_in_words(height: float) -> str:
+    """A height in words: none is told to less than an atom.
+
+    >>> _height_in_words(4.1e-7), _height_in_words(2.42e-14)
+    ('410 nm', 'below 0.1 nm')
+    """
+    return f"below {value_of(ATOM, 'm')}" if height < ATOM else value_of(height, "m", 3)
+
+
+def _height_in_cell(height: float) -> str:
+    """The same in a table."""
+    return _height_in_words(height).replace("below", "<")
+
+
 def uncertainty(found: PlateResult) -> list[str]:
     """Sentences on what moves the answer most, by how much, and what to do."""
     most = found.what_ifs[0]
     if not most.ratio > 1:
         return []
     if found.bumps is None:
-        ends = f"it stands {value_of(most.low, 'm', 3)} to {value_of(most.high, 'm', 3)} high"
+        low, high = _height_in_words(most.low), _height_in_words(most.high)
+        ends = f"it stands {low} to {high} high" if low != high else f"it stands {low} high"
+        if most.high < ATOM:
+            ends = f"the gap stays {high}"
     else:
         low, high = (number(each, 3, least=FEW) for each in (most.low, most.high))
         ends = f"there are {low} to {high} bumps above the limit"
     return [f"Most uncertain: {most.what}. With {most.between} {ends}; {most.action}."]
+
+
+def _share_of_size(height: float, grain: float) -> str:
+    """A height over the diameter of the particle."""
+    return (
+        f"< {percent(ATOM / grain, digits=2)}"
+        if height < ATOM
+        else percent(height / grain, digits=2, least=FEW)
+    )
+
+
+def _width_of_bump(found: PlateResult, i: int) -> str:
+    """How wide a bump is; a dash where there is none."""
+    return "-" if found.height[i] < ATOM else value_of(float(found.width[i]), "m", 3)
 
 
 def _columns(found: PlateResult, i: int) -> dict[str, str]:
@@ -67,9 +106,9 @@ def _columns(found: PlateResult, i: int) -> dict[str, str]:
     return {
         "particle": value_of(grain, "m", 3),
         **kinds,
-        "plate stands": value_of(height, "m", 3),
-        "of its size": percent(height / grain, digits=2, least=FEW),
-        "bump wide": value_of(float(found.width[i]), "m", 3),
+        "plate stands": _height_in_cell(height),
+        "of its size": _share_of_size(height, grain),
+        "bump wide": _width_of_bump(found, i),
         "force": value_of(float(found.force[i]), "N", 3),
     }
 
@@ -89,8 +128,8 @@ def facts(found: PlateResult) -> dict[str, str]:
     i = found.at
     out = {
         "particle": value_of(float(found.grain[i]), "m", 3),
-        "plate stands": value_of(float(found.height[i]), "m", 3),
-        "bump wide": value_of(float(found.width[i]), "m", 3),
+        "plate stands": _height_in_cell(float(found.height[i])),
+        "bump wide": _width_of_bump(found, i),
         "force on the particle": value_of(float(found.force[i]), "N", 3),
     }
     if found.bumps is not None:

@@ -184,6 +184,8 @@ class Curves:
         """When the figures were drawn last."""
         self.shown: tuple[Answer, str, bool] | None = None
         """What the figures show."""
+        self.drawing: asyncio.Future[bool] | None = None
+        """Figures that the browser may still draw, of a study that has moved on meanwhile."""
         self.told: Answer | None = None
         """Whose critical loads the table holds."""
         self.against.on_value_change(state.announce_change)
@@ -229,20 +231,37 @@ class Curves:
         self.plots["shares"].widget.set_visibility(not two_body)
         self.key.set_visibility(not two_body)
         for names in (FIGURES[:2], FIGURES[2:]):  # those on top first, the others as it rests
-            if names != FIGURES[:2] and await self._moves_on(BETWEEN):
+            below = names != FIGURES[:2]
+            if below and await self._moves_on(BETWEEN):
                 self.shown = None
                 return
-            drawing = asyncio.ensure_future(
-                show_figures((self.plots[name], found[name]) for name in names if name in found)
-            )
-            while not drawing.done() and self.state.tab == TAB:
-                await asyncio.wait([drawing], timeout=LOOKS)
-            if not drawing.done():
-                drawing.cancel()
+            every = [(self.plots[name], found[name]) for name in names if name in found]
+            drawn = await self._draw(every, below)
+            if not drawn:
                 self.shown = None
+            if drawn is None:
                 return
-            if not drawing.result():
-                self.shown = None
+
+    async def _draw(self, every: list[tuple[Plot, Figure]], below: bool) -> bool | None:
+        """Draw figures, and whether the browser has drawn them; None where that is not waited for.
+
+        It is not once the tab is left, nor for figures below of a study that has moved on: the
+        answer to the move begins while the browser draws them.
+        """
+        while self.drawing is not None:  # the browser gets one message at a time
+            await self._wait_for(self.drawing)
+        self.drawing = drawing = asyncio.ensure_future(show_figures(every))
+        while not drawing.done():
+            if self.state.tab != TAB or (below and self.state.study is not self.state.read):
+                return None
+            await asyncio.wait([drawing], timeout=TICK if below else LOOKS)
+        await self._wait_for(drawing)
+        return drawing.result()
+
+    async def _wait_for(self, drawing: asyncio.Future[bool]) -> None:
+        await asyncio.wait([drawing])
+        if self.drawing is drawing:
+            self.drawing = None
 
     async def _moves_on(self, seconds: float) -> bool:
         """Whether the study is another one within these seconds: the last move wins."""

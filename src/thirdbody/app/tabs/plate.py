@@ -11,6 +11,7 @@ from ...study.plate import AskedPlate
 from ...study.run_plate import run_plate
 from ...systems.chuck import Chuck
 from ...systems.connector import name_of
+from ...systems.plate_over_particle import ATOM
 from ...views.plate_words import answer, facts, heads, rows, uncertainty
 from ..fields import Field
 from ..figures import figure, line, plain
@@ -52,8 +53,9 @@ def contents_of(answer_of_study: Answer) -> Shown:
     sizes = np.geomspace(found.grain.min() / REACH, found.grain.max() * REACH, POINTS)
     traces = []
     for i, dust in enumerate(chuck.particles):
-        heights = [chuck.over(float(x), dust).height for x in sizes]
-        traces.append(line(1e6 * sizes, 1e9 * np.array(heights), plain(name_of(dust, i)), i))
+        heights = np.array([chuck.over(float(x), dust).height for x in sizes])
+        heights[heights < ATOM] = np.nan
+        traces.append(line(1e6 * sizes, 1e9 * heights, plain(name_of(dust, i)), i))
     traces.append(line(1e6 * sizes, 1e9 * sizes, "as high as the particle", 5))
     if chuck.limit is not None:
         level = np.full(2, 1e9 * chuck.limit)
