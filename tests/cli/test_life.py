@@ -152,6 +152,12 @@ def test_reports_that_are_not_later_are_named_with_their_lines():
     assert "is not later than the report of line 5" in told
 
 
+def test_a_report_without_a_finite_time_is_named_with_its_own_line():
+    Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\nnan,18/16/13\n5,17/15/12\n")
+    told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    assert 'oil.csv, line 3: "nan" is not a finite time [h]' in told
+
+
 def test_an_ingress_of_reports_that_fills_the_filter_at_once_is_doubted():
     Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\n250,26/24/21\n")
     done = run("life", "oil-circuit.toml", "--reports", "oil.csv")

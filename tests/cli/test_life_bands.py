@@ -317,3 +317,49 @@ def test_progress_says_how_many_histories_are_done():
         progress=seen.append,
     )  # fmt: skip
     assert seen == list(range(1, 11))
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        (
+            '"filters.0.beta.7 um" = { low = 2, high = 20 }',
+            "filters.0.beta.7 um may be as low as 2, below 5, β at 4 µm; β must not fall",
+        ),
+        (  # each alone is in order
+            '"filters.0.beta.4 um" = { low = 3, high = 60 }\n'
+            '"filters.0.beta.7 um" = { low = 40, high = 100 }',
+            "filters.0.beta.7 um may be as low as 40, below 60, β at 4 µm; β must not fall",
+        ),
+        (
+            '"filters.0.beta.7 um" = { low = 40, high = 2000 }',
+            "filters.0.beta.7 um may be as high as 2000, above 1000, β at 14 µm; β must not fall",
+        ),
+    ],
+)
+def test_beta_ratios_that_may_fall_are_refused_before_any_history(entries, words):
+    file = study("oil-circuit", f"[life.uncertainty]\n{entries}\n")
+    told = complained(run("life", file))
+    assert words in told
+    assert "histories" not in told
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        (
+            '"filters.0.beta.7 um" = { low = 40, high = 90 }\n'
+            '"filters.0.beta.7000 nm" = { low = 50, high = 90 }',
+            'life.uncertainty."filters.0.beta.7000 nm" is the same number as '
+            'life.uncertainty."filters.0.beta.7 um"; keep one of them',
+        ),
+        (
+            "ingress = { low = 1, high = 2 }\n[uncertainty.inputs]\n"
+            '"life.ingress" = { low = 1, high = 3 }',
+            'uncertainty.inputs."life.ingress" is the same number as life.uncertainty."ingress"',
+        ),
+    ],
+)
+def test_a_number_that_is_given_twice_is_refused(entries, words):
+    file = study("oil-circuit", f"[life.uncertainty]\n{entries}\n")
+    assert words in complained(run("life", file))

@@ -109,6 +109,25 @@ def test_a_count_that_does_not_end_is_that_after_the_history():
     )
 
 
+def test_past_a_full_filter_the_oil_dents_as_it_is_after_the_history():
+    """With the filter in work it ends at 12/11/7; the oil goes past it from 432 h on."""
+    keys = ["life.filters.0.when_full=bypass", "life.oil.oil_changes=[]"]
+    file = quarry()
+    asked = load_oil(file, keys)
+    history = history_of(asked)
+    assert history.bypassed == ("return filter",)
+    assert history_of(load_oil(file)).bypassed == ()  # it is changed
+    found = {each.oil: each for each in dents_of_life(asked, history).oils}
+    past, without = found["with the return filter"], found["without the return filter"]
+    assert (past.code, past.time) == (history.codes[-1], asked.duration)
+    assert past.tracks[0].per_overrolling == pytest.approx(
+        past.tracks[0].film * history.counts[-1][0], rel=1e-9
+    )
+    assert past.tracks[0].per_hour == pytest.approx(without.tracks[0].per_hour, rel=1e-2)
+    told = said(run("life", file, *setting(*keys)))
+    assert "That is as long as no filter is full; past return filter it goes to 23/21/15." in told
+
+
 def test_smaller_particles_are_told_apart(oils):
     """Below 4 µm nothing of the oil as it begins, dust later: more of it, and shallower."""
     _, history, found = oils

@@ -32,7 +32,7 @@ from .life_contact import QUANTITIES as OF_CONTACT
 from .life_design import AskedDesign, design_key, design_of
 from .life_dirt import CLEAN, CODE, DIRT, INGRESS, dirts_of, sized_numbers
 from .life_dry import BANDS_HARDNESS, DRY, AskedDry, dry_of
-from .life_uncertainty import KnownOfLife, about_circuit, known_of_life
+from .life_uncertainty import KnownOfLife, about_circuit, known_of_life, one_name_of
 from .reader import (
     NOTHING,
     Key,
@@ -258,7 +258,7 @@ def _uncertainty(
         if label in more:
             return label.removeprefix("contact."), more[label]
         name = label.removeprefix("oil.")
-        return name, about_circuit(circuit, name)
+        return one_name_of(circuit, name), about_circuit(circuit, name)
 
     names = f"is not a number of the circuit; it has {some}"
     return known_of_life(reader, given, about, names, contact=contact is not None)

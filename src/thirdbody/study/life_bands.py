@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,6 +19,7 @@ from ..populations.measured.cleanliness import iso4406_of_counts
 from ..quantities.carried import takes_units
 from ..quantities.progress import Report, reporting
 from ..quantities.record import Record
+from ..quantities.say import number, value_of
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.contact_history import DryHistory
 from ..systems.life.debris import Debris
@@ -207,12 +208,37 @@ def _check(
             if not isinstance(_number_of(circuit, name), float):
                 problems.append(Problem(name, "is not a number of the circuit"))
                 continue
+            if place_of_beta(circuit, name) is not None:
+                continue
             for end in (0.0, 1.0):
                 _changed(circuit, {name: known.quantile(end)})
         except InvalidValue as error:
             problems += list(error.problems)
+    problems += _problems_of_betas(circuit, vary)
     if problems:
         raise InvalidValue(*problems)
+
+
+def _problems_of_betas(circuit: OilCircuit, vary: Mapping[str, Any]) -> Iterator[Problem]:
+    """Why β ratios cannot be varied so: below 1, or with one that may fall towards larger sizes."""
+    known = {place_of_beta(circuit, name): name for name in vary}
+    for f, each in enumerate(circuit.filters):
+        before, whose = 1.0, "the least there is"
+        for i, (size, beta) in enumerate(zip(each.sizes, each.betas, strict=True)):
+            name, low, high = known.get((f, i)), beta, beta
+            if name is not None and isinstance(vary[name], Uncertain):
+                low, high = (float(vary[name].quantile(end)) for end in (0.0, 1.0))
+            if low < before * (1 - 1e-6):
+                if name is not None:
+                    rule = f"may be as low as {number(low, 4)}, below {number(before, 4)}, {whose}"
+                else:
+                    name = known.get((f, i - 1), "")
+                    at = value_of(size, "m")
+                    rule = (
+                        f"may be as high as {number(before, 4)}, above {number(low, 4)}, β at {at}"
+                    )
+                yield Problem(name, f"{rule}; β must not fall towards larger sizes")
+            before, whose = high, f"β at {value_of(size, 'm')}"
 
 
 def is_of_contact(name: str) -> bool:

@@ -130,8 +130,8 @@ def dents_of_life(
     Notes
     -----
     Particles from 4 µm(c) on, which the code counts, are taken as they end where they end in the
-    time of the history, else as they are after it; smaller ones as they are after it. The debris of
-    contacts is left out.
+    time of the history and no full filter lets the oil past, else as they are after it; smaller
+    ones as they are after it. The debris of contacts is left out.
     """
     rolling = asked.rolling
     if rolling is None:
@@ -202,6 +202,7 @@ def _after(name: str, circuit: OilCircuit, tracks: Sequence[Track], duration: fl
     last = history.numbers[-1]
     soon = max(history.code_times)  # NaN for a count that grows for ever
     ends = all(math.isfinite(each) for each in history.code_times) and soon <= duration
+    ends = ends and not history.bypassed  # the code times are those of filters in work
     counted = np.nan_to_num(history.terms.steady) if ends else last
     return _dents(name, math.inf if ends else duration, history.terms, tracks, (counted, last))
 

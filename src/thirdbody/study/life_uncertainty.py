@@ -15,7 +15,15 @@ from .inputs import inputs_of
 from .reader import Reader, get
 from .uncertainty import LIFE, ranges_of, read_uncertain
 
-__all__ = ["FACTOR", "KnownOfLife", "about_circuit", "known_of_life", "names_life", "place_of_beta"]
+__all__ = [
+    "FACTOR",
+    "KnownOfLife",
+    "about_circuit",
+    "known_of_life",
+    "names_life",
+    "one_name_of",
+    "place_of_beta",
+]
 
 FACTOR = quantity("f", "1", "factor on all that enters or arrives", gt=0).metadata["quantity"]
 BETA = quantity("β", "1", "particles before over particles behind", ge=1).metadata["quantity"]
@@ -55,6 +63,15 @@ def place_of_beta(circuit: OilCircuit, name: str) -> tuple[int, int] | None:
         return None
     near = [abs(each / at - 1) < 1e-9 for each in circuit.filters[int(which)].sizes]
     return (int(which), near.index(True)) if any(near) else None
+
+
+def one_name_of(circuit: OilCircuit, name: str) -> str:
+    """The name of a number of a circuit: of a β ratio, however its size is written, always one."""
+    place = place_of_beta(circuit, name)
+    if place is None:
+        return name
+    which, i = place
+    return f"filters.{which}.beta.{1e6 * circuit.filters[which].sizes[i]:.12g} um"
 
 
 def about_circuit(circuit: OilCircuit, name: str) -> Quantity | None:
@@ -111,6 +128,17 @@ def known_of_life(
             raise InvalidValue(Problem(where, names))
         return name, read_uncertain(reader, where, quantity_of, entry)
 
+    def all_of(pairs: Mapping[str, tuple[str, Any]]) -> dict[str, Uncertain]:
+        found = reader.read_each(pairs, one)
+        first: dict[str, str] = {}
+        twice = []
+        for where, (name, _) in zip(pairs, found, strict=True):
+            if (before := first.setdefault(name, where)) != where:
+                twice.append(Problem(where, f"is the same number as {before}; keep one of them"))
+        if twice:
+            raise InvalidValue(*twice)
+        return dict(found)
+
     def pairs_of(path: str, entries: Mapping[str, Any]) -> dict[str, tuple[str, Any]]:
         return {
             f"{path}.{say(label)}": (label.removeprefix(LIFE), entry)
@@ -120,7 +148,7 @@ def known_of_life(
     pairs = pairs_of("life.uncertainty", given)
     table = reader.whole.get("uncertainty")
     if not names_life({"uncertainty": table}):
-        return KnownOfLife(vary=dict(reader.read_each(pairs, one)))
+        return KnownOfLife(vary=all_of(pairs))
     entries = ranges_of(get(table, "inputs"))
     mine = {k: v for k, v in entries.items() if k.startswith(LIFE) or k in parts}
     dry = {k: v for k, v in entries.items() if k not in mine and about(k)[1] is not None}
@@ -128,7 +156,7 @@ def known_of_life(
     if idle := [say(name) for name in entries if name not in mine and name not in dry]:
         reader.notes.append(f"uncertainty.inputs: {', '.join(idle)} has no effect on [life]")
     return KnownOfLife(
-        vary=dict(reader.read_each(pairs, one)),
+        vary=all_of(pairs),
         samples=get(table, "samples"),
         seed=get(table, "seed") or 0,
     )

@@ -88,6 +88,7 @@ def _tends(history: LifeHistory) -> str:
         if not any(ends.values()):
             return f"{out}, and is there from the beginning."
         out += f", and is within half a number of it after {_each_time(ends)}."
+        out += _past(history)
     else:
         grow = [size for part, size in zip(code.split("/"), SIZES, strict=True) if part == "-"]
         out = (
@@ -99,6 +100,17 @@ def _tends(history: LifeHistory) -> str:
             out += f", within half a number after {_each_time(ends)}" if any(ends.values()) else ""
         out += "."
     return out
+
+
+def _past(history: LifeHistory) -> str:
+    """That the end is not that of an oil that goes past a full filter, where it does."""
+    names = history.bypassed
+    if not names:
+        return ""
+    if isinstance(history, ContactHistory):
+        return f" That is as long as no filter is full; {join_words(names)} is."
+    code = history.circuit.steady_code(full=names)
+    return f" That is as long as no filter is full; past {join_words(names)} it goes to {code}."
 
 
 def _each_time(times: Mapping[str, float]) -> str:

@@ -58,6 +58,16 @@ def test_a_count_without_an_end_has_no_time():
     assert all(math.isnan(each) for each in history.code_times)
 
 
+@pytest.mark.parametrize("leak", [2e-7, 1e-5, 2e-4])
+def test_a_leak_that_empties_the_circuit_hastens_the_end(leak):
+    """With T in a constant volume, V = V_0 − q t ends it at (V_0/q)(1 − e^{−q T/V_0})."""
+    history = history_of(oil(leak=leak), duration=60.0)
+    ends = history.terms.classes.counted(history.terms.steady.sum(axis=1))
+    for time, first, end in zip(history.code_times, history.counts[0], ends, strict=True):
+        constant = 200.0 * math.log((first / end - 1) / (HALF - 1))
+        assert time == pytest.approx(-0.2 / leak * math.expm1(-leak * constant / 0.2), rel=1e-6)
+
+
 def test_the_last_time_counts():
     """One that overshoots comes to its end from the other side."""
 

@@ -31,6 +31,8 @@ __all__ = ["LifeEvent", "LifeHistory", "SteadyOil"]
 
 SETTLES_TO = 0.01
 """Part of the way to the steady state that is left when it counts as reached."""
+EMPTY = 1e-9
+"""Part of the oil at which a leak has emptied the circuit."""
 
 
 class LifeEvent(NamedTuple):
@@ -132,6 +134,17 @@ class LifeHistory(Record):
         over = self.times[-1] if rates else 1.0  # a history begins at 0
         return [(start, end, mass / over) for start, end, mass in self.ledger.rows()]
 
+    @property
+    def bypassed(self) -> tuple[str, ...]:
+        """Names of the filters that are full in the end, so that the oil goes past them."""
+        full = [each.sentence for each in self.events if each.name == "filter full"]
+        named = zip(self.circuit.filter_names(), self.circuit.filters, strict=True)
+        return tuple(
+            name
+            for name, each in named
+            if each.when_full == "bypass" and any(s.startswith(f"{name} is full") for s in full)
+        )
+
     # -------------------------------------------------------------------------- what it tends to
     def steady(self) -> tuple[SteadyOil, ...]:
         """The states in which the oil no longer changes; one, stable, without a contact."""
@@ -152,17 +165,18 @@ class LifeHistory(Record):
         grows for ever.
         """
         terms, volume = self.terms, self.circuit.volume
-        grown = max(terms.growth, 0.0)
-        loss = terms.loss + min(terms.growth, 0.0)
+        end = terms.classes.counted(terms.steady.sum(axis=1))
 
         def counts(time: float) -> Array:
+            now = volume + terms.growth * time
+            if now <= EMPTY * volume:
+                return end
             found = flowing(
-                volume, numbers=volume * terms.start, growth=grown, source=terms.source,
-                loss=loss, time=time,
+                volume, numbers=volume * terms.start, growth=terms.growth, source=terms.source,
+                loss=terms.loss, time=time,
             )  # fmt: skip
-            return terms.classes.counted(found.numbers.sum(axis=1) / (volume + grown * time))
+            return terms.classes.counted(found.numbers.sum(axis=1) / now)
 
-        end = terms.classes.counted(terms.steady.sum(axis=1))
         return times_within(counts, end, first=self._first_time)
 
     @property

@@ -541,6 +541,8 @@ def read_reports(path: str | Path) -> tuple[Array, list[str] | Array, Array | No
             )
         try:
             times.append(to_si(f"{cells[0]} {unit}", "s"))
+            if not math.isfinite(times[-1]):
+                raise InvalidValue(f"{say(cells[0])} is not a finite time [{unit}]")
             if len(times) > 1 and not times[-1] > times[-2]:
                 rule = f"{say(cells[0])} {unit} is not later than the report of line {before}"
                 raise InvalidValue(f"{rule}: reports stand in the order of their times")
