@@ -246,11 +246,11 @@ def test_what_was_missing_is_not_told_once_it_is_there(visit):
 INPUTS = "() => document.querySelector('[data-figure=tornado]').data[0].y"
 """The inputs that have a bar."""
 ON_THE_MAP = """() => {
-  const plot = document.querySelector("[data-figure='map']"), mark = plot.data.at(-1);
+  const plot = document.querySelector("[data-figure='map']");
+  const mark = plot.layout.shapes.find(each => each.name === "this study");
   const map = plot.data[0], ends = a => [Math.min(...a), Math.max(...a)];
   const [[x0, x1], [y0, y1]] = [ends(map.x), ends(map.y)];
-  return mark.name === "this study" && x0 < mark.x[0] && mark.x[0] < x1
-    && y0 < mark.y[0] && mark.y[0] < y1;
+  return x0 < mark.xanchor && mark.xanchor < x1 && y0 < mark.yanchor && mark.yanchor < y1;
 }"""
 
 
