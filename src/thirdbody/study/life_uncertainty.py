@@ -8,6 +8,7 @@ from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
 from ..errors import InvalidValue, Problem
+from ..quantities.say import value_of
 from ..quantities.units import Quantity, say, to_si
 from ..quantities.value import quantity
 from ..systems.life.circuit import OilCircuit
@@ -71,7 +72,8 @@ def one_name_of(circuit: OilCircuit, name: str) -> str:
     if place is None:
         return name
     which, i = place
-    return f"filters.{which}.beta.{1e6 * circuit.filters[which].sizes[i]:.12g} um"
+    size = value_of(circuit.filters[which].sizes[i], "m", 12).replace("µ", "u")
+    return f"filters.{which}.beta.{size}"
 
 
 def about_circuit(circuit: OilCircuit, name: str) -> Quantity | None:
