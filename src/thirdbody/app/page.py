@@ -47,8 +47,6 @@ LEAST = 0.5
 """Seconds of starting that are told of."""
 LOOKS = 0.02
 """Seconds after which it is looked whether a tab that is drawn is still in sight."""
-TOLD = 0.5e-3
-"""Seconds below which an answer is not told to have taken time: no answer is there at once."""
 WITHOUT_ANSWER = ("surface", "dust", "take_away")
 """Tabs that a study with mistakes may need: there files are dropped, and its text stands."""
 
@@ -133,8 +131,6 @@ def _plain_names(study: object) -> Any:
 def _took(seconds: float, since: float) -> str:
     """How long the answer took, and how long before it a process was being started."""
     starting = solver().prepared(since)
-    if seconds - starting < TOLD:  # it was another process that was being started
-        starting = 0.0
     text = f"answered in {1e3 * (seconds - starting):.0f} ms"
     if starting < LEAST:
         return text
@@ -214,9 +210,7 @@ class Page:
                 list(EXAMPLES), label="open an example", on_change=lambda e: self._opened(e.value)
             )
             self.names.props('dense dark options-dense standout data-path="example"')
-            self.names.classes("w-56 examples")
-            with self.names.add_slot("prepend"):
-                ui.icon("menu_book").classes("when-narrow")
+            self.names.classes("w-56")
             shade = ui.button(icon="contrast").on("click", js_handler=TURN)
             shade.props('flat dense color=white aria-label="light or dark"')
         return skip

@@ -34,8 +34,6 @@ MOST = 3
 """Processes, started as they are needed."""
 STARTS = 120.0
 """Seconds that a process may take until it is ready."""
-AGAIN = 0.5
-"""Seconds after which a call that waits looks whether a process is to be started for it."""
 SECONDS = 60.0
 """An answer that takes longer is refused."""
 
@@ -161,10 +159,7 @@ class Solver:
         self.starting: set[float] = set()
         """When those were started that are not ready yet."""
         self.threads = ThreadPoolExecutor(most, "thirdbody-wait")
-        self.idle: queue.LifoQueue[tuple[BaseProcess, Connection] | None] = queue.LifoQueue()
-        """Processes that wait for a call; None for one that did not get ready."""
-        self.waiting = 0
-        """Calls that wait for a process."""
+        self.idle: queue.LifoQueue[tuple[BaseProcess, Connection]] = queue.LifoQueue()
         self.all: set[BaseProcess] = set()
         self.lock = threading.Lock()
         self.closed = False
@@ -225,60 +220,35 @@ class Solver:
         return cast(Found, found)
 
     def _free(self) -> tuple[BaseProcess, Connection]:
-        """An idle process: one that is there, that is started, or that becomes free meanwhile."""
         with contextlib.suppress(queue.Empty):
-            while True:
-                known = self.idle.get_nowait()
-                if known is not None and known[0].is_alive():
-                    return known
-                if known is not None:
-                    self._kill(*known)
-        with self.lock:
-            self.waiting += 1
-        try:
-            while True:
-                self._start_missing()
-                with contextlib.suppress(queue.Empty):
-                    found = self.idle.get(timeout=AGAIN)
-                    break
-        finally:
-            with self.lock:
-                self.waiting -= 1
-        if found is None:
-            raise Died(f"No answer: a process that computes was not ready after {STARTS:g} s")
-        return found
-
-    def _start_missing(self) -> None:
-        """Start a process where more calls wait than processes are being started."""
+            process, pipe = self.idle.get_nowait()
+            if process.is_alive():
+                return process, pipe
+            self._kill(process, pipe)
+        context = multiprocessing.get_context("spawn")
+        ours, theirs = context.Pipe()
+        process = context.Process(target=_serve, args=(theirs, self.warm), daemon=True)
+        began = time.perf_counter()
         with self.lock:
             if self.closed:
                 raise asyncio.CancelledError
-            if self.waiting <= len(self.starting):
-                return
-            context = multiprocessing.get_context("spawn")
-            ours, theirs = context.Pipe()
-            process = context.Process(target=_serve, args=(theirs, self.warm), daemon=True)
-            began = time.perf_counter()
             with interrupts_blocked():
                 process.start()
             self.all.add(process)
             self.starting.add(began)
         theirs.close()
-        threading.Thread(target=self._get_ready, args=(process, ours, began), daemon=True).start()
-
-    def _get_ready(self, process: BaseProcess, ours: Connection, began: float) -> None:
-        """Give a process to the calls that wait once it is ready."""
         try:
             ready = ours.poll(STARTS) and ours.recv() == READY
         except (EOFError, OSError):
-            ready = True  # the call that gets it finds it dead, and counts it
+            ready = True  # the call that it is for finds it dead, and counts it
+        finally:
+            with self.lock:
+                self.starting.discard(began)
+                self.starts.append((began, time.perf_counter()))
         if not ready:
             self._kill(process, ours)
-        # what is ready is there before it no longer counts as being started
-        self.idle.put((process, ours) if ready else None)
-        with self.lock:
-            self.starting.discard(began)
-            self.starts.append((began, time.perf_counter()))
+            raise Died(f"No answer: a process that computes was not ready after {STARTS:g} s")
+        return process, ours
 
     def prepared(self, since: float) -> float:
         """Seconds since then in which a process was being started."""
