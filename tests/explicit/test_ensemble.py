@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 from scipy.special import ndtr
 from typer.testing import CliRunner
 
@@ -166,7 +167,7 @@ def test_an_interrupted_run_goes_on(tmp_path):
     assert again.to_dict() == whole.to_dict()
     assert [file.read_bytes() for file in kept] == before
     # what was made for other numbers stays
-    with pytest.raises(tb.InvalidValue, match=r"surfaces of another study.*surface_000\.json"):
+    with refuses(Mistake.OTHER_STUDY, ""):
         many(3, folder=tmp_path, seats="valleys")
     assert [file.read_bytes() for file in kept] == before
 

@@ -26,7 +26,13 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_numbers
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, Note, tell_of_range
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Note,
+    Problem,
+    tell_of_range,
+)
 from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
@@ -255,9 +261,15 @@ def ensemble(
     rule = seats_named(seats)
     given, total = _surfaces_and_count(surfaces)
     if isinstance(rule, GivenSeats) and total > 1:
-        raise InvalidValue("seats: positions belong to one surface; give surfaces = 1")
+        raise InvalidValue(
+            "seats: positions belong to one surface; give surfaces = 1", code=Mistake.BEYOND
+        )
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise InvalidValue(f"workers = {workers!r} must be a whole number, at least 1")
+        raise InvalidValue(
+            Problem(
+                "workers", "must be a whole number, at least 1", repr(workers), code=Mistake.KIND
+            )
+        )
     if spacing is None and given is None:
         spacing = spacing_for(contact)
 
@@ -319,7 +331,8 @@ def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, obje
     if others:
         raise InvalidValue(
             f"{kept} holds surfaces of another study, or of another version of thirdbody "
-            f"({', '.join(others[:3])}); give another folder"
+            f"({', '.join(others[:3])}); give another folder",
+            code=Mistake.OTHER_STUDY,
         )
     if damaged:
         _tell(f"{kept} is damaged ({', '.join(damaged[:3])}): these surfaces are pressed again")
@@ -343,11 +356,18 @@ def _surfaces_and_count(
     if isinstance(surfaces, int):
         if isinstance(surfaces, bool) or not 1 <= surfaces <= 10**6:
             raise InvalidValue(
-                f"surfaces = {surfaces!r} must be a whole number from 1 to 1,000,000"
+                Problem(
+                    "surfaces",
+                    "must be a whole number from 1 to 1,000,000",
+                    repr(surfaces),
+                    code=Mistake.KIND,
+                )
             )
         return None, surfaces
     if not isinstance(surfaces, Sequence) or not surfaces:
-        raise InvalidValue("surfaces must be a number of them or a list of Topography")
+        raise InvalidValue(
+            "surfaces must be a number of them or a list of Topography", code=Mistake.KIND
+        )
     return surfaces, len(surfaces)
 
 

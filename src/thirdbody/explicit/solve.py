@@ -13,7 +13,12 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import _mode
 from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import given_numbers
-from ..errors import InvalidValue, tell_of_range
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+    tell_of_range,
+)
 from ..laws.base import REGIMES
 from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, plural, value_of
@@ -172,7 +177,9 @@ def solve(
     (('y', 'x'), True)
     """
     if not isinstance(contact, Contact):
-        raise InvalidValue(f"contact = {contact!r:.80} must be a Contact")
+        raise InvalidValue(
+            Problem("contact", "must be a Contact", f"{contact!r:.80}", code=Mistake.KIND)
+        )
     name, values, one = given_numbers(pressure=pressure, F_star=F_star, h=h)
     rule = seats_named(seats)
     _options(tol, max_iterations, precision, maps, seed, workers, blocks)
