@@ -467,7 +467,11 @@ def _ensemble(
     told = list(dict.fromkeys(sentence for each in records for sentence in each["warnings"]))
     if left_out:
         told.append(
-            f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count nowhere"
+            Note(
+                f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count "
+                "nowhere",
+                code="explicit.converged",
+            )
         )
     hardest = cap_of(cap, contact)
     at = {
@@ -480,15 +484,22 @@ def _ensemble(
     )
     if hardest != contact.surfaces.H:
         told.append(
-            "asperities are pressed with another cap than the hardness, at which those of the "
-            "statistical model yield: the two differ by that as well"
+            Note(
+                "asperities are pressed with another cap than the hardness, at which those of the "
+                "statistical model yield: the two differ by that as well",
+                code="explicit.cap",
+            )
         )
     for kind, words in (("raw", "these surfaces"), ("cv", "these surfaces without their luck")):
         outside = ", ".join(number(each, 3) for each in loads[at[kind].outside].tolist())
         if outside:
             told.append(
-                f"F* = {outside}: {words} carry that at none of the separations pressed, so that "
-                "nothing is known there; more or larger surfaces"
+                Note(
+                    f"F* = {outside}: {words} carry that at none of the separations pressed, so "
+                    "that "
+                    "nothing is known there; more or larger surfaces",
+                    code=f"explicit.outside.{kind}",
+                )
             )
     told += at["cv" if gaussian else "raw"].doubts(loads, columns="_cv" if gaussian else "")
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
@@ -519,11 +530,13 @@ def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> li
     if not carry < FEW:
         return []
     if carry < 0.5:
-        return ["at the smallest load hardly any surface touches; more surfaces, or a larger load"]
-    return [
+        what = "at the smallest load hardly any surface touches; more surfaces, or a larger load"
+        return [Note(what, code="explicit.nothing")]
+    what = (
         f"{plural(round(float(carry)), 'pixel')} and particles of all surfaces carry the smallest "
         "load: the answer is that of a few points; more surfaces"
-    ]
+    )
+    return [Note(what, code="explicit.few")]
 
 
 def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, object]:

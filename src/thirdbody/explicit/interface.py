@@ -16,6 +16,7 @@ from ..errors import (
     Advice,
     InvalidValue,
     Mistake,
+    Note,
     Problem,
 )
 from ..laws.base import AbstractParticleLaw
@@ -276,13 +277,20 @@ def interface_of(
         side = min(surface.z.shape) * surface.spacing
         if float(np.max(bodies.diameter)) > LARGEST * side:
             warnings.append(
-                f"the largest particle, {value_of(float(np.max(bodies.diameter)), 'm')}, is more "
-                f"than a tenth of the side of the map, {value_of(side, 'm')}: it meets its own "
-                "images; take a larger map"
+                Note(
+                    f"the largest particle, {value_of(float(np.max(bodies.diameter)), 'm')}, is "
+                    "more "
+                    f"than a tenth of the side of the map, {value_of(side, 'm')}: it meets its own "
+                    "images; take a larger map",
+                    code="explicit.large",
+                )
             )
     if overlaps:
         warnings.append(
-            f"{plural(overlaps, 'pair')} of particles overlap; each carries as if alone"
+            Note(
+                f"{plural(overlaps, 'pair')} of particles overlap; each carries as if alone",
+                code="explicit.overlap",
+            )
         )
     scale = surface.sigma or 1.0
     return Interface(
@@ -427,20 +435,33 @@ def _doubts(contact: Contact, surface: Map) -> list[str]:
     out = list(surface.notes)
     if not surface.periodic:
         out.append(
-            f"{surface.source} does not repeat itself, the half-space does: contacts at the rim "
-            "feel those across it"
+            Note(
+                f"{surface.source} does not repeat itself, the half-space does: contacts at the "
+                "rim "
+                "feel those across it",
+                code="explicit.rim",
+            )
         )
     wave = surface.shortest_wave() / surface.spacing
     if wave < FEW_POINTS:
         out.append(
-            f"the shortest waves of {surface.source} have {number(wave, 2)} points; pressures and "
-            f"areas are those of the grid below {FEW_POINTS} (a longer cut-off, or a finer map)"
+            Note(
+                f"the shortest waves of {surface.source} have {number(wave, 2)} points; "
+                "pressures and "
+                f"areas are those of the grid below {FEW_POINTS} (a longer cut-off, or a finer "
+                "map)",
+                code="explicit.grid",
+            )
         )
     own = contact.roughness.sigma
     if surface.sigma > 0 and not 0.9 < own / surface.sigma < 1.1:
         out.append(
-            f"the map has sigma = {value_of(surface.sigma, 'm')} and the roughness of the contact "
-            f"{value_of(own, 'm')}: the statistical model is one of another surface"
+            Note(
+                f"the map has sigma = {value_of(surface.sigma, 'm')} and the roughness of the "
+                "contact "
+                f"{value_of(own, 'm')}: the statistical model is one of another surface",
+                code="explicit.sigma",
+            )
         )
     return out
 
