@@ -11,11 +11,13 @@ import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable
+from enum import StrEnum
 from types import FrameType
 from typing import Self
 
 __all__ = [
     "InvalidValue",
+    "Mistake",
     "NoEquilibrium",
     "NoTransition",
     "Note",
@@ -69,6 +71,82 @@ def in_study(text: str) -> str:
     return getattr(text, "study", text)
 
 
+class Mistake(StrEnum):
+    """Kind of a mistake in an input: the same whatever its sentence says of the numbers.
+
+    Examples
+    --------
+    >>> Problem("sigma", "must be > 0", "-1", code=Mistake.RANGE).code
+    <Mistake.RANGE: 'range'>
+    >>> must = Mistake.KIND.clause("must be a number")
+    >>> must, Problem("sigma", must, "'a'").code is Mistake.KIND
+    ('must be a number', True)
+    """
+
+    RANGE = "range"
+    """A number outside the range allowed, or not finite."""
+    KIND = "kind"
+    """Another kind of value than the one needed: a text for a number, a truth value, an object."""
+    UNIT = "unit"
+    """A unit that is unknown, missing, or of another dimension."""
+    OPTION = "option"
+    """A word that is none of the few allowed."""
+    UNKNOWN = "unknown"
+    """A name that nothing here has: a key, a field, an input, a column, a material."""
+    MISSING = "missing"
+    """Something that is needed and not given."""
+    EMPTY = "empty"
+    """A list or a file that holds nothing to work with."""
+    SHAPE = "shape"
+    """Another number of values, or of dimensions, than is needed."""
+    ORDER = "order"
+    """Numbers that stand in the wrong order: a low end above the high one."""
+    CLASH = "clash"
+    """Inputs that cannot stand side by side, or say the same thing twice."""
+    IDLE = "idle"
+    """An input that has no meaning or no effect without, or beside, another."""
+    FULL = "full"
+    """More particles than there is room for."""
+    BEYOND = "beyond"
+    """A case that the model, the law, the data or the method does not cover."""
+    FORM = "form"
+    """Text that is not written in the form that is read."""
+    UNREADABLE = "unreadable"
+    """A file that cannot be read."""
+    UNWRITABLE = "unwritable"
+    """A file or a folder that cannot be written, or is not this run's to replace."""
+    DAMAGED = "damaged"
+    """A kept result that has been changed or lost."""
+    OTHER_STUDY = "other study"
+    """A kept result of another study or another version."""
+    TOO_LARGE = "too large"
+    """More than memory, a file or the time allowed can hold."""
+    ABSENT = "absent"
+    """A package, a program or a server that is not there."""
+    UNSAID = "unsaid"
+    """A mistake that gives no code: one of code of your own."""
+
+    def clause(self, text: str) -> Clause:
+        """What is wrong, as a clause that keeps this code."""
+        return Clause(text, self)
+
+
+class Clause(str):
+    """What is wrong with a value, or what is allowed, with the code of the mistake."""
+
+    code: Mistake
+    study: str
+    """Itself in the words of study files."""
+
+    def __new__(cls, text: str, code: Mistake) -> Self:
+        self = super().__new__(cls, text)
+        self.code, self.study = code, in_study(text)
+        return self
+
+    def __reduce__(self) -> tuple[type[Clause], tuple[Advice, Mistake]]:
+        return type(self), (Advice(str(self), self.study), self.code)
+
+
 class Problem(str):
     """One mistake in an input: its parts, and as text the sentence that they make.
 
@@ -89,6 +167,8 @@ class Problem(str):
         The likely cause, or what to do.
     owner : str, optional
         What ``path`` is a part of: a class, a table of a study file.
+    code : Mistake, optional
+        Kind of the mistake; that of a ``rule`` that is a `Clause` by default.
 
     Examples
     --------
@@ -104,16 +184,27 @@ class Problem(str):
     value: str | None
     hint: str
     owner: str
+    code: Mistake
 
     def __new__(
-        cls, path: str, rule: str, value: str | None = None, *, hint: str = "", owner: str = ""
+        cls,
+        path: str,
+        rule: str,
+        value: str | None = None,
+        *,
+        hint: str = "",
+        owner: str = "",
+        code: Mistake | None = None,
     ) -> Problem:
+        if code is None:
+            code = rule.code if isinstance(rule, Clause) else Mistake.UNSAID
         place = ".".join(filter(None, (owner, path)))
         start = place if value is None else f"{place} = {value}"
         blank = " " if start and rule[:1] not in (":", ",") else ""
         rule = rule if start else rule.removeprefix(": ")
         self = super().__new__(cls, f"{start}{blank}{rule}" + (f"; {hint}" if hint else ""))
         self.path, self.rule, self.value, self.hint, self.owner = path, rule, value, hint, owner
+        self.code = code
         return self
 
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, object]]:
@@ -123,6 +214,11 @@ class Problem(str):
     def place(self) -> str:
         """The dotted place, from the outermost name that is known."""
         return ".".join(filter(None, (self.owner, self.path)))
+
+    @property
+    def meant(self) -> str | None:
+        """The name that was probably meant, where one is guessed."""
+        return getattr(self.hint, "meant", None)
 
     @property
     def study(self) -> str:
@@ -227,13 +323,25 @@ class InvalidValue(ThirdBodyError, ValueError):
     """An input has no meaning: negative, NaN, wrong dimension, unknown name.
 
     ``problems`` holds one `Problem` per mistake, so that a user mends all of them at once.
+
+    Parameters
+    ----------
+    *problems : str or Problem
+        The mistakes.
+    code : Mistake, optional
+        Kind of those that are plain sentences.
     """
 
-    def __init__(self, *problems: str):
+    def __init__(self, *problems: str, code: Mistake | None = None):
         self.problems = tuple(
-            each if isinstance(each, Problem) else Problem("", each) for each in problems
+            each if isinstance(each, Problem) else Problem("", each, code=code) for each in problems
         )
         super().__init__("\n".join(problems))
+
+    @property
+    def code(self) -> Mistake:
+        """Kind of the first of its mistakes."""
+        return self.problems[0].code if self.problems else Mistake.UNSAID
 
     def under(self, owner: str) -> InvalidValue:
         """The same mistakes where what they are a part of goes by another name."""

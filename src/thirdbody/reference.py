@@ -13,7 +13,7 @@ import numpy as np
 from scipy import special
 from scipy.special import elliprd, elliprf
 
-from .errors import InvalidValue
+from .errors import InvalidValue, Mistake
 from .quantities.arguments import need_positive
 from .quantities.carried import takes_units
 
@@ -138,7 +138,7 @@ def gaussian_integral(h: ArrayLike, *, n: float) -> Array:
     array([6.16634219e-01, 1.70872996e-04, 1.35259200e-08])
     """
     if not n >= 0:
-        raise InvalidValue(f"gaussian_integral n = {n!r} must be >= 0")
+        raise InvalidValue(f"gaussian_integral n = {n!r} must be >= 0", code=Mistake.RANGE)
     h = np.asarray(h, dtype=float)
     deepest = max(6.0, float(np.max(-h, initial=0.0)))
     x = np.arange(-4.2, 4.6, 0.4 / deepest)
@@ -175,7 +175,8 @@ def _touching(h: ArrayLike, eta: float, sigma_s: float, R: float) -> Array:
     if np.any(h < -1):
         raise InvalidValue(
             "h must be >= -1: exponential heights end one standard deviation below their mean, "
-            "and the closed forms hold while summits remain out of contact"
+            "and the closed forms hold while summits remain out of contact",
+            code=Mistake.RANGE,
         )
     return eta * R * sigma_s * np.exp(-h - 1)
 
@@ -363,7 +364,7 @@ def exponential_ke(
 # ---------------------------------------------------------------- slope laws
 def _slope_problem(E_star: float, g: float) -> None:
     if not (E_star > 0 and g > 0):
-        raise InvalidValue(f"E_star = {E_star!r} and g = {g!r} must be > 0")
+        raise InvalidValue(f"E_star = {E_star!r} and g = {g!r} must be > 0", code=Mistake.RANGE)
 
 
 @takes_units

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses, warns_of
 
 import thirdbody as tb
 from thirdbody.contact.evaluation import spots_of
@@ -201,7 +202,7 @@ def test_clean_plastic_surfaces():
 
 
 def test_warns_of_wide_contacts():
-    with pytest.warns(tb.RangeWarning, match="more than half their radius"):
+    with warns_of("thermal_conductance.wide", effect=0.06764):
         tb.solve(contact(ThermalConductance(), size=500e-9), pressure=5e6)
 
 
@@ -262,5 +263,5 @@ def test_by_material_one_kind_conducts_or_insulates():
 
 def test_of_few_particles_that_differ_nothing_is_told():
     none = SILICA.replace(resistivity=None)
-    with pytest.raises(tb.InvalidValue, match="A_n must be left out where some particles conduct"):
+    with refuses(Mistake.CLASH, ""):
         mixed(ElectricalConductance(particles="by material", A_n=1e-10), silica=none)

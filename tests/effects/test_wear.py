@@ -5,6 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
+from refusals import warns_of
 
 import thirdbody as tb
 from thirdbody.effects import AbstractOutput, Friction, Wear
@@ -204,9 +205,9 @@ def test_what_nobody_can_predict_must_be_given():
 
 
 def test_warnings():
-    with pytest.warns(tb.RangeWarning, match="same particles stay"):
+    with warns_of("wear.frozen"):
         tb.solve(contact(wear=Wear(**ALL | {"renewal": None})), pressure=5e6)
-    with pytest.warns(tb.RangeWarning, match="in it already"):
+    with warns_of("wear.twice", effect=1):
         tb.solve(contact(), pressure=5e6)
     with warnings.catch_warnings():
         warnings.simplefilter("error")

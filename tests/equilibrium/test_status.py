@@ -14,6 +14,7 @@ from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.crowding import chi_of, crowded
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.equilibrium.status import SENTENCES, WORDS, Status
+from thirdbody.errors import code_of
 from thirdbody.papers import seats
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
@@ -181,12 +182,11 @@ class TestChi:
         )
         state = tb.solve(contact, F_star=F_star)
         assert (state.A_t > 0.005) == warns
-        told = [text for text in state.warnings if "chi = H/(E* g)" in text]
+        told = [note for note in state.warnings if code_of(note) == "area.hard"]
         assert bool(told) == warns
         if warns:
             assert state.A_t < 0.05
-            assert "19 to 30 % less at 0.4 and 0.7" in told[0]
-            assert "0.05 to 0.72 sigma further apart" in told[0]
+            assert told[0].effect == 0.3
 
     def test_the_numbers_of_hard_surfaces_are_of_the_record(self):
         """χ of 0.4 and 0.7 with α of 3 and 5: what was pressed beside the model."""

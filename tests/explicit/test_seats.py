@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 
 import thirdbody as tb
 from thirdbody.explicit.seats import (
@@ -132,7 +133,7 @@ def test_every_rule_is_a_value():
         assert rule == seats_named(name)
         assert hash(rule) == hash(kind())
         assert tb.explicit.RandomSeats.from_dict(rule.to_dict()) == rule
-    with pytest.raises(tb.InvalidValue, match="within = -1"):
+    with refuses(Mistake.RANGE, "SettledSeats.within", value="-1"):
         SettledSeats(within=-1)
     with pytest.raises(tb.InvalidValue, match="particles for"):
         SummitSeats().draw(MAPS[0], SPACING, np.full(10**5, 1e-7), np.random.default_rng(0))

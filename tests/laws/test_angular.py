@@ -5,6 +5,7 @@ from unittest import mock
 
 import numpy as np
 import pytest
+from refusals import warns_of
 
 import thirdbody as tb
 from thirdbody.effects.single.ploughing import (
@@ -419,13 +420,13 @@ def test_angles_have_no_default():
 
 
 def test_blunt_faces_are_told_of():
-    with pytest.warns(tb.RangeWarning, match="so blunt that they never yield fully"):
+    with warns_of("the particles.blunt", effect=0.15):
         tb.solve(contact(angular(0.3, 3.0)), pressure=1e6)
 
 
 def test_steep_faces_cut():
     friction = tb.outputs.Friction(tau_ss=1e6, tau_sa=1e6)
-    with pytest.warns(tb.RangeWarning, match="faces at 50° cut rather than plough"):
+    with warns_of("friction.cuts"):
         tb.solve(contact(angular(0.3, 50.0), outputs=(friction,)), pressure=1e6)
 
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from refusals import Mistake, refuses
 
 import thirdbody as tb
 from thirdbody.contact.interface import interface
@@ -353,7 +354,7 @@ def test_a_vanishing_coating_in_a_contact_is_no_coating():
 
 
 def test_refusals():
-    with pytest.raises(tb.InvalidValue, match="length of its own"):
+    with refuses(Mistake.BEYOND, "Series.law", value="Coated"):
         tb.particle.Series(deep="off", law=coated(STIFF))
     with pytest.raises(tb.InvalidValue, match="scale"):
         coated(STIFF).reduced("force", 1.0)

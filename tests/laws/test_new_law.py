@@ -12,6 +12,7 @@ import numpy as np
 import oracle
 import pytest
 from numpy.testing import assert_allclose
+from refusals import Mistake, refuses
 from scipy.special import ndtr
 from twins import base, material
 
@@ -285,7 +286,7 @@ def test_pegs_of_equal_numbers_share_their_sums(package):
 def test_particles_wider_than_their_size_may_jam(package, monkeypatch):
     monkeypatch.setattr(package.pegs.OnePeg, "breadth", 100.0)
     contact = pegs(package.Pegs())
-    with pytest.raises(tb.InvalidValue, match=r"law pegs would cover 1\.44 of the nominal area"):
+    with refuses(Mistake.FULL, ""):
         tb.solve(contact, F_star=1e-5)
 
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 from scipy import integrate
 
 import thirdbody as tb
@@ -71,7 +72,7 @@ def test_ten_times_the_dust_a_class_higher_and_twice_in_twice_the_time():
 
 @pytest.mark.parametrize("value", [0, 10, -1, True, "clean", None, math.nan])
 def test_classes_that_are_none(value):
-    with pytest.raises(tb.InvalidValue, match="no class of ISO 14644-1"):
+    with refuses(Mistake.OPTION, ""):
         read_class(value)
 
 

@@ -10,11 +10,14 @@ import pytest
 from steel_and_dust import DUSTY as CONTACT
 
 import thirdbody as tb
-from thirdbody.errors import Problem
+from thirdbody.errors import Advice, Mistake, Problem, in_study
+from thirdbody.quantities.units import to_si
 from thirdbody.study.toml import override
 from thirdbody.study.whole import check
 
 SRC = Path(tb.__file__).parent
+BARE = 44
+"""Sentences that are raised without a code yet; this number only falls."""
 MISSPELT = {"roughness.sigm": (1e-7, 2e-7)}
 NOT_AN_INPUT = "{} is not an input; did you mean 'roughness.sigma'?"
 READ_BACK = {"startswith", "endswith", "removeprefix", "removesuffix", "replace", "split"}
@@ -133,3 +136,50 @@ def test_no_room_reads_a_mistake_back():
                     found.append(f"{path.relative_to(SRC)}:{call.lineno}")
     assert found == []
     assert Problem("", "text").rule == "text"
+
+
+def test_every_mistake_has_a_code():
+    """A mistake that the library raises says what kind it is; code of a user's own need not."""
+    bare = []
+    for path in sorted(SRC.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            name = getattr(getattr(node, "func", None), "id", "")
+            if name == "InvalidValue" and len(node.args) == 1:
+                sentence = isinstance(node.args[0], ast.Constant | ast.JoinedStr)
+                if sentence and not node.keywords:
+                    bare.append(f"{path.relative_to(SRC)}:{node.lineno}")
+    assert len(bare) <= BARE, bare
+
+
+@pytest.mark.parametrize(
+    ("make", "code", "place"),
+    [
+        (lambda: tb.Roughness(sigma=-1, R=1e-6), Mistake.RANGE, "Roughness.sigma"),
+        (lambda: tb.Roughness(sigma="1 um", R=1e-6), Mistake.KIND, "Roughness.sigma"),
+        (lambda: tb.Roughness(sigma=1e50, R=1e-6), Mistake.RANGE, "Roughness.sigma"),
+        (lambda: tb.particle.Series(seat="high"), Mistake.OPTION, "Series.seat"),
+        (lambda: tb.particle.Series(h_0=1e-7), Mistake.IDLE, "Series.h_0"),
+        (lambda: CONTACT.replace(sigm=1), Mistake.UNKNOWN, "Contact"),
+        (lambda: to_si("3 GPa", "m"), Mistake.UNIT, ""),
+        (lambda: to_si("3,5 mm", "m"), Mistake.FORM, ""),
+        (lambda: to_si("thick", "m"), Mistake.KIND, ""),
+        (lambda: tb.Uncertain.uniform(low=2.0, high=1.0), Mistake.ORDER, ""),
+    ],
+)
+def test_the_code_of_a_mistake(make, code, place):
+    with pytest.raises(tb.InvalidValue) as told:
+        make()
+    (problem,) = told.value.problems
+    assert (problem.code, problem.place) == (code, place)
+    kept = pickle.loads(pickle.dumps(told.value))
+    assert [each.code for each in kept.problems] == [code]
+
+
+def test_a_clause_keeps_its_code_and_its_words_for_studies():
+    clause = Mistake.RANGE.clause("must be > 0; " + Advice("R=1e-6", 'R = "1 um"'))
+    again = pickle.loads(pickle.dumps(clause))
+    assert (again, again.code, again.study) == (clause, Mistake.RANGE, 'must be > 0; R = "1 um"')
+    moved = Problem("R", clause, "0").under("roughness").worded(in_study)
+    assert (moved.code, moved.rule) == (Mistake.RANGE, clause.study)
+    assert Problem("R", clause, "0", code=Mistake.KIND).code is Mistake.KIND
+    assert tb.InvalidValue("my own words").problems[0].code is Mistake.UNSAID

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 
 import thirdbody as tb
 from thirdbody.systems.contact_probability import ContactProbability
@@ -184,7 +185,7 @@ def test_loads_that_are_none(load):
 
 
 def test_boulders_and_broken_particles_are_refused():
-    with pytest.raises(tb.InvalidValue, match="above the largest particle"):
+    with refuses(Mistake.ORDER, "radius", value="5 µm"):
         ContactProbability(radius=5e-6, surfaces=PAIR, particles=closing(1.0).particles)
     strong = tb.WeibullStrength.of(tb.materials["quartz"])
     breaks = closing(1.0, material="quartz").particles.replace(strength=strong)

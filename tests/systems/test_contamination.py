@@ -8,6 +8,7 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 from scipy import integrate, optimize
 
 import thirdbody as tb
@@ -272,7 +273,7 @@ def test_steel_debris_is_flattened_and_says_so(ratio):
 def test_refusals(options, message):
     with pytest.raises(tb.InvalidValue, match=message):
         oil(**options)
-    with pytest.raises(tb.InvalidValue, match="must be 1 or 2"):
+    with refuses(Mistake.OPTION, "side", value="3"):
         oil().dents(3)
 
 

@@ -5,6 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses, warns_of
 from scipy import optimize
 from steel_and_dust import DUSTY, STEEL, TWO_BODY
 
@@ -249,7 +250,7 @@ def test_celsius_and_kelvin_give_the_same():
 
 
 def test_a_guess_is_said():
-    with pytest.warns(RangeWarning, match="alpha = 9 is a guess"):
+    with warns_of("junction_growth.alpha"):
         coupled(RUBBING, pressure=5e6, sliding_speed=1.0, feedback=[feedback.JunctionGrowth()])
 
 
@@ -289,7 +290,7 @@ def test_mistakes_are_named(options, words):
 
 
 def test_melting_below_the_reference_is_refused():
-    with pytest.raises(InvalidValue, match="T_melt = 200 must be above T_0"):
+    with refuses(Mistake.ORDER, "Softening.T_melt", value="200"):
         softening(T_melt=200.0)
 
 

@@ -20,7 +20,7 @@ from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import varied
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning, note_of
+from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import Stages, counted, solving
 from ..quantities.say import percent, value_of
@@ -136,7 +136,9 @@ def assess(
     given = pressure if load == "pressure" else F_star
     if not one:
         count = np.size(given)  # type: ignore[arg-type]
-        raise InvalidValue(f"{load}: an assessment is of one operating load, not {count}")
+        raise InvalidValue(
+            f"{load}: an assessment is of one operating load, not {count}", code=Mistake.SHAPE
+        )
     (page,) = assess_each(
         contact,
         load,

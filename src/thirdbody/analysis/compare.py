@@ -29,7 +29,7 @@ from ..equilibrium.columns import COLUMNS, PLASTIC_SHARE, Equilibrium
 from ..equilibrium.doubts import BEYOND
 from ..equilibrium.load import ForceLoad, as_force_load
 from ..equilibrium.solve import given_load, solve
-from ..errors import InvalidValue, Problem, RangeWarning, code_of
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, code_of
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
@@ -308,9 +308,15 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persso
             hint = guess(str(item), REGISTRY, show=repr, otherwise=None, cutoff=0.4)
             known = ", ".join([*(law.name for law in by_year), Persson.name])
             rule = f": {item!r} names no asperity law ({known})"
-            problems.append(Problem("laws", rule, hint=hint))
+            problems.append(Problem("laws", rule, hint=hint, code=Mistake.UNKNOWN))
     if not asked:
-        problems.append("laws is empty; give at least one law, or leave it out for all")
+        problems.append(
+            Problem(
+                "",
+                "laws is empty; give at least one law, or leave it out for all",
+                code=Mistake.EMPTY,
+            )
+        )
     if problems:
         raise InvalidValue(*problems)
     return {_label(law): law for law in found}

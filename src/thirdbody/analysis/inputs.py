@@ -13,7 +13,7 @@ from ..contact.contact import Contact
 from ..contact.output import AbstractOutput
 from ..equilibrium.columns import COLUMNS
 from ..equilibrium.states import carries, unknown_inputs, varied
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.roughness import ETA_R_SIGMA
 from ..quantities.say import join_words
 from ..quantities.units import Quantity
@@ -85,7 +85,11 @@ def input_of(contact: Contact, label: str, where: str = "vary[{!r}]") -> Input:
     values = tuple(known[name] for name in names)
     if len(names) > 1:
         if problems := [
-            Problem(where.format(label), f"moves its inputs by one factor, but {name} is zero")
+            Problem(
+                where.format(label),
+                f"moves its inputs by one factor, but {name} is zero",
+                code=Mistake.BEYOND,
+            )
             for name, value in zip(names, values, strict=True)
             if value == 0
         ]:
@@ -102,7 +106,7 @@ def _scale(contact: Contact, name: str, value: float, where: str) -> float:
     usual = {"1": 1.0, "m": contact.roughness.sigma}.get(about["unit"], 0.0)
     if not (scale := max(abs(value), usual)):
         hint = "give it a value to say what a small change is"
-        raise InvalidValue(Problem(where.format(name), "is zero", hint=hint))
+        raise InvalidValue(Problem(where.format(name), "is zero", hint=hint, code=Mistake.RANGE))
     return scale
 
 
@@ -179,11 +183,16 @@ def _no_input(contact: Contact, name: str, known: Iterable[str], where: str) -> 
     if name in ("roughness.eta", "roughness.eta_R_sigma"):
         other = "eta_R_sigma" if name.endswith("eta") else "eta"
         hint = f"the density follows from 'roughness.{other}', use that"
-        return Problem(place, "is not given", hint=hint)
+        return Problem(place, "is not given", hint=hint, code=Mistake.MISSING)
     if contact.value_at(name) is None:
         hint = "vary those, or give it a value"
-        return Problem(place, "is None: the contact finds it from its other inputs", hint=hint)
-    return Problem(place, "is not a number that could change a little")
+        return Problem(
+            place,
+            "is None: the contact finds it from its other inputs",
+            hint=hint,
+            code=Mistake.BEYOND,
+        )
+    return Problem(place, "is not a number that could change a little", code=Mistake.BEYOND)
 
 
 # -------------------------------------------------------------------------- differences
@@ -210,4 +219,4 @@ def _room(contact: Contact, moved: Input, step: float, reach: int = FULL_REACH) 
         else:
             return offsets
     place = f"to = {moved.label!r}"
-    raise InvalidValue(Problem(place, f"can be moved to neither side: {why}"))
+    raise InvalidValue(Problem(place, f"can be moved to neither side: {why}", code=Mistake.BEYOND))

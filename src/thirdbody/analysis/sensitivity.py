@@ -26,7 +26,11 @@ from ..equilibrium.load import as_loads
 from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..quantities import notebook
 from ..quantities.arguments import need_place
 from ..quantities.carried import takes_units
@@ -179,13 +183,23 @@ class Sensitivity(Record):
         for label, given in vary.items():
             if label not in self.inputs:
                 known = ", ".join(self.inputs)
-                problems.append(f"vary[{label!r}] must be one of {known}")
+                problems.append(
+                    Problem("", f"vary[{label!r}] must be one of {known}", code=Mistake.OPTION)
+                )
             elif not is_uncertain(given):
-                problems.append(f"vary[{label!r}] = {given!r:.60} must be a ufloat")
+                problems.append(
+                    Problem(
+                        f"vary[{label!r}]", "must be a ufloat", f"{given!r:.60}", code=Mistake.KIND
+                    )
+                )
             elif not np.allclose(given.nominal_value, self.inputs[label], rtol=1e-9, atol=0):
                 problems.append(
-                    f"vary[{label!r}] = {given} must be about {self.inputs[label]!r}, which the "
-                    "slopes are taken at"
+                    Problem(
+                        f"vary[{label!r}]",
+                        f"must be about {self.inputs[label]!r}, which the slopes are taken at",
+                        f"{given}",
+                        code=Mistake.RANGE,
+                    )
                 )
         if problems:
             raise InvalidValue(*problems)
@@ -200,7 +214,9 @@ class Sensitivity(Record):
             if unknown := [label for label, (slope, _) in zip(vary, slopes, strict=True)
                            if not math.isfinite(slope)]:  # fmt: skip
                 told = self.status[of][unknown[0]]
-                raise InvalidValue(f"{of} has no slope to {unknown[0]}: {told}")
+                raise InvalidValue(
+                    f"{of} has no slope to {unknown[0]}: {told}", code=Mistake.BEYOND
+                )
             return shifted(as_float(self.value[of]), slopes)
 
         return {
@@ -389,7 +405,9 @@ def _labels(contact: Contact, to: str | Sequence[str] | None, load: str) -> list
     labels = [to] if isinstance(to, str) else list(to)
     for name in labels:
         if name in ("F_star", "pressure", "d") and name != load:
-            raise InvalidValue(f"to = {name!r} needs {name} as the given load")
+            raise InvalidValue(
+                Problem("to", f"needs {name} as the given load", repr(name), code=Mistake.MISSING)
+            )
     return labels
 
 
@@ -398,7 +416,9 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     known = (*NUMBERS, *(name for each in contact.outputs for name in each.columns), *CRITICAL)
     names = list(dict.fromkeys([of] if isinstance(of, str) else of))
     if not names:
-        raise InvalidValue("of is empty; name a column of Equilibrium or a critical load")
+        raise InvalidValue(
+            "of is empty; name a column of Equilibrium or a critical load", code=Mistake.EMPTY
+        )
     if problems := [
         f"of = {name!r} has no derivative; it must be one of {', '.join(known)}"
         for name in names

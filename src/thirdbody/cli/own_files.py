@@ -13,7 +13,11 @@ import zipfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..quantities.files import hindrance
 from ..views.html import is_page
 
@@ -59,11 +63,15 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
         if path is None:
             continue
         if why := hindrance(path):
-            problems.append(f"cannot write {path}: {why}")
+            problems.append(Problem("", f"cannot write {path}: {why}", code=Mistake.UNWRITABLE))
         elif not force and not _may_go(path, kind):
             problems.append(
-                f"cannot write {path}: it exists and is no {kind} of thirdbody; give another "
-                "name, or add --force to replace it"
+                Problem(
+                    "",
+                    f"cannot write {path}: it exists and is no {kind} of thirdbody; give another "
+                    "name, or add --force to replace it",
+                    code=Mistake.UNWRITABLE,
+                )
             )
     if problems:
         raise InvalidValue(*problems)
@@ -90,7 +98,8 @@ def refuse_strangers(folder: Path | None, main: str, *others: str) -> None:
     if there and not (_is_json if main.endswith(".json") else _is_table)(folder / main):
         raise InvalidValue(
             f"{folder} holds {', '.join(there)} of another study, or of another program; give "
-            "another folder, remove what is not needed, or add --force to replace it"
+            "another folder, remove what is not needed, or add --force to replace it",
+            code=Mistake.OTHER_STUDY,
         )
 
 

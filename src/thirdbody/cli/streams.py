@@ -26,7 +26,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from ..errors import InvalidValue, NoEquilibrium, NoTransition, in_study, note_of, ranked
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    NoTransition,
+    Problem,
+    in_study,
+    note_of,
+    ranked,
+)
 from ..quantities.say import plural
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
@@ -300,8 +309,12 @@ class TableFiles(NamedTuple):
             path = getattr(self, option)
             if path is not None and importlib.util.find_spec(library) is None:
                 problems.append(
-                    f"--{option} {path} needs {library}, which is not installed: "
-                    f"pip install 'thirdbody[{option}]'"
+                    Problem(
+                        "",
+                        f"--{option} {path} needs {library}, which is not installed: "
+                        f"pip install 'thirdbody[{option}]'",
+                        code=Mistake.ABSENT,
+                    )
                 )
         if problems:
             raise InvalidValue(*problems)
@@ -341,7 +354,8 @@ class TableFiles(NamedTuple):
             if rows > MOST_IN_A_SHEET:
                 raise InvalidValue(
                     f"cannot write {self.xlsx}: {rows:,} rows, and a sheet holds "
-                    f"{MOST_IN_A_SHEET:,}; take --csv or --parquet"
+                    f"{MOST_IN_A_SHEET:,}; take --csv or --parquet",
+                    code=Mistake.UNWRITABLE,
                 )
             from ..views.workbook import sheet_of_table, workbook_bytes
 
@@ -386,7 +400,9 @@ def figure_format(figure: Path) -> str:
     """Format of a figure, by the suffix of its name."""
     kind = figure.suffix.lstrip(".").lower() or "png"
     if kind not in ("png", "svg", "pdf"):
-        raise InvalidValue(f"--figure {figure} must end in .png, .svg or .pdf")
+        raise InvalidValue(
+            f"--figure {figure} must end in .png, .svg or .pdf", code=Mistake.UNWRITABLE
+        )
     return kind
 
 

@@ -23,7 +23,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+)
 from ..laws.base import COLUMNS, KINDS, OneParticle
 from ..laws.particle.breakage import Breakage
 from ..numerics.chebyshev import PiecewiseChebyshev
@@ -96,7 +99,9 @@ class BrokenAverage(SizeAverage):
         self.least = self._least()
         if self.least < self.top * self.ratio**MOST_STRETCHES:
             part, ratio = self.least / self.top, self.ratio
-            raise InvalidValue(TOO_ALIKE.format(ratio=ratio, most=MOST_STRETCHES, part=part))
+            raise InvalidValue(
+                TOO_ALIKE.format(ratio=ratio, most=MOST_STRETCHES, part=part), code=Mistake.BEYOND
+            )
         self.join = self.bottom = float(
             self.least * (1 - last) if last <= 1 else self.top * (1 - last)
         )
@@ -133,7 +138,10 @@ class BrokenAverage(SizeAverage):
         generations = 0
         while share > NEGLIGIBLE and x > self.breakage.x_c:
             if (generations := generations + 1) > MOST_GENERATIONS or x < SMALLEST * self.top:
-                raise InvalidValue(ENDLESS.format(generations=generations - 1, part=x / self.top))
+                raise InvalidValue(
+                    ENDLESS.format(generations=generations - 1, part=x / self.top),
+                    code=Mistake.BEYOND,
+                )
             size, stress = np.array([x]), np.array([self.tension.greatest])
             share *= gain * float(1 - self.breakage.survival(size, stress)[0])
             x *= ratio

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..errors import Advice, InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Mistake, Problem
 from ..laws.asperity import ZMC, AbstractAsperityLaw
 from ..laws.base import SERIES
 from ..laws.particle import AbstractParticleLaw, Series
@@ -82,14 +82,21 @@ class Contact(Value):
             "particle_law": AbstractParticleLaw,
         }
         out: list[str] = [
-            Problem(name, f"must be a {kind.__name__}", repr(getattr(self, name)))
+            Problem(
+                name, f"must be a {kind.__name__}", repr(getattr(self, name)), code=Mistake.KIND
+            )
             for name, kind in kinds.items()
             if not isinstance(getattr(self, name), kind)
         ]
         given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
         if not all(isinstance(each, Particles) for each in given) and given != (None,):
             out.append(
-                Problem("particles", "must be Particles, several, or None", repr(self.particles))
+                Problem(
+                    "particles",
+                    "must be Particles, several, or None",
+                    repr(self.particles),
+                    code=Mistake.KIND,
+                )
             )
         if out:
             return out
@@ -112,6 +119,7 @@ class Contact(Value):
                     "particles",
                     f"are jammed: together they would cover {covered:.3g} of the "
                     "nominal area and it must stay below 1",
+                    code=Mistake.FULL,
                 )
             )
         for place, each in places.items():
@@ -119,7 +127,7 @@ class Contact(Value):
                 allowed = "must be a particle law, e.g. " + Advice(
                     "particle.Series(seat='plane')", '{ name = "series", seat = "plane" }'
                 )
-                out.append(Problem("law", allowed, repr(each.law), owner=place))
+                out.append(Problem("law", allowed, repr(each.law), owner=place, code=Mistake.KIND))
                 continue
             try:
                 law = self.law_of(each)
@@ -130,13 +138,18 @@ class Contact(Value):
             if each.strength is not None and not law.breakable:
                 rule = f": particles of the law {law.name} do not break"
                 hint = "use " + SERIES + ", or remove strength"
-                out.append(_of_population(Problem("strength", rule, hint=hint), place, each))
+                out.append(
+                    _of_population(
+                        Problem("strength", rule, hint=hint, code=Mistake.BEYOND), place, each
+                    )
+                )
         if not out and len({law.centre for law in laws}) > 1:
             out.append(
                 Problem(
                     "particles",
                     "follow laws that count d from different planes (Horng2022 and "
                     "others); give all of them one kind of law",
+                    code=Mistake.BEYOND,
                 )
             )
         return laws, out
@@ -193,6 +206,7 @@ def _shape_problems(law: AbstractAsperityLaw) -> list[str]:
                 "asperity_law",
                 f"is {law.name}, whose tips are round, but the roughness has an ellipticity",
                 hint=f"take {' or '.join(able)}, or remove the ellipticity",
+                code=Mistake.BEYOND,
             )
         ]
     if law.ratio != 1:
@@ -202,6 +216,7 @@ def _shape_problems(law: AbstractAsperityLaw) -> list[str]:
                 "and the ellipticity of the roughness both say how slender the tips are",
                 f"{law.ratio:g}",
                 hint="leave one of them out",
+                code=Mistake.CLASH,
             )
         ]
     return []

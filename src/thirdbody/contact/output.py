@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..errors import Advice, InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Mistake, Problem
 from ..laws.base import FLAKES, SERIES, Law
 from ..quantities.record import Column
 
@@ -115,7 +115,10 @@ def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
     """Mistakes in the outputs of a contact that has some."""
     wrong = [each for each in outputs if not isinstance(each, AbstractOutput)]
     if wrong:
-        return [Problem("outputs", f"holds {each!r}", hint=GIVE_OUTPUTS) for each in wrong]
+        return [
+            Problem("outputs", f"holds {each!r}", hint=GIVE_OUTPUTS, code=Mistake.KIND)
+            for each in wrong
+        ]
     laws = {law.name: law for law in map(contact.law_of, contact.populations)}
     if unknown := [name for name, law in laws.items() if not law.knows_each]:
         return [
@@ -124,12 +127,15 @@ def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
                 f": the particle law {name} knows loads and areas of all particles together, "
                 "not how deep one of them sits",
                 hint="take " + SERIES + " or " + FLAKES + ", or remove the outputs",
+                code=Mistake.BEYOND,
             )
             for name in unknown
         ]
     names = [each.name for each in outputs]
     if len(set(names)) < len(names):
-        return [Problem("outputs", f"names {', '.join(names)}: each output once")]
+        return [
+            Problem("outputs", f"names {', '.join(names)}: each output once", code=Mistake.CLASH)
+        ]
     out = []
     for each in outputs:
         out += [
@@ -156,5 +162,5 @@ def column(name: str) -> Column:
         No output has this column.
     """
     if (told := every_column().get(name)) is None:
-        raise InvalidValue(f"no output has a column {name!r}")
+        raise InvalidValue(f"no output has a column {name!r}", code=Mistake.UNKNOWN)
     return told

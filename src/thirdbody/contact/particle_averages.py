@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..laws.base import COLUMNS, KINDS, OneParticle
 from ..laws.spots import Layout, ParticleSpots
 from ..numerics.chebyshev import PiecewiseChebyshev
@@ -375,7 +375,8 @@ class SeatAverage:
         if span > WIDEST:
             raise InvalidValue(
                 f"particle diameters range over {span:.3g} widths of the seat, more than "
-                f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'"
+                f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'",
+                code=Mistake.BEYOND,
             )
         self.low = average.bottom - NORMAL_REACH * width
         self.high = average.top + NORMAL_REACH * width

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..laws.base import COLUMNS, AbstractParticleLaw, SeatedLaw
 from ..laws.particle.breakage import Breakage
 from ..laws.particle.horng2022 import NO_ONE_PARTICLE, Horng2022
@@ -45,7 +45,8 @@ def particle_sum(
     """The sum over one population, by the kind of its law."""
     raise InvalidValue(
         f"the particle law {law.name} has no sum: derive it from SeatedLaw, or register its sum "
-        "with thirdbody.contact.particle_sums.particle_sum"
+        "with thirdbody.contact.particle_sums.particle_sum",
+        code=Mistake.BEYOND,
     )
 
 
@@ -56,7 +57,7 @@ def _over_sizes_and_seats(
     of_shape = law.of_shape(particles.shape)
     one = of_shape.one(surfaces=surfaces, particle=particles.material)
     if (coverage := one.breadth * particles.coverage) >= 1:
-        raise InvalidValue(law.jammed(coverage))
+        raise InvalidValue(law.jammed(coverage), code=Mistake.FULL)
     parts = []
     for weight, sizes in particles.diameter.components:
         scale, shape = sizes.standardised()
@@ -74,7 +75,8 @@ def _over_sizes_and_seats(
     if made.in_one_layer >= 1:
         raise InvalidValue(
             f"fragments in one layer would cover {made.in_one_layer:.3g} of the nominal area and "
-            "it must stay below 1; use fragments = 'footprint' or fewer particles"
+            "it must stay below 1; use fragments = 'footprint' or fewer particles",
+            code=Mistake.FULL,
         )
     return made
 
@@ -456,7 +458,7 @@ class PrintedIntegrals(ParticleSum):
         }
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
-        raise InvalidValue(NO_ONE_PARTICLE)
+        raise InvalidValue(NO_ONE_PARTICLE, code=Mistake.BEYOND)
 
 
 STRETCH = 200.0

@@ -107,17 +107,19 @@ def about_pressed(contact: Contact, d: Array) -> list[str]:
         return out
     deep, broken = (float(share[0]) for share in _shares(contact, lowest, followed=False))
     if deep > TOLD:
-        out.append(
+        what = (
             f"{percent(deep, digits=2)} of the particles' load is on particles that sit deeper "
             "than their radius, where the laws of one contact end; load, area and every output "
             "are extrapolated there"
         )
+        out.append(Note(what, code="buried"))
     if broken > TOLD:
-        out.append(
+        what = (
             f"{percent(broken, digits=2)} of the particles' load is on brittle particles pressed "
             "beyond the strength of most grains of their size: they would break, but they count as "
             'whole here; give the particles a strength ("material" takes the library\'s)'
         )
+        out.append(Note(what, code="brittle"))
     return out
 
 
@@ -137,12 +139,13 @@ def _about_squashed(contact: Contact, d: Array) -> list[str]:
     share = min(wide / total, 1.0) if total > 0 else 0.0
     if share <= TOLD:
         return []
-    return [
+    what = (
         f"up to {percent(share, digits=2)} of the particles' load is on soft particles squashed to "
         f"contacts wider than {WIDE:g} of their radius: metal spheres were measured to press with "
         "at most 0.7 to 0.8 of their Vickers hardness, at 0.20 to 0.28; this law says at most 0.95 "
         "to 1.08, and no measurement is known beyond"
-    ]
+    )
+    return [Note(what, code="squashed")]
 
 
 def _about_computed(contact: Contact, d: Array) -> list[str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
-from ..errors import InvalidValue, Note, Problem
+from ..errors import InvalidValue, Mistake, Note, Problem
 from ..laws.base import SERIES
 from ..laws.particle.series import Series
 from ..laws.particle.squashed import widest_disc
@@ -152,6 +152,7 @@ class Dents(AbstractOutput):
                 f"with debris = {self.debris!r}: brittle particles, "
                 "and only those, need the size of their fragments [m]",
                 repr(self.fragment),
+                code=Mistake.MISSING,
             )
         ]
 
@@ -165,8 +166,13 @@ class Dents(AbstractOutput):
             return []
         if any(each.strength is not None for each in contact.populations):
             return [
-                "outputs.dents: debris = 'brittle' and the strength of the particles would break "
-                "them twice; remove one"
+                Problem(
+                    "",
+                    "outputs.dents: debris = 'brittle' and the strength of the particles would "
+                    "break "
+                    "them twice; remove one",
+                    code=Mistake.CLASH,
+                )
             ]
         laws = [contact.law_of(each) for each in contact.populations]
         if all(isinstance(law, Series) and law.breakable for law in laws):
@@ -264,6 +270,7 @@ class Dents(AbstractOutput):
                     f"is lost in rounding, it rises and falls {len(curve.runs)} times as a grain "
                     f"is squeezed; E = {moduli}",
                     hint="one of E and H is too far from the others: check their units",
+                    code=Mistake.BEYOND,
                 )
             )
         return curve

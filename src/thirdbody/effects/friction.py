@@ -11,7 +11,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
-from ..errors import Note, Problem
+from ..errors import Mistake, Note, Problem
 from ..populations.shape import CUTS
 from ..quantities.say import value_of
 from ..quantities.value import choice, quantity
@@ -255,13 +255,19 @@ class Friction(AbstractOutput):
                     "tau_ss",
                     "is missing: give the shear strength between the surfaces [Pa], "
                     "or m_ss; no value fits all surfaces",
+                    code=Mistake.MISSING,
                 )
             )
         for kind in ("ss", "sa"):
             tau, m, _ = self._strength(kind)
             if tau is not None and m is not None:
                 out.append(
-                    Problem(f"tau_{kind}", f"and m_{kind} = {m:g}: give one of them", f"{tau:g}")
+                    Problem(
+                        f"tau_{kind}",
+                        f"and m_{kind} = {m:g}: give one of them",
+                        f"{tau:g}",
+                        code=Mistake.CLASH,
+                    )
                 )
         if self.rear not in ("recovery", "rigid"):
             number = isinstance(self.rear, int | float) and not isinstance(self.rear, bool)
@@ -271,6 +277,7 @@ class Friction(AbstractOutput):
                         "rear",
                         "must be 'recovery', 'rigid', or a number from 0 to 1",
                         repr(self.rear),
+                        code=Mistake.OPTION,
                     )
                 )
         if self.offset > 0 and self.rolling != "moment":
@@ -279,16 +286,22 @@ class Friction(AbstractOutput):
                     "offset",
                     f"needs rolling = 'moment', whose balance it enters, not {self.rolling!r}",
                     f"{self.offset:g}",
+                    code=Mistake.IDLE,
                 )
             )
         return out
 
     def problems(self, contact: Contact) -> list[str]:
-        out = []
+        out: list[str] = []
         if contact.populations and self.tau_sa is None and self.m_sa is None:
             out.append(
-                "outputs.friction needs tau_sa, the shear strength between particles and surfaces "
-                "[Pa], or m_sa"
+                Problem(
+                    "",
+                    "outputs.friction needs tau_sa, the shear strength between particles and "
+                    "surfaces "
+                    "[Pa], or m_sa",
+                    code=Mistake.MISSING,
+                )
             )
         if self.alpha_T is None:
             return out
@@ -298,11 +311,22 @@ class Friction(AbstractOutput):
             tau, m, _ = self._strength(kind)
             k = softest[kind] / math.sqrt(self.alpha_T)
             if m == 1:
-                out.append(f"outputs.friction: junctions of m_{kind} = 1 would grow without end")
+                out.append(
+                    Problem(
+                        "",
+                        f"outputs.friction: junctions of m_{kind} = 1 would grow without end",
+                        code=Mistake.BEYOND,
+                    )
+                )
             if tau is not None and tau >= k:
                 out.append(
-                    f"outputs.friction: junctions of tau_{kind} = {tau:g} Pa would grow without "
-                    f"end; with alpha_T = {self.alpha_T:g} it must be < {value_of(k, 'Pa')}"
+                    Problem(
+                        "",
+                        f"outputs.friction: junctions of tau_{kind} = {tau:g} Pa would grow "
+                        "without "
+                        f"end; with alpha_T = {self.alpha_T:g} it must be < {value_of(k, 'Pa')}",
+                        code=Mistake.RANGE,
+                    )
                 )
         return out
 

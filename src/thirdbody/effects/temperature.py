@@ -11,7 +11,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column, missing
-from ..errors import Note, Problem
+from ..errors import Mistake, Note, Problem
 from ..quantities.say import number
 from ..quantities.value import choice, quantity
 from .conductance import about_wide, wide_share
@@ -194,9 +194,19 @@ class FlashTemperature(AbstractOutput):
 
     def _problems(self) -> list[str]:
         if (self.h_1 is None) != (self.h_2 is None):
-            return [Problem("h_1", "and h_2 make one network: give both (0 insulates)")]
+            return [
+                Problem(
+                    "h_1", "and h_2 make one network: give both (0 insulates)", code=Mistake.CLASH
+                )
+            ]
         if self.h_1 == 0 and self.h_2 == 0:
-            return [Problem("h_1", "= h_2 = 0 leave the heat no way out: one must be > 0")]
+            return [
+                Problem(
+                    "h_1",
+                    "= h_2 = 0 leave the heat no way out: one must be > 0",
+                    code=Mistake.CLASH,
+                )
+            ]
         return []
 
     def problems(self, contact: Contact) -> list[str]:

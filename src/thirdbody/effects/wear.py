@@ -10,7 +10,7 @@ import numpy as np
 
 from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column
-from ..errors import InvalidValue, Note
+from ..errors import InvalidValue, Mistake, Note
 from ..laws.base import REGIMES
 from ..quantities.say import value_of
 from ..quantities.value import quantity
@@ -235,7 +235,7 @@ class Wear(AbstractOutput):
             S = S + spots.total(value)
             severe = severe + spots.total(over.astype(float))
         if self.f_roll is None and np.any(volume["rolls"][0] > NONE * state.pressure):
-            raise InvalidValue(F_ROLL)  # in some of its states
+            raise InvalidValue(F_ROLL, code=Mistake.IDLE)  # in some of its states
         parts = {name: volume[name][0] + volume[name][1] for name in volume}
         total = parts["ss"] + parts["sa"] + parts["groove"] + parts["roll"]
         with np.errstate(invalid="ignore", divide="ignore"):

@@ -10,7 +10,11 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
 from .modes import WINDOW, CriticalStatus
@@ -101,15 +105,18 @@ def critical_loads(
     (True, 'found')
     """
     if not (isinstance(count, (int, np.integer)) and count > 0):
-        raise InvalidValue(f"count = {count!r} must be a whole number above 0")
+        raise InvalidValue(
+            Problem("count", "must be a whole number above 0", repr(count), code=Mistake.KIND)
+        )
     contact, vary = carrying(contact, vary)
     if contact.two_body:
-        raise InvalidValue("a contact without particles has no critical loads")
+        raise InvalidValue("a contact without particles has no critical loads", code=Mistake.BEYOND)
     if not load_falls(contact):
         raise InvalidValue(
             "critical loads of many contacts need a load that falls with the separation, which "
             f"{type(contact.particle_law).__name__} does not promise; name other outputs, or call "
-            "transitions for each"
+            "transitions for each",
+            code=Mistake.BEYOND,
         )
     arrays = {name: np.broadcast_to(np.asarray(v, float), count) for name, v in vary.items()}
     parts = [

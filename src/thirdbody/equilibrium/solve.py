@@ -20,7 +20,15 @@ from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, Note, tell_of_range
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    NotCompiled,
+    Note,
+    Problem,
+    tell_of_range,
+)
 from ..quantities.arguments import need_one, only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
@@ -61,20 +69,35 @@ def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
     try:
         if (kind := np.asarray(value).dtype.kind) not in "fiu":
             if kind == "b":
-                raise InvalidValue(f"{name} = {value!r} must be a number, not a truth value")
+                raise InvalidValue(
+                    Problem(
+                        f"{name}",
+                        "must be a number, not a truth value",
+                        repr(value),
+                        code=Mistake.KIND,
+                    )
+                )
             raise TypeError
         values = np.asarray(value, dtype=float)
     except (TypeError, ValueError, OverflowError):
         shown = repr(value) if len(repr(value)) <= 80 else repr(value)[:76] + " ..."
-        raise InvalidValue(f"{name} = {shown} must be a number or an array of numbers") from None
+        raise InvalidValue(
+            Problem(
+                f"{name}", "must be a number or an array of numbers", f"{shown}", code=Mistake.KIND
+            )
+        ) from None
     if values.ndim > 1:
-        raise InvalidValue(f"{name} has {values.ndim} dimensions; give a number or a 1-D array")
+        raise InvalidValue(
+            f"{name} has {values.ndim} dimensions; give a number or a 1-D array", code=Mistake.SHAPE
+        )
     flat = np.atleast_1d(values)
     good = np.isfinite(flat) & ((name in ("d", "h")) | (flat > 0))
     allowed = "be finite" if name in ("d", "h") else "be finite and > 0"
     problems = [f"{name} = {v:g} must {allowed}" for v in flat[~good][:5]]
     if not problems and not values.size:
-        problems.append(f"{name} is empty; give at least one value")
+        problems.append(
+            Problem("", f"{name} is empty; give at least one value", code=Mistake.EMPTY)
+        )
     if problems:
         raise InvalidValue(*problems)
     return name, flat, values.ndim == 0
@@ -156,7 +179,8 @@ def solve(
     if branch == "unloading" and any(each.strength is not None for each in contact.populations):
         raise InvalidValue(
             "branch = 'unloading' has no meaning with particles that break (strength): what is "
-            "broken does not heal; use branch = 'loading'"
+            "broken does not heal; use branch = 'loading'",
+            code=Mistake.IDLE,
         )
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None

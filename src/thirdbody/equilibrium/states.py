@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..contact.contact import Contact
 from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
-from ..errors import InvalidValue, NotCompiled, Problem
+from ..errors import InvalidValue, Mistake, NotCompiled, Problem
 from ..populations.materials import BULK
 from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
@@ -172,11 +172,15 @@ def _loads_and_inputs(
         arrays = dict(zip(inputs, np.broadcast_arrays(*inputs.values()), strict=True))
     except ValueError:
         sizes = ", ".join(f"{name} {values.shape}" for name, values in inputs.items())
-        raise InvalidValue(f"inputs of different lengths: {sizes}; each must be one or N") from None
+        raise InvalidValue(
+            f"inputs of different lengths: {sizes}; each must be one or N", code=Mistake.SHAPE
+        ) from None
     loads = np.atleast_1d(arrays.pop(load))
     arrays = {name: np.atleast_1d(values) for name, values in arrays.items()}
     if loads.ndim > 1:
-        raise InvalidValue(f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays")
+        raise InvalidValue(
+            f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays", code=Mistake.SHAPE
+        )
     for name, values in arrays.items():
         if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
             for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
@@ -205,7 +209,7 @@ def unknown_inputs(
     for name in names:
         place = where.format(name)
         if contact.two_body and name.startswith("particle"):
-            yield Problem(place, "says nothing of a contact without particles")
+            yield Problem(place, "says nothing of a contact without particles", code=Mistake.BEYOND)
             continue
         try:
             contact.value_at(name)
@@ -215,7 +219,7 @@ def unknown_inputs(
             beside = [path for path in paths if path.rpartition(".")[0] == above]
             meant = near_path(name, paths)
             hint = guess("", beside or paths, meant=meant, show=repr, otherwise="the inputs are ")
-            yield Problem(place, "is not an input", hint=hint)
+            yield Problem(place, "is not an input", hint=hint, code=Mistake.UNKNOWN)
 
 
 def _columns(

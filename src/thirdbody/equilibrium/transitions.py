@@ -11,7 +11,11 @@ from numpy.typing import NDArray
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..quantities import notebook
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
@@ -176,7 +180,14 @@ def transitions(
     """
     low, high = (float(load) for load in window)
     if not 0 < low < high:
-        raise InvalidValue(f"window = {window!r} must be two loads F* with 0 < first < second")
+        raise InvalidValue(
+            Problem(
+                "window",
+                "must be two loads F* with 0 < first < second",
+                repr(window),
+                code=Mistake.ORDER,
+            )
+        )
     need_one("basis", basis, *get_args(Basis))
     need_shares(eps_1=eps_1, eps_2=eps_2)
     if contact.two_body:

@@ -26,7 +26,13 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_numbers
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, Note, tell_of_range
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Note,
+    Problem,
+    tell_of_range,
+)
 from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
@@ -255,9 +261,15 @@ def ensemble(
     rule = seats_named(seats)
     given, total = _surfaces_and_count(surfaces)
     if isinstance(rule, GivenSeats) and total > 1:
-        raise InvalidValue("seats: positions belong to one surface; give surfaces = 1")
+        raise InvalidValue(
+            "seats: positions belong to one surface; give surfaces = 1", code=Mistake.BEYOND
+        )
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise InvalidValue(f"workers = {workers!r} must be a whole number, at least 1")
+        raise InvalidValue(
+            Problem(
+                "workers", "must be a whole number, at least 1", repr(workers), code=Mistake.KIND
+            )
+        )
     if spacing is None and given is None:
         spacing = spacing_for(contact)
 
@@ -319,7 +331,8 @@ def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, obje
     if others:
         raise InvalidValue(
             f"{kept} holds surfaces of another study, or of another version of thirdbody "
-            f"({', '.join(others[:3])}); give another folder"
+            f"({', '.join(others[:3])}); give another folder",
+            code=Mistake.OTHER_STUDY,
         )
     if damaged:
         _tell(f"{kept} is damaged ({', '.join(damaged[:3])}): these surfaces are pressed again")
@@ -343,11 +356,18 @@ def _surfaces_and_count(
     if isinstance(surfaces, int):
         if isinstance(surfaces, bool) or not 1 <= surfaces <= 10**6:
             raise InvalidValue(
-                f"surfaces = {surfaces!r} must be a whole number from 1 to 1,000,000"
+                Problem(
+                    "surfaces",
+                    "must be a whole number from 1 to 1,000,000",
+                    repr(surfaces),
+                    code=Mistake.KIND,
+                )
             )
         return None, surfaces
     if not isinstance(surfaces, Sequence) or not surfaces:
-        raise InvalidValue("surfaces must be a number of them or a list of Topography")
+        raise InvalidValue(
+            "surfaces must be a number of them or a list of Topography", code=Mistake.KIND
+        )
     return surfaces, len(surfaces)
 
 
@@ -447,7 +467,11 @@ def _ensemble(
     told = list(dict.fromkeys(sentence for each in records for sentence in each["warnings"]))
     if left_out:
         told.append(
-            f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count nowhere"
+            Note(
+                f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count "
+                "nowhere",
+                code="explicit.converged",
+            )
         )
     hardest = cap_of(cap, contact)
     at = {
@@ -460,15 +484,22 @@ def _ensemble(
     )
     if hardest != contact.surfaces.H:
         told.append(
-            "asperities are pressed with another cap than the hardness, at which those of the "
-            "statistical model yield: the two differ by that as well"
+            Note(
+                "asperities are pressed with another cap than the hardness, at which those of the "
+                "statistical model yield: the two differ by that as well",
+                code="explicit.cap",
+            )
         )
     for kind, words in (("raw", "these surfaces"), ("cv", "these surfaces without their luck")):
         outside = ", ".join(number(each, 3) for each in loads[at[kind].outside].tolist())
         if outside:
             told.append(
-                f"F* = {outside}: {words} carry that at none of the separations pressed, so that "
-                "nothing is known there; more or larger surfaces"
+                Note(
+                    f"F* = {outside}: {words} carry that at none of the separations pressed, so "
+                    "that "
+                    "nothing is known there; more or larger surfaces",
+                    code=f"explicit.outside.{kind}",
+                )
             )
     told += at["cv" if gaussian else "raw"].doubts(loads, columns="_cv" if gaussian else "")
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
@@ -499,11 +530,13 @@ def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> li
     if not carry < FEW:
         return []
     if carry < 0.5:
-        return ["at the smallest load hardly any surface touches; more surfaces, or a larger load"]
-    return [
+        what = "at the smallest load hardly any surface touches; more surfaces, or a larger load"
+        return [Note(what, code="explicit.nothing")]
+    what = (
         f"{plural(round(float(carry)), 'pixel')} and particles of all surfaces carry the smallest "
         "load: the answer is that of a few points; more surfaces"
-    ]
+    )
+    return [Note(what, code="explicit.few")]
 
 
 def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, object]:

@@ -12,7 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import Advice, InvalidValue
+from ..errors import (
+    Advice,
+    InvalidValue,
+    Mistake,
+    Note,
+    Problem,
+)
 from ..laws.base import AbstractParticleLaw
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.topography import Topography
@@ -131,18 +137,40 @@ def map_of(surface: object, spacing: float | None) -> Map:
         z = np.array(surface, dtype=float)
     except (TypeError, ValueError):
         raise InvalidValue(
-            f"surface = {surface!r:.80} must be a Topography or an array of heights [m]"
+            Problem(
+                "surface",
+                "must be a Topography or an array of heights [m]",
+                f"{surface!r:.80}",
+                code=Mistake.KIND,
+            )
         ) from None
     problems = []
     if z.ndim != 2 or min(z.shape) < 8:
-        problems.append(f"surface: heights of shape {z.shape} must be a map of at least 8 x 8")
+        problems.append(
+            Problem(
+                "",
+                f"surface: heights of shape {z.shape} must be a map of at least 8 x 8",
+                code=Mistake.SHAPE,
+            )
+        )
     elif not np.all(np.isfinite(z)):
         problems.append(
-            f"surface: {percent(float(np.mean(~np.isfinite(z))))} of the heights are missing; "
-            "a map without gaps is needed (cut out a part that was measured)"
+            Problem(
+                "",
+                f"surface: {percent(float(np.mean(~np.isfinite(z))))} of the heights are missing; "
+                "a map without gaps is needed (cut out a part that was measured)",
+                code=Mistake.MISSING,
+            )
         )
     if not (isinstance(spacing, (int, float)) and 0 < spacing < math.inf):
-        problems.append(f"spacing = {spacing!r} must be the distance of neighbouring points [m]")
+        problems.append(
+            Problem(
+                "spacing",
+                "must be the distance of neighbouring points [m]",
+                repr(spacing),
+                code=Mistake.KIND,
+            )
+        )
     if problems:
         raise InvalidValue(*problems)
     assert spacing is not None
@@ -154,18 +182,38 @@ def map_of(surface: object, spacing: float | None) -> Map:
 def _of_topography(surface: Topography, spacing: float | None) -> Map:
     problems = []
     if spacing is not None:
-        problems.append(f"spacing = {spacing!r}: the topography tells it; leave it out")
+        problems.append(
+            Problem(
+                "",
+                f"spacing = {spacing!r}: the topography tells it; leave it out",
+                code=Mistake.CLASH,
+            )
+        )
     if surface.dim != 2:
-        problems.append(f"{surface.source} is a profile; a map of heights is needed")
+        problems.append(
+            Problem(
+                "",
+                f"{surface.source} is a profile; a map of heights is needed",
+                code=Mistake.KIND,
+            )
+        )
     elif not math.isclose(*surface.spacing, rel_tol=1e-6):
         problems.append(
-            f"{surface.source} has pixels of {value_of(surface.spacing[0], 'm')} x "
-            f"{value_of(surface.spacing[1], 'm')}; square ones are needed, resample it"
+            Problem(
+                "",
+                f"{surface.source} has pixels of {value_of(surface.spacing[0], 'm')} x "
+                f"{value_of(surface.spacing[1], 'm')}; square ones are needed, resample it",
+                code=Mistake.BEYOND,
+            )
         )
     if surface.missing > 0:
         problems.append(
-            f"{surface.source}: {percent(surface.missing)} of the points have no datum; a map "
-            "without gaps is needed (cut out a part that was measured)"
+            Problem(
+                "",
+                f"{surface.source}: {percent(surface.missing)} of the points have no datum; a map "
+                "without gaps is needed (cut out a part that was measured)",
+                code=Mistake.BEYOND,
+            )
         )
     if problems:
         raise InvalidValue(*problems)
@@ -229,13 +277,20 @@ def interface_of(
         side = min(surface.z.shape) * surface.spacing
         if float(np.max(bodies.diameter)) > LARGEST * side:
             warnings.append(
-                f"the largest particle, {value_of(float(np.max(bodies.diameter)), 'm')}, is more "
-                f"than a tenth of the side of the map, {value_of(side, 'm')}: it meets its own "
-                "images; take a larger map"
+                Note(
+                    f"the largest particle, {value_of(float(np.max(bodies.diameter)), 'm')}, is "
+                    "more "
+                    f"than a tenth of the side of the map, {value_of(side, 'm')}: it meets its own "
+                    "images; take a larger map",
+                    code="explicit.large",
+                )
             )
     if overlaps:
         warnings.append(
-            f"{plural(overlaps, 'pair')} of particles overlap; each carries as if alone"
+            Note(
+                f"{plural(overlaps, 'pair')} of particles overlap; each carries as if alone",
+                code="explicit.overlap",
+            )
         )
     scale = surface.sigma or 1.0
     return Interface(
@@ -253,8 +308,13 @@ def cap_of(cap: str | float | None, contact: Contact) -> float | None:
     if isinstance(cap, (int, float)) and not isinstance(cap, bool) and 0 < cap < HARDEST:
         return float(cap)
     raise InvalidValue(
-        f"cap = {cap!r} must be 'hardness' (of the softer body), 'none' for purely elastic "
-        "asperities, or a pressure [Pa]"
+        Problem(
+            "cap",
+            "must be 'hardness' (of the softer body), 'none' for purely elastic asperities, or "
+            "a pressure [Pa]",
+            repr(cap),
+            code=Mistake.OPTION,
+        )
     )
 
 
@@ -270,7 +330,9 @@ def _draw_bodies(
         return _bodies_of_user(contact, surface, given, rng)
     if not populations:
         if isinstance(seats, GivenSeats):
-            raise InvalidValue("seats: positions are given, but the contact has no particles")
+            raise InvalidValue(
+                "seats: positions are given, but the contact has no particles", code=Mistake.IDLE
+            )
         return NONE, 0
     densities = np.array([each.areal_density for each in populations])
     if isinstance(seats, GivenSeats):
@@ -301,7 +363,8 @@ def _refuse_countless(density: float, surface: Map) -> None:
     raise InvalidValue(
         f"a map of {number(rows, 3)} m by {number(columns, 3)} m holds {number(count, 3)} "
         f"particles, more than {MOST_PARTICLES:,}: are heights and spacing, "
-        f"{number(surface.spacing, 3)}, in metres? (a map in nm: heights * 1e-9, spacing * 1e-9)"
+        f"{number(surface.spacing, 3)}, in metres? (a map in nm: heights * 1e-9, spacing * 1e-9)",
+        code=Mistake.TOO_LARGE,
     )
 
 
@@ -316,15 +379,35 @@ def _bodies_of_user(
             if told[name].ndim != 1 or not np.all(np.isfinite(told[name])):
                 raise ValueError
         except KeyError:
-            problems.append(f"particles has no {name!r}; it takes x, y, diameter [m], population")
+            problems.append(
+                Problem(
+                    "",
+                    f"particles has no {name!r}; it takes x, y, diameter [m], population",
+                    code=Mistake.UNKNOWN,
+                )
+            )
         except (TypeError, ValueError):
-            problems.append(f"particles[{name!r}] must be a list of finite lengths [m]")
+            problems.append(
+                Problem(
+                    "",
+                    f"particles[{name!r}] must be a list of finite lengths [m]",
+                    code=Mistake.KIND,
+                )
+            )
     if not problems and len({len(values) for values in told.values()}) > 1:
-        problems.append("particles: x, y and diameter must be of one length")
+        problems.append(
+            Problem("", "particles: x, y and diameter must be of one length", code=Mistake.SHAPE)
+        )
     if not problems and not np.all(told["diameter"] > 0):
-        problems.append("particles['diameter'] must be > 0 [m]")
+        problems.append(Problem("", "particles['diameter'] must be > 0 [m]", code=Mistake.RANGE))
     if not contact.populations:
-        problems.append("particles are given, but the contact has none that say their material")
+        problems.append(
+            Problem(
+                "",
+                "particles are given, but the contact has none that say their material",
+                code=Mistake.MISSING,
+            )
+        )
     if problems:
         raise InvalidValue(*problems)
     count = len(told["x"])
@@ -333,7 +416,9 @@ def _bodies_of_user(
     if kind.shape != (count,) or kind.dtype.kind not in "iu" or not np.all(
         (kind >= 0) & (kind < most)
     ):  # fmt: skip
-        raise InvalidValue(f"particles['population'] must be whole numbers from 0 to {most - 1}")
+        raise InvalidValue(
+            f"particles['population'] must be whole numbers from 0 to {most - 1}", code=Mistake.KIND
+        )
     seats = GivenSeats(positions=tuple(zip(told["x"].tolist(), told["y"].tolist(), strict=True)))
     places, overlaps = placed_apart(seats, surface.z, surface.spacing, told["diameter"], rng)
     return _bodies(contact, places, told["diameter"], kind), overlaps
@@ -350,20 +435,33 @@ def _doubts(contact: Contact, surface: Map) -> list[str]:
     out = list(surface.notes)
     if not surface.periodic:
         out.append(
-            f"{surface.source} does not repeat itself, the half-space does: contacts at the rim "
-            "feel those across it"
+            Note(
+                f"{surface.source} does not repeat itself, the half-space does: contacts at the "
+                "rim "
+                "feel those across it",
+                code="explicit.rim",
+            )
         )
     wave = surface.shortest_wave() / surface.spacing
     if wave < FEW_POINTS:
         out.append(
-            f"the shortest waves of {surface.source} have {number(wave, 2)} points; pressures and "
-            f"areas are those of the grid below {FEW_POINTS} (a longer cut-off, or a finer map)"
+            Note(
+                f"the shortest waves of {surface.source} have {number(wave, 2)} points; "
+                "pressures and "
+                f"areas are those of the grid below {FEW_POINTS} (a longer cut-off, or a finer "
+                "map)",
+                code="explicit.grid",
+            )
         )
     own = contact.roughness.sigma
     if surface.sigma > 0 and not 0.9 < own / surface.sigma < 1.1:
         out.append(
-            f"the map has sigma = {value_of(surface.sigma, 'm')} and the roughness of the contact "
-            f"{value_of(own, 'm')}: the statistical model is one of another surface"
+            Note(
+                f"the map has sigma = {value_of(surface.sigma, 'm')} and the roughness of the "
+                "contact "
+                f"{value_of(own, 'm')}: the statistical model is one of another surface",
+                code="explicit.sigma",
+            )
         )
     return out
 
@@ -379,5 +477,6 @@ def _fits(shape: tuple[int, int]) -> None:
         side = 2 ** math.floor(math.log2(math.sqrt(SHARE_OF_MEMORY * free / (ARRAYS * 8))))
         raise InvalidValue(
             f"a map of {shape[0]} x {shape[1]} points takes {need / 1e9:.2g} GB and "
-            f"{free / 1e9:.2g} GB are free; {side} x {side} would fit"
+            f"{free / 1e9:.2g} GB are free; {side} x {side} would fit",
+            code=Mistake.TOO_LARGE,
         )

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.value import Value, quantity
 
 if TYPE_CHECKING:
@@ -153,7 +153,8 @@ class SummitSeats(AbstractSeats):
         if len(size) > len(tops):
             raise InvalidValue(
                 f"seats = 'summits': {len(size)} particles for {len(tops)} summits; take fewer "
-                "particles or another seat"
+                "particles or another seat",
+                code=Mistake.BEYOND,
             )
         here = rng.permutation(tops)[: len(size)]
         m = z.shape[1]
@@ -190,7 +191,13 @@ class GivenSeats(AbstractSeats):
         except (TypeError, ValueError):
             places = np.empty(0)
         if places.ndim != 2 or places.shape[1] != 2 or not np.all(np.isfinite(places)):
-            return [Problem("positions", "must be pairs (x, y) of finite lengths [m], one each")]
+            return [
+                Problem(
+                    "positions",
+                    "must be pairs (x, y) of finite lengths [m], one each",
+                    code=Mistake.SHAPE,
+                )
+            ]
         object.__setattr__(self, "positions", tuple(map(tuple, places.tolist())))
         return []
 
@@ -219,13 +226,26 @@ def seats_named(given: object) -> AbstractSeats:
         if given in SEATS:
             return SEATS[given]()
         known = ", ".join(repr(name) for name in SEATS)
-        raise InvalidValue(f"seats = {given!r} must be one of {known}, or positions (N, 2) [m]")
+        raise InvalidValue(
+            Problem(
+                "seats",
+                f"must be one of {known}, or positions (N, 2) [m]",
+                repr(given),
+                code=Mistake.OPTION,
+            )
+        )
     try:
         places = np.asarray(given, dtype=float)
     except (TypeError, ValueError):
-        raise InvalidValue(f"seats = {given!r} must be a word or positions (N, 2) [m]") from None
+        raise InvalidValue(
+            Problem(
+                "seats", "must be a word or positions (N, 2) [m]", repr(given), code=Mistake.KIND
+            )
+        ) from None
     if places.ndim != 2 or places.shape[1] != 2:
-        raise InvalidValue(f"seats: positions of shape {places.shape} must be (N, 2) [m]")
+        raise InvalidValue(
+            f"seats: positions of shape {places.shape} must be (N, 2) [m]", code=Mistake.SHAPE
+        )
     return GivenSeats(positions=tuple(map(tuple, places.tolist())))
 
 

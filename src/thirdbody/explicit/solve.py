@@ -13,7 +13,13 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import _mode
 from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import given_numbers
-from ..errors import InvalidValue, tell_of_range
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Note,
+    Problem,
+    tell_of_range,
+)
 from ..laws.base import REGIMES
 from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, plural, value_of
@@ -172,7 +178,9 @@ def solve(
     (('y', 'x'), True)
     """
     if not isinstance(contact, Contact):
-        raise InvalidValue(f"contact = {contact!r:.80} must be a Contact")
+        raise InvalidValue(
+            Problem("contact", "must be a Contact", f"{contact!r:.80}", code=Mistake.KIND)
+        )
     name, values, one = given_numbers(pressure=pressure, F_star=F_star, h=h)
     rule = seats_named(seats)
     _options(tol, max_iterations, precision, maps, seed, workers, blocks)
@@ -369,37 +377,55 @@ def _options(
     whole |= {} if blocks is None else {"blocks": (blocks, 2)}
     for name, (count, least) in whole.items():
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < least:
-            out.append(f"{name} = {count!r} must be a whole number, at least {least}")
+            rule = f"must be a whole number, at least {least}"
+            out.append(Problem(name, rule, repr(count), code=Mistake.KIND))
     if out:
         raise InvalidValue(*out)
 
 
 # -------------------------------------------------------------------------- what is told
 def _doubts(columns: list[dict[str, Any]], found: list[Pressed], tol: float) -> list[str]:
-    out = []
+    out: list[str] = []
     unsure = [each for each in found if not each.converged]
     if unsure:
         worst = max(each.certificate for each in unsure)
         known = "to a few per cent" if worst < 1e-3 else "in outline only"
         out.append(
-            f"{plural(len(unsure), 'state')} of {len(found)} did not converge: certificate "
-            f"{worst:.1e}, asked for {tol:g}; pressures are known {known} (raise max_iterations)"
+            Note(
+                f"{plural(len(unsure), 'state')} of {len(found)} did not converge: certificate "
+                f"{worst:.1e}, asked for {tol:g}; pressures are known {known} (raise "
+                "max_iterations)",
+                code="explicit.converged",
+            )
         )
     carriers = [each["carrying_pixels"] + each["carrying_particles"] for each in columns]
     if nothing := carriers.count(0):
         which = "" if len(columns) == 1 else f" in {nothing} of {len(columns)} states"
-        out.append(f"nothing touches{which}: there load and real contact area are 0")
+        out.append(
+            Note(
+                f"nothing touches{which}: there load and real contact area are 0",
+                code="explicit.nothing",
+            )
+        )
     few = min((each for each in carriers if each), default=FEW)
     if few < FEW:
         out.append(
-            f"{plural(few, 'pixel')} and particles carry the smallest load: the answer is that of "
-            "a few points; more surfaces"
+            Note(
+                f"{plural(few, 'pixel')} and particles carry the smallest load: the answer is "
+                "that of "
+                "a few points; more surfaces",
+                code="explicit.few",
+            )
         )
     most = max(each["A_t"] for each in columns)
     if most > DENSE:
         out.append(
-            f"real contact area {percent(most)}: a half-space is meant for small contacts, and the "
-            "law of particles leaves out their neighbours"
+            Note(
+                f"real contact area {percent(most)}: a half-space is meant for small contacts, "
+                "and the "
+                "law of particles leaves out their neighbours",
+                code="explicit.dense",
+            )
         )
     return out
 

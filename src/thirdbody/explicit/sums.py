@@ -62,7 +62,7 @@ def one_surface(
         "converged": [a.converged and b.converged for a, b in zip(states, bare, strict=True)],
         "columns": {name: [each[name] for each in columns] for name in columns[0]},
         "zeta": [float(np.sum(zeta)), float(np.sum(zeta**2)), int(np.sum(zeta > 2.5)), len(zeta)],
-        "warnings": list(inside.warnings),
+        "warnings": [str(each) for each in inside.warnings],  # plain, as files keep them
         "expected": _sums_of_draw(contact, surface, rule, zeta, grid, gaussian),
     }
 

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, get_
 
 import numpy as np
 
-from ..errors import Advice, InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Mistake, Problem
 from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
 from ..quantities.arguments import need_one
@@ -472,7 +472,7 @@ class AbstractParticleLaw(Law):
             return self
         rule = f": particles of the law {self.name} have a shape of their own"
         hint = "use " + SERIES + ", or remove shape"
-        raise InvalidValue(Problem("shape", rule, hint=hint, owner="Particles"))
+        raise InvalidValue(Problem("shape", rule, hint=hint, owner="Particles", code=Mistake.CLASH))
 
     def single(
         self, x: ArrayLike, gap: ArrayLike, *, surfaces: MaterialPair, particle: Material
@@ -557,10 +557,17 @@ class SeatedLaw(AbstractParticleLaw):
                     "h_0",
                     f"has no meaning with seat = {self.seat!r}; set seat = 'offset'",
                     f"{self.h_0:g}",
+                    code=Mistake.IDLE,
                 )
             )
         if self.seat != "rough" and (self.zeta_mean, self.zeta_std) != (0.0, 1.0):
-            out.append(Problem("zeta_mean", f"and zeta_std need seat = 'rough', not {self.seat!r}"))
+            out.append(
+                Problem(
+                    "zeta_mean",
+                    f"and zeta_std need seat = 'rough', not {self.seat!r}",
+                    code=Mistake.IDLE,
+                )
+            )
         return out
 
     def seat_offset(self, roughness: Roughness) -> float:

@@ -19,7 +19,11 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..systems.life.debris import Debris
 from ..systems.life.oil_history import run_oil_history
 from ..systems.life.surfaces import RunningIn
@@ -465,6 +469,11 @@ def reproduce(
     """
     if preset is not None:
         raise InvalidValue(
-            f"preset = {preset!r} has no meaning for the life of an oil; leave it out"
+            Problem(
+                "preset",
+                "has no meaning for the life of an oil; leave it out",
+                repr(preset),
+                code=Mistake.IDLE,
+            )
         )
     return engine.reproduce("life", partial(page.find, Summary, ROWS), out, progress=progress)

@@ -9,7 +9,11 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..version import __version__
 from ..views.html import symbols, table
 from . import engine
@@ -90,8 +94,13 @@ class Study:
         """
         if preset is not None:
             raise InvalidValue(
-                f"preset = {preset!r} has no meaning for {self.name}: figures and ledger show all "
-                f"readings ({', '.join(self.readings)}); leave it out"
+                Problem(
+                    "preset",
+                    f"has no meaning for {self.name}: figures and ledger show all readings "
+                    f"({', '.join(self.readings)}); leave it out",
+                    repr(preset),
+                    code=Mistake.IDLE,
+                )
             )
         return engine.reproduce(self.name, self._find, out, progress=progress)
 

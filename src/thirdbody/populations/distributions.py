@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
-from ..errors import Advice, Problem
+from ..errors import Advice, Mistake, Problem
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.say import value_of
 from ..quantities.value import quantity
@@ -100,6 +100,7 @@ class TruncatedGaussian(Distribution):
                 f"m must spread the diameters by more than "
                 f"rounding around {value_of(high, 'm')}; for one single size use " + SINGLE,
                 f"{self.std:g}",
+                code=Mistake.RANGE,
             )
         ]
 
@@ -360,6 +361,7 @@ class Uniform(Distribution):
                 "high",
                 f"must be above low = {self.low:g} [m]; for one single size use " + SINGLE,
                 f"{self.high:g}",
+                code=Mistake.ORDER,
             )
         ]
 

@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..numerics.quadrature import panel_rule, subdivide
 from ..quantities.carried import takes_units
 from ..quantities.say import percent
@@ -136,12 +136,20 @@ class Ellipticity(Value):
     def _problems(self) -> list[str]:
         out: list[str] = []
         if not self.ratios:
-            out.append(Problem("ratios", "is empty; give at least one ratio of the radii"))
+            out.append(
+                Problem(
+                    "ratios", "is empty; give at least one ratio of the radii", code=Mistake.EMPTY
+                )
+            )
         for i, value in enumerate(self.ratios):
             if not (math.isfinite(value) and value >= 1):
                 turned = f"; it is the longer over the shorter: {1 / value:g}" if value > 0 else ""
                 turned = turned if value < 1 else ""
-                out.append(Problem(f"ratios[{i}]", f"must be >= 1{turned}", f"{value:g}"))
+                out.append(
+                    Problem(
+                        f"ratios[{i}]", f"must be >= 1{turned}", f"{value:g}", code=Mistake.RANGE
+                    )
+                )
         for name in ("weights", "radii"):
             values = getattr(self, name)
             if values is None:
@@ -153,12 +161,17 @@ class Ellipticity(Value):
                         f"has {len(self.ratios)} ratios and {len(values)} {name}; "
                         "give one for each ratio",
                         owner=type(self).__name__,
+                        code=Mistake.SHAPE,
                     )
                 )
             for i, value in enumerate(values):
                 if not (math.isfinite(value) and value > 0):
                     cause = "; leave the class out" if name == "weights" and value == 0 else ""
-                    out.append(Problem(f"{name}[{i}]", f"must be > 0{cause}", f"{value:g}"))
+                    out.append(
+                        Problem(
+                            f"{name}[{i}]", f"must be > 0{cause}", f"{value:g}", code=Mistake.RANGE
+                        )
+                    )
         return out
 
     @property
@@ -217,13 +230,15 @@ class Ellipticity(Value):
         """
         if not isinstance(ratio, Distribution):
             raise InvalidValue(
-                f"ratio = {ratio!r} must be a distribution, e.g. Uniform(low=1, high=5)"
+                f"ratio = {ratio!r} must be a distribution, e.g. Uniform(low=1, high=5)",
+                code=Mistake.KIND,
             )
         low, high = ratio.support
         if low <= 0:
             raise InvalidValue(
                 f"ratio = {ratio!r} reaches down to 0, where a tip is a ridge; take a density of "
-                "ratios that begins above 0"
+                "ratios that begins above 0",
+                code=Mistake.RANGE,
             )
         ratios, shares = _fine(ratio)
         x, order = np.unique(np.log(ratios) ** 2, return_inverse=True)
@@ -237,7 +252,8 @@ class Ellipticity(Value):
                 return cls(ratios=tuple(found), weights=tuple(part))
         raise InvalidValue(
             f"ratio = {ratio!r} spreads from {low:.3g} to {high:.3g}, too wide for "
-            f"{MOST_CLASSES} classes; narrow it, or give ratios and weights"
+            f"{MOST_CLASSES} classes; narrow it, or give ratios and weights",
+            code=Mistake.BEYOND,
         )
 
     @classmethod
@@ -284,18 +300,20 @@ class Ellipticity(Value):
         from ..reference import elliptic_hertz
 
         if why := problem_with(FACES["R_first"], R):
-            raise InvalidValue(f"R = {R!r} {why}")
+            raise InvalidValue(Problem("R", why, repr(R)))
         given = np.sort(np.atleast_2d(np.asarray(curvatures, dtype=float)), axis=1)[:, ::-1]
         if given.size == 0 or given.shape[1] != 2:
             raise InvalidValue(
-                f"curvatures of shape {np.shape(curvatures)} must be (N, 2), two for each summit"
+                f"curvatures of shape {np.shape(curvatures)} must be (N, 2), two for each summit",
+                code=Mistake.SHAPE,
             )
         tips = given[np.all(np.isfinite(given) & (given > 0), axis=1)]
         lost = 1 - len(tips) / len(given)
         if lost > MOST_SADDLES:
             raise InvalidValue(
                 f"{percent(lost, digits=2)} of {len(given)} summits lack two positive curvatures; "
-                "the surface is not resolved at its summits: take a longer cut-off, or a map"
+                "the surface is not resolved at its summits: take a longer cut-off, or a map",
+                code=Mistake.BEYOND,
             )
         ratio, radius = tips[:, 0] / tips[:, 1], 1 / np.sqrt(tips[:, 0] * tips[:, 1]) / R
         root_load = np.array([elliptic_hertz(float(each)).root_R_F for each in ratio])
@@ -366,10 +384,12 @@ class Ellipticity(Value):
             first_ratio=first_ratio, second_ratio=second_ratio, R_first=R_first, R_second=R_second
         )
         if isinstance(angle, str) and angle != "random":
-            raise InvalidValue(f"angle = {angle!r} must be a number [rad] or 'random'")
+            raise InvalidValue(
+                f"angle = {angle!r} must be a number [rad] or 'random'", code=Mistake.KIND
+            )
         given |= {} if isinstance(angle, str) else {"angle": angle}
         problems = [
-            f"{name} = {value!r} {why}"
+            Problem(name, why, repr(value))
             for name, value in given.items()
             if (why := problem_with(FACES[name], value))
         ]
@@ -399,7 +419,9 @@ class Ellipticity(Value):
             "angles"
         )
         hint = "give classes of your own"
-        raise InvalidValue(Problem("first_ratio", slender, f"{first_ratio:g}", hint=hint))
+        raise InvalidValue(
+            Problem("first_ratio", slender, f"{first_ratio:g}", hint=hint, code=Mistake.BEYOND)
+        )
 
 
 @takes_units

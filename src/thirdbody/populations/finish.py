@@ -11,7 +11,7 @@ from importlib import resources
 from itertools import product
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.say import join_words, number, value_of
 from ..quantities.value import Value, problem_with, quantity
 
@@ -99,7 +99,12 @@ class Finish(Value):
         if len(given) != 1:
             shown = f", not {' and '.join(given)}" if given else ""
             return [
-                Problem("", f"needs exactly one of Ra, Rq and Rz{shown}", owner=type(self).__name__)
+                Problem(
+                    "",
+                    f"needs exactly one of Ra, Rq and Rz{shown}",
+                    owner=type(self).__name__,
+                    code=Mistake.MISSING,
+                )
             ]
         name = given[0]
         if why := problem_with(STATED[name], getattr(self, name)):
@@ -109,7 +114,12 @@ class Finish(Value):
             return []
         if self.process not in processes():
             return [
-                Problem("process", f"must be one of {', '.join(processes())}", repr(self.process))
+                Problem(
+                    "process",
+                    f"must be one of {', '.join(processes())}",
+                    repr(self.process),
+                    code=Mistake.OPTION,
+                )
             ]
         low, high = processes()[self.process]["Ra"]
         Ra = self.heights[1] / RQ_OVER_RA
@@ -122,6 +132,7 @@ class Finish(Value):
                 f"= {value_of(getattr(self, name), 'm')}{told} is not the height of a "
                 f"{self.process} face, Ra from {value_of(low, 'm')} to {value_of(high, 'm')}; "
                 "check its unit and the process",
+                code=Mistake.BEYOND,
             )
         ]
 
@@ -258,10 +269,10 @@ def check_faces(faces: object) -> list[str]:
     """Mistakes in what should be one face or two."""
     if not (isinstance(faces, tuple) and len(faces) <= 2):
         rule = "must be a tuple of one or two Finish"
-        return [Problem("finish", rule, repr(faces), owner="Roughness")]
+        return [Problem("finish", rule, repr(faces), owner="Roughness", code=Mistake.KIND)]
     rule = 'must be a Finish, e.g. Finish(Ra=0.2e-6, process="ground")'
     return [
-        Problem(f"finish[{i}]", rule, repr(face), owner="Roughness")
+        Problem(f"finish[{i}]", rule, repr(face), owner="Roughness", code=Mistake.KIND)
         for i, face in enumerate(faces)
         if not isinstance(face, Finish)
     ]
@@ -273,7 +284,7 @@ def given_or_drawn(faces: Sequence[Finish], given: dict[str, float | None]) -> d
     out: dict[str, object] = {name: value for name, value in given.items() if value is not None}
     if found.R is None:
         if "R" not in out:
-            raise InvalidValue(needs_process(faces))
+            raise InvalidValue(needs_process(faces), code=Mistake.MISSING)
     else:
         out.setdefault("R", found.R[1])
         out.setdefault("alpha", found.alpha[1])  # type: ignore[index]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from scipy import special
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..numerics.quadrature import panel_rule
 from ..quantities.named import Named
 from ..quantities.value import quantity, sequences, several
@@ -287,6 +287,7 @@ class JohnsonHeights(Heights):
                     f"with skewness = {self.skewness:g} is "
                     "impossible: kurtosis must exceed skewness² + 1 (a Gaussian has 3, not 0)",
                     f"{self.kurtosis:g}",
+                    code=Mistake.ORDER,
                 )
             ]
         if self._complete():
@@ -298,6 +299,7 @@ class JohnsonHeights(Heights):
                 f"kurtosis {self.kurtosis:g}; they are too extreme (a Gaussian has 0 and 3; near "
                 "skewness² + 1 the heights take hardly more than two values)",
                 owner=type(self).__name__,
+                code=Mistake.BEYOND,
             )
         ]
 
@@ -432,7 +434,10 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
         if best.cost < 1e-24:
             break
     if best is None or best.cost > 1e-16:
-        raise InvalidValue(f"no S_U or S_B has skewness {skewness:g} and kurtosis {kurtosis:g}")
+        raise InvalidValue(
+            f"no S_U or S_B has skewness {skewness:g} and kurtosis {kurtosis:g}",
+            code=Mistake.BEYOND,
+        )
     gamma, delta = float(best.x[0]), math.exp(best.x[1])
     mean, var, _, _ = shape(g(1.0, (n - gamma) / delta))
     lam = 1 / math.sqrt(var)
@@ -475,12 +480,15 @@ class HistogramHeights(Heights):
                     "",
                     f"has {len(e)} edges and {len(c)} counts; n + 1 and n",
                     owner=type(self).__name__,
+                    code=Mistake.SHAPE,
                 )
             )
         elif not (np.all(np.isfinite(e)) and np.all(e[1:] > e[:-1])):
-            out.append(Problem("edges", "must be finite and increase"))
+            out.append(Problem("edges", "must be finite and increase", code=Mistake.ORDER))
         elif not (np.all(np.isfinite(c)) and np.all(c >= 0) and c[0] > 0 and c[-1] > 0):
-            out.append(Problem("counts", "must be >= 0, the first and last above 0"))
+            out.append(
+                Problem("counts", "must be >= 0, the first and last above 0", code=Mistake.RANGE)
+            )
         else:
             with np.errstate(all="ignore"):
                 ends, density = self._bins
@@ -490,6 +498,7 @@ class HistogramHeights(Heights):
                         "",
                         "spans more than numbers hold; check edges and counts",
                         owner=type(self).__name__,
+                        code=Mistake.BEYOND,
                     )
                 )
         return out

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
 from ..quantities.nearest import guess, near
@@ -158,7 +158,9 @@ class MaterialPair(Value):
 
     def _problems(self) -> list[str]:
         return [
-            Problem(side, "must be a Material, e.g. materials['S45C']", repr(body))
+            Problem(
+                side, "must be a Material, e.g. materials['S45C']", repr(body), code=Mistake.KIND
+            )
             for side, body in (("first", self.first), ("second", self.second))
             if not isinstance(body, Material)
         ]
@@ -360,16 +362,26 @@ def _entries_of_file(file: Path) -> dict[str, dict[str, object]]:
         raise
     except OSError as error:
         why = (error.strerror or str(error)).lower()
-        raise InvalidValue(f"cannot read the materials in {file}: {why}") from None
+        raise InvalidValue(
+            f"cannot read the materials in {file}: {why}", code=Mistake.UNREADABLE
+        ) from None
     except ValueError as error:
-        raise InvalidValue(f"cannot read the materials in {file}: {error}") from None
+        raise InvalidValue(
+            f"cannot read the materials in {file}: {error}", code=Mistake.UNREADABLE
+        ) from None
     problems: list[str] = []
     out = {}
     for name, entry in data.items():
         if isinstance(entry, dict):
             out[name] = _in_si(f"{file}: {name}", entry, problems)
         else:
-            problems.append(f"{file}: {name} = {entry!r} must be a table, written [{name}]")
+            problems.append(
+                Problem(
+                    "",
+                    f"{file}: {name} = {entry!r} must be a table, written [{name}]",
+                    code=Mistake.KIND,
+                )
+            )
     if problems:
         raise InvalidValue(*problems)
     return out
@@ -383,24 +395,46 @@ def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, 
         if key in NUMBERS:
             out[key] = _number(f"{where}.{key}", key, value, problems)
         elif key in _WORDS and not isinstance(value, str):
-            problems.append(f"{where}.{key} = {value!r} must be text in quotes")
+            problems.append(
+                Problem("", f"{where}.{key} = {value!r} must be text in quotes", code=Mistake.KIND)
+            )
         elif key == "range":
             out[key] = _ranges(f"{where}.range", value, problems)
         elif key == "aliases" and not _texts(value):
-            problems.append(f"{where}.aliases = {value!r} must be a list of names")
+            problems.append(
+                Problem(
+                    "", f"{where}.aliases = {value!r} must be a list of names", code=Mistake.KIND
+                )
+            )
         elif key == "sources" and not (isinstance(value, dict) and _texts(list(value.values()))):
-            problems.append(f"{where}.sources = {value!r} must be a table of text")
+            problems.append(
+                Problem(
+                    "", f"{where}.sources = {value!r} must be a table of text", code=Mistake.KIND
+                )
+            )
         elif key not in known:
-            problems.append(f"{where}.{key} is not a known key; {guess(key, known)}")
+            problems.append(
+                Problem(
+                    "",
+                    f"{where}.{key} is not a known key; {guess(key, known)}",
+                    code=Mistake.UNKNOWN,
+                )
+            )
     for key in _NEEDED:
         if entry.get(key, "") == "":
             example = "where the numbers come from" if key == "source" else NUMBERS[key]["meaning"]
-            problems.append(f"{where}.{key} is missing: {example}")
+            problems.append(
+                Problem("", f"{where}.{key} is missing: {example}", code=Mistake.MISSING)
+            )
     for key, (low, high) in (out.get("range") or {}).items():
         value = out.get(key)
         if isinstance(value, float) and not low <= value <= high:
             problems.append(
-                f"{where}.{key} = {value:g} must be within its range, {low:g} to {high:g}"
+                Problem(
+                    "",
+                    f"{where}.{key} = {value:g} must be within its range, {low:g} to {high:g}",
+                    code=Mistake.RANGE,
+                )
             )
     return out
 
@@ -416,10 +450,10 @@ def _number(where: str, key: str, value: object, problems: list[str]) -> float |
     try:
         number = quantity_to_si(value, NUMBERS[key])
     except InvalidValue as error:
-        problems.append(f"{where} = {error}")
+        problems.append(Problem("", f"{where} = {error}", code=error.code))
         return None
     if why := problem_with(NUMBERS[key], number):
-        problems.append(f"{where} = {value!r} {why}")
+        problems.append(Problem("", f"{where} = {value!r} {why}", code=why.code))
         return None
     return number
 
@@ -428,12 +462,24 @@ def _ranges(where: str, given: object, problems: list[str]) -> dict[str, list[fl
     out: dict[str, list[float]] = {}
     for key, ends in given.items() if isinstance(given, dict) else [("range", given)]:
         if key not in NUMBERS or not isinstance(ends, list) or len(ends) != 2:
-            problems.append(f"{where}.{key} = {ends!r} must be a pair [low, high] of a quantity")
+            problems.append(
+                Problem(
+                    "",
+                    f"{where}.{key} = {ends!r} must be a pair [low, high] of a quantity",
+                    code=Mistake.KIND,
+                )
+            )
             continue
         low, high = (_number(f"{where}.{key}", key, end, problems) for end in ends)
         if low is not None and high is not None:
             if low > high:
-                problems.append(f"{where}.{key} = {ends!r} must rise from low to high")
+                problems.append(
+                    Problem(
+                        "",
+                        f"{where}.{key} = {ends!r} must rise from low to high",
+                        code=Mistake.ORDER,
+                    )
+                )
             else:
                 out[key] = [low, high]
     return out

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ..errors import Advice, InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Mistake, Problem
 from ..quantities.units import to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
@@ -73,15 +73,25 @@ class Particles(Value):
     def _problems(self) -> list[str]:
         out: list[str] = []
         if not isinstance(self.material, Material):
-            out.append(Problem("material", "must be a Material", repr(self.material)))
+            out.append(
+                Problem("material", "must be a Material", repr(self.material), code=Mistake.KIND)
+            )
         if not isinstance(self.diameter, Distribution):
-            out.append(Problem("diameter", "must be a size distribution", repr(self.diameter)))
+            out.append(
+                Problem(
+                    "diameter",
+                    "must be a size distribution",
+                    repr(self.diameter),
+                    code=Mistake.KIND,
+                )
+            )
         if not isinstance(self.strength, WeibullStrength | None):
             out.append(
                 Problem(
                     "strength",
                     "must be a WeibullStrength, e.g. WeibullStrength.of(material), or None",
                     repr(self.strength),
+                    code=Mistake.KIND,
                 )
             )
         if not isinstance(self.shape, Sphere | Angular):
@@ -94,10 +104,18 @@ class Particles(Value):
                         'roundness = 0.1, angle = "60 deg" }',
                     ),
                     repr(self.shape),
+                    code=Mistake.KIND,
                 )
             )
         if not isinstance(self.conducts, bool | None):
-            out.append(Problem("conducts", "must be true, false or left out", repr(self.conducts)))
+            out.append(
+                Problem(
+                    "conducts",
+                    "must be true, false or left out",
+                    repr(self.conducts),
+                    code=Mistake.KIND,
+                )
+            )
         if not out and self.coverage >= 1:
             out.append(
                 Problem(
@@ -106,6 +124,7 @@ class Particles(Value):
                     f"cover {self.coverage:.3g} of the nominal area and it must stay below 1 "
                     "(check the unit of the diameter, or that the density is per area)",
                     f"{self.areal_density:g}",
+                    code=Mistake.FULL,
                 )
             )
         return out
@@ -351,7 +370,8 @@ class Particles(Value):
             raise InvalidValue(
                 "the amount of dust is given either by concentration and gap or by areal_density; "
                 f"found concentration = {concentration!r}, gap = {gap!r}, "
-                f"areal_density = {areal_density!r}"
+                f"areal_density = {areal_density!r}",
+                code=Mistake.CLASH,
             )
         return cls.from_concentration(
             concentration,
@@ -395,7 +415,7 @@ def _read(name: str, value: float | str, unit: str) -> float:
     try:
         return to_si(value, unit)
     except InvalidValue as error:
-        raise InvalidValue(Problem(name, f"= {error}")) from None
+        raise InvalidValue(Problem(name, f"= {error}", code=error.code)) from None
 
 
 def _optional(name: str, value: float | str | None, unit: str) -> float | None:
@@ -405,5 +425,9 @@ def _optional(name: str, value: float | str | None, unit: str) -> float | None:
 def _gap(value: float | str) -> float:
     gap = _read("gap", value, "m")
     if not (math.isfinite(gap) and gap > 0):
-        raise InvalidValue(Problem("gap", "must be > 0 [m]; um are 1e-6 or '1 um'", repr(value)))
+        raise InvalidValue(
+            Problem(
+                "gap", "must be > 0 [m]; um are 1e-6 or '1 um'", repr(value), code=Mistake.RANGE
+            )
+        )
     return gap

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.value import Value, quantity
 from .ellipticity import Ellipticity
 from .finish import Finish, check_faces, drawing, given_or_drawn
@@ -152,12 +152,30 @@ class Roughness(Value):
 
     def _problems(self) -> list[str]:
         if self.eta is not None and self.eta_R_sigma is not None:
-            return [Problem("eta", "and eta_R_sigma say the same thing; give one of them")]
+            return [
+                Problem(
+                    "eta",
+                    "and eta_R_sigma say the same thing; give one of them",
+                    code=Mistake.CLASH,
+                )
+            ]
         if not isinstance(self.heights, Heights):
-            return [Problem("heights", "must be a height distribution", repr(self.heights))]
+            return [
+                Problem(
+                    "heights",
+                    "must be a height distribution",
+                    repr(self.heights),
+                    code=Mistake.KIND,
+                )
+            ]
         if not isinstance(self.ellipticity, Ellipticity | None):
             return [
-                Problem("ellipticity", "must be an Ellipticity or None", repr(self.ellipticity))
+                Problem(
+                    "ellipticity",
+                    "must be an Ellipticity or None",
+                    repr(self.ellipticity),
+                    code=Mistake.KIND,
+                )
             ]
         return check_faces(self.finish)
 

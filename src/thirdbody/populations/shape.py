@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Self
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.units import to_si
 from ..quantities.value import Value, quantity
 
@@ -84,7 +84,10 @@ class Angular(Shape):
                 object.__setattr__(self, "angle", to_si(self.angle, "rad"))
             except InvalidValue as error:
                 raise InvalidValue(
-                    *(Problem("angle", f"= {text}", owner="Angular") for text in error.problems)
+                    *(
+                        Problem("angle", f"= {text}", owner="Angular", code=text.code)
+                        for text in error.problems
+                    )
                 ) from None
         Value.__post_init__(self)
 
@@ -108,7 +111,9 @@ class Angular(Shape):
         0.523599
         """
         if isinstance(spq, (bool, str)) or not hasattr(spq, "__float__") or not 0 < spq < 1:
-            raise InvalidValue(f"spq = {spq!r} must be > 0 and < 1, a mean of cos(θ/2)")
+            raise InvalidValue(
+                f"spq = {spq!r} must be > 0 and < 1, a mean of cos(θ/2)", code=Mistake.RANGE
+            )
         return cls(roundness=roundness, angle=math.asin(spq), flatness=flatness)
 
     @property

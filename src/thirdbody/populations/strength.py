@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal, Self
 
-from ..errors import Advice, InvalidValue, Problem
+from ..errors import Advice, InvalidValue, Mistake, Problem
 from ..quantities.value import Value, choice, quantity
 from .materials import Material
 
@@ -107,6 +107,7 @@ class WeibullStrength(Value):
                 "x_from",
                 f"must not exceed x_to = {high:g} (where one is not given, it is x_0)",
                 f"{low:g}",
+                code=Mistake.MISSING,
             )
         ]
 
@@ -132,7 +133,7 @@ class WeibullStrength(Value):
         67000000.0
         """
         if not isinstance(material, Material):
-            raise InvalidValue(f"material = {material!r} must be a Material")
+            raise InvalidValue(f"material = {material!r} must be a Material", code=Mistake.KIND)
         known = {name: getattr(material, name) for name in ("sigma_0", "x_0", "m")}
         if None not in known.values():
             return cls(**known | {"size_exponent": material.size_exponent} | options)
@@ -141,7 +142,8 @@ class WeibullStrength(Value):
         missing = ", ".join(name for name, value in known.items() if value is None)
         raise InvalidValue(
             f"the material {material.name or 'of these particles'} has no strength: it lacks "
-            f"{missing}, and K_c for an estimate; " + OTHER_STRENGTH
+            f"{missing}, and K_c for an estimate; " + OTHER_STRENGTH,
+            code=Mistake.BEYOND,
         )
 
     @classmethod
@@ -162,7 +164,9 @@ class WeibullStrength(Value):
         '1.65 GPa at 20 µm'
         """
         if isinstance(K_c, (bool, str)) or not hasattr(K_c, "__float__") or not K_c > 0:
-            raise InvalidValue(f"K_c = {K_c!r} must be > 0 [Pa m^0.5]; 1.2 MPa m^0.5 is 1.2e6")
+            raise InvalidValue(
+                f"K_c = {K_c!r} must be > 0 [Pa m^0.5]; 1.2 MPa m^0.5 is 1.2e6", code=Mistake.RANGE
+            )
         estimate = {
             "sigma_0": TOUGHNESS * K_c / TOUGHNESS_SIZE**0.5,
             "x_0": TOUGHNESS_SIZE,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
-from ..errors import Problem
+from ..errors import Mistake, Problem
 from ..quantities.value import Value, items_of, sequences, several
 from .size_base import (
     ONE_SIZE,
@@ -57,19 +57,24 @@ class Histogram(Distribution):
         e, c = self.edges, self.counts
         out: list[str] = []
         if not all(math.isfinite(v) for v in (*e, *c)):
-            return [Problem("edges", "and counts must be finite numbers")]
+            return [Problem("edges", "and counts must be finite numbers", code=Mistake.KIND)]
         if len(e) != len(c) + 1 or not c:
             out.append(
                 Problem(
                     "",
                     f"has {len(e)} edges and {len(c)} counts; n bins have n + 1 edges",
                     owner=type(self).__name__,
+                    code=Mistake.SHAPE,
                 )
             )
         if any(b <= a for a, b in zip(e, e[1:], strict=False)) or (e and e[0] < 0):
-            out.append(Problem("edges", "must increase and start at or above 0 [m]"))
+            out.append(
+                Problem("edges", "must increase and start at or above 0 [m]", code=Mistake.ORDER)
+            )
         if any(v < 0 for v in c) or not any(v > 0 for v in c):
-            out.append(Problem("counts", "must be >= 0 with at least one above 0"))
+            out.append(
+                Problem("counts", "must be >= 0 with at least one above 0", code=Mistake.RANGE)
+            )
         return out
 
     @property
@@ -163,7 +168,9 @@ class PowerLaw(Distribution):
     def _problems(self) -> list[str]:
         e, c, s = self.edges, self.counts, self.slopes
         if not all(math.isfinite(v) for v in (*e, *c, *s)):
-            return [Problem("edges,", "counts and slopes must be finite numbers")]
+            return [
+                Problem("edges,", "counts and slopes must be finite numbers", code=Mistake.KIND)
+            ]
         out: list[str] = []
         if not len(e) - 1 == len(c) == len(s) or not c:
             out.append(
@@ -172,16 +179,23 @@ class PowerLaw(Distribution):
                     f"has {len(e)} edges, {len(c)} counts and {len(s)} slopes; "
                     "n sections have n + 1 edges",
                     owner=type(self).__name__,
+                    code=Mistake.SHAPE,
                 )
             )
         if any(b <= a for a, b in zip(e, e[1:], strict=False)) or (e and e[0] <= 0):
-            out.append(Problem("edges", "must increase and start above 0 [m]"))
+            out.append(Problem("edges", "must increase and start above 0 [m]", code=Mistake.ORDER))
         if any(v < 0 for v in c) or not any(v > 0 for v in c):
-            out.append(Problem("counts", "must be >= 0 with at least one above 0"))
+            out.append(
+                Problem("counts", "must be >= 0 with at least one above 0", code=Mistake.RANGE)
+            )
         if not out and any(
             abs(v) * math.log(b / a) > 500 for v, a, b in zip(s, e, e[1:], strict=False)
         ):
-            out.append(Problem("slopes", "are too steep for the width of their sections"))
+            out.append(
+                Problem(
+                    "slopes", "are too steep for the width of their sections", code=Mistake.BEYOND
+                )
+            )
         return out
 
     @property
@@ -295,12 +309,13 @@ class Mixture(Distribution):
                     f"has {len(self.parts)} parts and {len(self.weights)} weights; "
                     "give one weight for each part",
                     owner=type(self).__name__,
+                    code=Mistake.SHAPE,
                 )
             )
         if any(not isinstance(part, Distribution) for part in self.parts):
-            out.append(Problem("parts", "must all be size distributions"))
+            out.append(Problem("parts", "must all be size distributions", code=Mistake.KIND))
         if any(not (w > 0 and math.isfinite(w)) for w in self.weights):
-            out.append(Problem("weights", "must all be > 0"))
+            out.append(Problem("weights", "must all be > 0", code=Mistake.RANGE))
         return out
 
     @property

@@ -18,7 +18,7 @@ from typing import Any, Literal, TypeVar, get_origin
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem, WrongKind
+from ..errors import InvalidValue, Mistake, Problem, WrongKind
 
 __all__ = [
     "FAILURES",
@@ -90,7 +90,7 @@ def need_one(name: str, value: object, *options: str | int) -> None:
         known = (" or " if two else ", ").join(map(repr, options))
         shown = repr(value) if isinstance(value, str) else _short_text(value)
         rule = f"must be {'' if two else 'one of '}{known}"
-        raise InvalidValue(Problem(name, rule, shown))
+        raise InvalidValue(Problem(name, rule, shown, code=Mistake.OPTION))
 
 
 def only_one(**quantities: object) -> tuple[str, object]:
@@ -98,7 +98,9 @@ def only_one(**quantities: object) -> tuple[str, object]:
     given = {name: value for name, value in quantities.items() if value is not None}
     if len(given) != 1:
         names = ", ".join(given) or "none"
-        raise InvalidValue(f"give exactly one of {', '.join(quantities)}; got {names}")
+        raise InvalidValue(
+            f"give exactly one of {', '.join(quantities)}; got {names}", code=Mistake.MISSING
+        )
     return given.popitem()
 
 
@@ -120,7 +122,7 @@ def need_place(name: str, value: Any, count: int) -> None:
     if not whole or not -count <= value < count:
         values = "1 value" if count == 1 else f"{count} values"
         rule = f"must be a place in {values}: 0 to {count - 1}"
-        raise InvalidValue(Problem(name, rule, _short_text(value)))
+        raise InvalidValue(Problem(name, rule, _short_text(value), code=Mistake.RANGE))
 
 
 def need_positive(**values: Any) -> None:
@@ -138,7 +140,7 @@ def need_positive(**values: Any) -> None:
     thirdbody.errors.InvalidValue: R = -1e-06 must be finite and > 0
     """
     problems = [
-        Problem(name, "must be finite and > 0", _short_text(value))
+        Problem(name, "must be finite and > 0", _short_text(value), code=Mistake.RANGE)
         for name, value in values.items()
         if not np.all((np.asarray(value) > 0) & np.isfinite(value))
     ]
@@ -217,7 +219,9 @@ def misfits(
         for each in value if parameter.kind is parameter.VAR_POSITIONAL else [value]:
             if not _fits(node, each, space):
                 words = " or ".join(dict.fromkeys(_words(node, space)))
-                problems.append(Problem(name, f"must be {words}", _short_text(each)))
+                problems.append(
+                    Problem(name, f"must be {words}", _short_text(each), code=Mistake.KIND)
+                )
     return problems
 
 

@@ -24,7 +24,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from .arguments import FAILURES, refuse_misfits
 from .kinds import kind_needed, kind_of, registry, spelled
 from .uncertain import is_uncertain
@@ -165,11 +165,11 @@ def _convert(value: Any, unit: str) -> Any:
         try:
             return value.to(wanted or "dimensionless").magnitude
         except Exception:
-            raise InvalidValue(_why_not(value, unit)) from None
+            raise InvalidValue(_why_not(value, unit), code=Mistake.UNIT) from None
     try:
         given, found = (_magnitude(each) for each in (value, value.to(wanted or "dimensionless")))
     except Exception:
-        raise InvalidValue(_why_not(value, unit)) from None
+        raise InvalidValue(_why_not(value, unit), code=Mistake.UNIT) from None
     some = np.flatnonzero(np.isfinite(given) & (given != 0))
     factor = float(found.flat[some[0]] / given.flat[some[0]]) if len(some) else math.nan
     exact = _scale(given, factor)
@@ -199,7 +199,9 @@ def _factor(name: object, label: str, unit: str) -> float:
         return float(registry().convert(1.0, own or "dimensionless", wanted))
     except Exception:
         shown = f"{name or 'the array'} [{label}]"
-        raise InvalidValue(f"{shown} is {kind_of(own)}, but {kind_needed(unit)}") from None
+        raise InvalidValue(
+            f"{shown} is {kind_of(own)}, but {kind_needed(unit)}", code=Mistake.UNIT
+        ) from None
 
 
 def _why_not(value: Any, unit: str) -> str:
@@ -305,7 +307,7 @@ def huge_words(value: object) -> str:
     if type(value) is not int or value.bit_length() <= sys.float_info.max_exp:
         return ""
     digits = math.floor(math.log10(abs(value))) + 1  # of any size, as `math` takes its bits
-    return (
+    return Mistake.RANGE.clause(
         f"is a whole number of {digits} digits; it must be at most 1e40 in size; check its exponent"
     )
 
@@ -319,7 +321,7 @@ def masked_words(value: object) -> str:
     if not isinstance(value, np.ma.MaskedArray) or not (count := np.ma.count_masked(value)):
         return ""
     values = "value" if count == 1 else "values"
-    return (
+    return Mistake.KIND.clause(
         f"has {count} masked {values} of {value.size}; a masked value is no number: "
         "leave it out, by .compressed()"
     )
@@ -339,12 +341,13 @@ def _refuse_no_numbers(
             if isinstance(each, np.ndarray) and each.dtype.kind == "O":
                 some = list(each.flat)
             if why := next(filter(None, map(huge_words, some)), ""):
-                problems.append(f"{key} {why}")
+                problems.append(Problem(key, why))
                 continue
             if why := next(filter(None, map(masked_words, some)), ""):
-                problems.append(f"{key} {why}")
+                problems.append(Problem(key, why))
             elif units.get(key) is not None and any(map(_is_truth, some)):
-                problems.append(f"{key} = {each!r} must be a number, not a truth value")
+                rule = "must be a number, not a truth value"
+                problems.append(Problem(key, rule, repr(each), code=Mistake.KIND))
     if problems:
         raise InvalidValue(*problems)
 
@@ -360,7 +363,9 @@ def _need_contact(given: object) -> None:
         return
     shown = f"a {type(given).__name__}" if given is not None else "None"
     cause = "; of a study take study.contact" if hasattr(given, "contact") else ""
-    raise InvalidValue(f"contact = {shown} must be a Contact: surfaces and roughness{cause}")
+    raise InvalidValue(
+        f"contact = {shown} must be a Contact: surfaces and roughness{cause}", code=Mistake.KIND
+    )
 
 
 def _all_in_si(
@@ -403,12 +408,12 @@ def _argument_in_si(
         rule = "carries a unit, which is not understood here"
         hint = "give the number alone, lengths, pressures and all else in SI"
         shown = shown if len(shown) <= 60 else "[...]"
-        problems.append(Problem(name, rule, shown, hint=hint))
+        problems.append(Problem(name, rule, shown, hint=hint, code=Mistake.UNIT))
         return value
     try:
         return in_si(value, unit)
     except InvalidValue as error:
-        problems += [Problem(name, f"= {problem}") for problem in error.problems]
+        problems += [Problem(name, f"= {each}", code=each.code) for each in error.problems]
         return value
 
 

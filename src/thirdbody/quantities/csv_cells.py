@@ -6,7 +6,7 @@ import csv
 import re
 from pathlib import Path
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from .files import read_bytes
 
 __all__ = ["numbered_cells"]
@@ -35,36 +35,48 @@ def numbered_cells(path: Path, what: str, *, most: int) -> list[tuple[int, list[
     try:
         text = read_bytes(path, what).decode("utf-8-sig")
     except FileNotFoundError:
-        raise InvalidValue(f"cannot read {path}: there is no such file") from None
+        raise InvalidValue(
+            f"cannot read {path}: there is no such file", code=Mistake.UNREADABLE
+        ) from None
     except IsADirectoryError:
-        raise InvalidValue(f"cannot read {path}: it is a folder, not a CSV file") from None
+        raise InvalidValue(
+            f"cannot read {path}: it is a folder, not a CSV file", code=Mistake.UNREADABLE
+        ) from None
     except UnicodeDecodeError:
         raise InvalidValue(
-            f"cannot read {path}: it is not UTF-8 text; save the sheet as CSV UTF-8"
+            f"cannot read {path}: it is not UTF-8 text; save the sheet as CSV UTF-8",
+            code=Mistake.UNREADABLE,
         ) from None
     except InvalidValue:
         raise
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
-        raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
+        raise InvalidValue(f"cannot read {path}: {why.lower()}", code=Mistake.UNREADABLE) from None
     if "\0" in text:
-        raise InvalidValue(f"cannot read {path}: it is not text; save the sheet as CSV UTF-8")
+        raise InvalidValue(
+            f"cannot read {path}: it is not text; save the sheet as CSV UTF-8",
+            code=Mistake.UNREADABLE,
+        )
     kept = [
         (number, line)
         for number, line in enumerate(text.splitlines(), 1)
         if line.strip(" ,;\t") and not line.lstrip().startswith("#")
     ]
     if not kept:
-        raise InvalidValue(f"{path} is empty; its first line must name the columns")
+        raise InvalidValue(
+            f"{path} is empty; its first line must name the columns", code=Mistake.EMPTY
+        )
     if len(kept) > most:
-        raise InvalidValue(f"{path} has {len(kept)} lines; {what} has at most {most}")
+        raise InvalidValue(
+            f"{path} has {len(kept)} lines; {what} has at most {most}", code=Mistake.TOO_LARGE
+        )
     parted = next((mark for mark in ";\t," if mark in kept[0][1]), ",")
     out: list[tuple[int, list[str]]] = []
     for number, line in kept:
         try:
             cells = next(csv.reader([line], delimiter=parted, skipinitialspace=True))
         except csv.Error as error:
-            raise InvalidValue(f"{path}, line {number}: {error}") from None
+            raise InvalidValue(f"{path}, line {number}: {error}", code=Mistake.FORM) from None
         cells = [cell.strip() for cell in cells]
         while len(cells) > 1 and not cells[-1]:
             cells.pop()

@@ -17,7 +17,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 
 __all__ = [
     "csv_of",
@@ -69,12 +73,15 @@ def read_bytes(path: str | os.PathLike[str], what: str, *, most: int = MOST_BYTE
     """
     mode = os.stat(path).st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISFIFO(mode) or stat.S_ISDIR(mode)):
-        raise InvalidValue(f"cannot read {path}: it is a device, not {what}")
+        raise InvalidValue(
+            f"cannot read {path}: it is a device, not {what}", code=Mistake.UNREADABLE
+        )
     with open(path, "rb") as file:
         found = file.read(most + 1)
     if len(found) > most:
         raise InvalidValue(
-            f"cannot read {path}: it is longer than {most // 2**20} MiB, which {what} never is"
+            f"cannot read {path}: it is longer than {most // 2**20} MiB, which {what} never is",
+            code=Mistake.UNREADABLE,
         )
     return found
 
@@ -116,7 +123,9 @@ def whole(path: str | os.PathLike[str], *, tidy: bool = True) -> Iterator[Path]:
     """
     target = Path(os.path.realpath(path))
     if target.is_dir():
-        raise InvalidValue(f"cannot write {path}: it is a folder; give the name of a file")
+        raise InvalidValue(
+            f"cannot write {path}: it is a folder; give the name of a file", code=Mistake.UNWRITABLE
+        )
     if os.path.exists(path) and not os.path.isfile(path):
         yield Path(path)
         return
@@ -127,7 +136,9 @@ def whole(path: str | os.PathLike[str], *, tidy: bool = True) -> Iterator[Path]:
         try:
             draft.touch(exist_ok=False)
         except OSError as error:
-            raise InvalidValue(f"cannot write {path}: {_why(error, target)}") from None
+            raise InvalidValue(
+                f"cannot write {path}: {_why(error, target)}", code=Mistake.UNWRITABLE
+            ) from None
         with refused_by_disk(path, draft):
             yield draft
             with draft.open("rb+") as written:
@@ -163,7 +174,9 @@ def refused_by_disk(
         )
         if not ours:
             raise
-        raise InvalidValue(f"cannot write {path}: {_why(error, Path(path))}") from None
+        raise InvalidValue(
+            f"cannot write {path}: {_why(error, Path(path))}", code=Mistake.UNWRITABLE
+        ) from None
 
 
 def _draft(target: Path) -> Path:
@@ -242,7 +255,8 @@ def remove_files(place: Path, names: re.Pattern[str]) -> None:
     if strange:
         shown = ", ".join(str(each) for each in sorted(strange)[:3])
         raise InvalidValue(
-            f"{place} has to go, and holds what this run did not make ({shown}); move that away"
+            f"{place} has to go, and holds what this run did not make ({shown}); move that away",
+            code=Mistake.UNWRITABLE,
         )
     for each in files:
         each.unlink(missing_ok=True)
@@ -262,7 +276,9 @@ def make_folder(path: str | os.PathLike[str]) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InvalidValue(f"cannot make the folder {folder}: {error.strerror}") from None
+        raise InvalidValue(
+            f"cannot make the folder {folder}: {error.strerror}", code=Mistake.UNWRITABLE
+        ) from None
     return folder
 
 
@@ -283,7 +299,13 @@ def refuse_clashes(
             continue  # two may write to a terminal or a pipe
         place = os.path.realpath(path)
         if place in taken:
-            problems.append(f"cannot write {path}: {taken[place]}; give another name")
+            problems.append(
+                Problem(
+                    "",
+                    f"cannot write {path}: {taken[place]}; give another name",
+                    code=Mistake.UNWRITABLE,
+                )
+            )
         taken.setdefault(place, "another file of that name is written")
     if problems:
         raise InvalidValue(*problems)

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..quantities.carried import takes_units
 
 __all__ = ["convert", "pressure", "tables"]
@@ -53,7 +53,10 @@ def tables() -> dict[str, dict[str, Any]]:
 def _columns(table: str, start: str, end: str) -> tuple[np.ndarray, np.ndarray]:
     """The rows of a table in which both scales stand."""
     if table not in tables():
-        raise InvalidValue(f"table = {table!r} must be one of {', '.join(map(repr, tables()))}")
+        raise InvalidValue(
+            f"table = {table!r} must be one of {', '.join(map(repr, tables()))}",
+            code=Mistake.OPTION,
+        )
     rows = np.array(tables()[table]["rows"], dtype=float)
     x, y = (rows[:, _COLUMNS.index(scale)] for scale in (start, end))
     both = np.isfinite(x) & np.isfinite(y)
@@ -67,7 +70,8 @@ def _by_table(value: float, start: str, end: str, table: str) -> float:
     if not x[0] <= value <= x[-1]:
         raise InvalidValue(
             f"{value:g} {start} has no {end} in {tables()[table]['source'].partition(' (')[0]}, "
-            f"which goes from {x[0]:g} to {x[-1]:g} {start} there; give a Vickers number or GPa"
+            f"which goes from {x[0]:g} to {x[-1]:g} {start} there; give a Vickers number or GPa",
+            code=Mistake.BEYOND,
         )
     return float(np.interp(value, x, y))
 
@@ -80,13 +84,15 @@ def _scales_text(scale: str, allowed: tuple[str, ...]) -> str:
             if scale == "HK"
             else ""
         )
-        raise InvalidValue(f"scale {scale!r} must be one of {', '.join(allowed)}{hint}")
+        raise InvalidValue(
+            f"scale {scale!r} must be one of {', '.join(allowed)}{hint}", code=Mistake.OPTION
+        )
     return scale
 
 
 def _positive(value: float, scale: str) -> float:
     if not (math.isfinite(value) and value > 0):
-        raise InvalidValue(f"{value:g} {scale} must be a finite number > 0")
+        raise InvalidValue(f"{value:g} {scale} must be a finite number > 0", code=Mistake.RANGE)
     return float(value)
 
 

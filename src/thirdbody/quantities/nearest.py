@@ -4,8 +4,27 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Iterable
+from typing import Self
 
-__all__ = ["guess", "near", "near_path"]
+__all__ = ["Guess", "guess", "near", "near_path"]
+
+
+class Guess(str):
+    """A hint that asks for the name that was probably meant, which it keeps.
+
+    >>> guess("sigm", ["R", "sigma"]).meant, guess("x", ["R", "sigma"]).meant
+    ('sigma', None)
+    """
+
+    meant: str | None
+
+    def __new__(cls, text: str, meant: str | None) -> Self:
+        self = super().__new__(cls, text)
+        self.meant = meant
+        return self
+
+    def __reduce__(self) -> tuple[type[Guess], tuple[str, str | None]]:
+        return type(self), (str(self), self.meant)
 
 
 def near(word: str, options: Iterable[str], *, cutoff: float = 0.6) -> str | None:
@@ -54,7 +73,7 @@ def guess(
     show: Callable[[str], str] = str,
     otherwise: str | None = "known here: ",
     cutoff: float = 0.6,
-) -> str:
+) -> Guess:
     """The option that was probably meant, as a question; else all of them after ``otherwise``.
 
     >>> guess("sigm", ["R", "sigma"]), guess("x", ["R", "sigma"], otherwise="it has ")
@@ -62,5 +81,5 @@ def guess(
     """
     options = list(options)
     if meant := meant or near(word, options, cutoff=cutoff):
-        return f"did you mean {show(meant)}?"
-    return "" if otherwise is None else f"{otherwise}{', '.join(options)}"
+        return Guess(f"did you mean {show(meant)}?", meant)
+    return Guess("" if otherwise is None else f"{otherwise}{', '.join(options)}", None)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from . import notebook
 from .arguments import names_arguments
 from .plain_data import plain_data
@@ -105,7 +105,9 @@ class StateRecord(Record):
         """Symbol, unit and meaning of a column."""
         known = declared_columns(type(self))
         if name not in known:
-            raise InvalidValue(f"name = {name!r} must be one of {', '.join(known)}")
+            raise InvalidValue(
+                f"name = {name!r} must be one of {', '.join(known)}", code=Mistake.OPTION
+            )
         return known[name]
 
     def columns(self) -> dict[str, NDArray[Any]]:

@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import Advice, InvalidValue
+from ..errors import Advice, InvalidValue, Mistake
 from .files import is_draft, make_folder, write_text
 
 __all__ = [
@@ -157,7 +157,9 @@ def claim_folder(
     """
     place = Path(path)
     if place.exists() and not place.is_dir():
-        raise InvalidValue(f"{place} must be a folder, and a file of that name exists")
+        raise InvalidValue(
+            f"{place} must be a folder, and a file of that name exists", code=Mistake.UNWRITABLE
+        )
     record = read_record(place / MARK, ())
     found: Mapping[str, Any] | None = None if record is None else record.data
     if found is None and place.exists():
@@ -169,7 +171,8 @@ def claim_folder(
         if strange:
             raise InvalidValue(
                 f"{place} holds files that are not of thirdbody {study['command']} "
-                f"({', '.join(strange[:3])}); give a new or an empty folder"
+                f"({', '.join(strange[:3])}); give a new or an empty folder",
+                code=Mistake.UNWRITABLE,
             )
     if found is not None:
         asked = {key: study.get(key) for key in found} if record is None else dict(study)
@@ -215,7 +218,8 @@ def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
         raise InvalidValue(
             f"{folder} holds {', '.join(there)} of another study, or of another program; "
             "give another folder, remove what is not needed, or replace it "
-            + Advice("(--force, in Python force=True)", "(--force)")
+            + Advice("(--force, in Python force=True)", "(--force)"),
+            code=Mistake.OTHER_STUDY,
         )
 
 
@@ -252,7 +256,9 @@ def refuse_another(
         return
     shown = "; ".join(f"{key} is {_say(a)} there and {_say(b)} here" for key, a, b in differ[:3])
     more = f"; and {len(differ) - 3} more" if len(differ) > 3 else ""
-    raise InvalidValue(f"{place} holds another study: {shown}{more}; give another folder")
+    raise InvalidValue(
+        f"{place} holds another study: {shown}{more}; give another folder", code=Mistake.OTHER_STUDY
+    )
 
 
 def differences(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, tuple[Any, Any]]:

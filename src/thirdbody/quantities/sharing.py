@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..errors import InvalidValue, ThirdBodyError
+from ..errors import InvalidValue, Mistake, ThirdBodyError
 from ..version import __version__
 
 if TYPE_CHECKING:
@@ -64,7 +64,8 @@ def need_version(asked: str, what: str) -> None:
     if asked != __version__:
         raise InvalidValue(
             f"this worker runs thirdbody {__version__} and the {what} needs {asked}; "
-            "install the same version everywhere"
+            "install the same version everywhere",
+            code=Mistake.OTHER_STUDY,
         )
 
 
@@ -83,7 +84,8 @@ def connected(address: str, *, timeout: float | None = None) -> Client:
         from distributed.comm import resolve_address
     except ImportError:
         raise InvalidValue(
-            "a Dask cluster needs the package distributed: pip install 'thirdbody[cluster]'"
+            "a Dask cluster needs the package distributed: pip install 'thirdbody[cluster]'",
+            code=Mistake.ABSENT,
         ) from None
     seconds = timeout or TIMEOUT
     try:
@@ -95,7 +97,8 @@ def connected(address: str, *, timeout: float | None = None) -> Client:
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InvalidValue(
             f"no Dask scheduler answers at {address} ({why}); start one with `dask scheduler` and "
-            "give the address that it prints"
+            "give the address that it prints",
+            code=Mistake.ABSENT,
         ) from None
 
 

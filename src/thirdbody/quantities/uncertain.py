@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 
 __all__ = ["HELD", "are_correlated", "is_uncertain", "shifted", "uncertain_number"]
 
-HELD = (
+HELD = Mistake.KIND.clause(
     "has an uncertainty, which is not held here; give its nominal_value, and the number itself in "
     "vary of propagate or assess"
 )
@@ -45,7 +45,8 @@ def uncertain_number(value: float, std: float) -> Any:
         from uncertainties import ufloat
     except ImportError:
         raise InvalidValue(
-            "numbers with an uncertainty need uncertainties; pip install 'thirdbody[uncertainty]'"
+            "numbers with an uncertainty need uncertainties; pip install 'thirdbody[uncertainty]'",
+            code=Mistake.ABSENT,
         ) from None
     return ufloat(value, std)
 

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any, NoReturn, NotRequired, TypedDict
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
 from .nearest import near
 
@@ -146,15 +146,17 @@ def to_si(value: object, unit: str) -> float:
             return _one(in_si(value, unit), unit)
         if hasattr(value, "__float__") and not isinstance(value, bool):  # numpy's numbers
             return _one(value, unit)
-        return _refuse(f"{say(value)} must be {_need_text(unit)}")
+        return _refuse(f"{say(value)} must be {_need_text(unit)}", Mistake.KIND)
     text = value.strip()
     shown = say(value)
     number = _NUMBER.match(text)
     if number is None:
-        return _refuse(f"{shown} has no number in front; it must be {_need_text(unit)}")
+        return _refuse(
+            f"{shown} has no number in front; it must be {_need_text(unit)}", Mistake.KIND
+        )
     rest = text[number.end() :].strip()
     if re.match(r",\d", rest):
-        return _refuse(_about_comma(text, shown))
+        return _refuse(_about_comma(text, shown), Mistake.FORM)
     if not rest:
         return float(number.group())
     power = _POWERS.get(unit, {}).get(rest)
@@ -231,18 +233,18 @@ def quantity_to_si(value: object, about: Meant) -> float:
     try:
         return pressure(number, match["scale"])
     except InvalidValue as error:
-        return _refuse(f"{say(value)} cannot be used: {error}")
+        return _refuse(f"{say(value)} cannot be used: {error}", error.code)
 
 
 def _one(value: Any, unit: str) -> float:
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        return _refuse(f"{say(value)} must be {_need_text(unit)}")
+        return _refuse(f"{say(value)} must be {_need_text(unit)}", Mistake.KIND)
 
 
-def _refuse(sentence: str) -> NoReturn:
-    raise InvalidValue(sentence)
+def _refuse(sentence: str, code: Mistake = Mistake.UNIT) -> NoReturn:
+    raise InvalidValue(sentence, code=code)
 
 
 def say(value: object) -> str:
@@ -265,7 +267,9 @@ def not_among(key: str, value: object, allowed: Iterable[str]) -> Problem:
     >>> not_among("limit", "rough", ("coarse", "fine"))
     'limit = "rough" must be one of "coarse", "fine"'
     """
-    return Problem(key, f"must be one of {', '.join(map(say, allowed))}", say(value))
+    return Problem(
+        key, f"must be one of {', '.join(map(say, allowed))}", say(value), code=Mistake.OPTION
+    )
 
 
 def _need_text(unit: str) -> str:

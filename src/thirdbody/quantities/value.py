@@ -19,7 +19,7 @@ from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict, get_args
 
-from ..errors import InvalidValue, NotCompiled, Note, Problem, tell_of_range
+from ..errors import Clause, InvalidValue, Mistake, NotCompiled, Note, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
@@ -118,11 +118,13 @@ def allowed_range(about: Range) -> str:
     return f"{text}{unit}"
 
 
-def problem_with(about: Range, value: Any) -> str | None:
+def problem_with(about: Range, value: Any) -> Clause | None:
     """Why ``value`` cannot stand for this quantity, or None when it can."""
     if type(value) not in (float, int):
         if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
-            return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+            return Mistake.KIND.clause(
+                f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+            )
         if is_uncertain(value):
             return HELD
     try:
@@ -130,7 +132,7 @@ def problem_with(about: Range, value: Any) -> str | None:
     except OverflowError:
         number = math.inf
     except (TypeError, ValueError):
-        return f"must be one number in SI units [{about['unit']}]"
+        return Mistake.KIND.clause(f"must be one number in SI units [{about['unit']}]")
     outside = (
         not math.isfinite(number)
         or (about["gt"] is not None and not number > about["gt"])
@@ -139,7 +141,8 @@ def problem_with(about: Range, value: Any) -> str | None:
         or (about["le"] is not None and not number <= about["le"])
     )
     if outside:
-        return f"must be {allowed_range(about)}" + ("; " + about["hint"] if about["hint"] else "")
+        hint = "; " + about["hint"] if about["hint"] else ""
+        return Mistake.RANGE.clause(f"must be {allowed_range(about)}" + hint)
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 
@@ -148,16 +151,18 @@ SMALLEST, LARGEST = 1e-40, 1e40
 what a double holds, and nothing measured is beyond them."""
 
 
-def why_extreme(number: float, unit: str, *, positive: bool) -> str | None:
+def why_extreme(number: float, unit: str, *, positive: bool) -> Clause | None:
     """Why a number is too small or too large to compute with, or None where it is not.
 
     Only what must be positive is divided by: a number that may be 0 may be as small as it likes.
     """
     shown = "" if unit == "1" else f" [{unit}]"
     if abs(number) > LARGEST:
-        return f"must be at most {LARGEST:g}{shown} in size; check its exponent"
+        return Mistake.RANGE.clause(
+            f"must be at most {LARGEST:g}{shown} in size; check its exponent"
+        )
     if positive and number < SMALLEST:
-        return f"must be at least {SMALLEST:g}{shown}; check its exponent"
+        return Mistake.RANGE.clause(f"must be at least {SMALLEST:g}{shown}; check its exponent")
     return None
 
 
@@ -302,7 +307,9 @@ class Value:
                 if not (why := problem_with(about, value)):
                     object.__setattr__(self, name, float(value))
             elif words and not (isinstance(value, str) and value in words["options"]):
-                why = f"must be one of {', '.join(map(repr, words['options']))}"
+                why = Mistake.OPTION.clause(
+                    f"must be one of {', '.join(map(repr, words['options']))}"
+                )
             if why:
                 shown = " ".join(repr(value).split())
                 shown = shown if len(shown) <= 100 else shown[:96] + " ..."
@@ -371,7 +378,7 @@ class Value:
             elif isinstance(where, Value) and hasattr(where, step):
                 where = getattr(where, step)
             else:
-                raise InvalidValue(f"{type(self).__name__} has no {path!r}")
+                raise InvalidValue(f"{type(self).__name__} has no {path!r}", code=Mistake.UNKNOWN)
         return where
 
     @names_arguments
@@ -438,7 +445,9 @@ class Value:
         """The inverse of `to_dict`."""
         kind = data.get("type")
         if kind not in Value._classes:
-            raise InvalidValue(f"type = {kind!r} is not a class of this library")
+            raise InvalidValue(
+                f"type = {kind!r} is not a class of this library", code=Mistake.UNKNOWN
+            )
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
 
 
@@ -473,7 +482,9 @@ def _taker(member: object) -> Any:
 
 def _no_field(value: Value, name: str, names: Iterable[str]) -> Problem:
     hint = guess(name, sorted(names), show=repr, otherwise="it has ")
-    return Problem("", f"has no field {name!r}", hint=hint, owner=type(value).__name__)
+    return Problem(
+        "", f"has no field {name!r}", hint=hint, owner=type(value).__name__, code=Mistake.UNKNOWN
+    )
 
 
 def paths_of(value: Value, prefix: str = "") -> Iterator[str]:
@@ -494,15 +505,18 @@ def _without_unit(kind: type[Value], name: str, value: object) -> tuple[Any, str
     about = item.metadata.get("quantity") or item.metadata.get("several")
     try:
         if about is None:
-            raise InvalidValue(f"{value} carries a unit, which is not understood here")
+            raise InvalidValue(
+                f"{value} carries a unit, which is not understood here", code=Mistake.UNIT
+            )
         if about["unit"] == "K" and "delta_" in str(getattr(value, "units", "")):
             raise InvalidValue(
                 f"{value} is a difference of temperatures, but a temperature [K] is needed; give "
-                "the temperature itself, in K or degC"
+                "the temperature itself, in K or degC",
+                code=Mistake.KIND,
             )
         return in_si(value, about["unit"]), ""
     except InvalidValue as error:
-        return value, Problem(name, f"= {error}", owner=kind.__name__)
+        return value, Problem(name, f"= {error}", owner=kind.__name__, code=error.code)
 
 
 def items_of(given: Any) -> tuple[Any, ...]:
@@ -539,7 +553,7 @@ def sequences(value: Value, *names: str) -> None:
             object.__setattr__(value, name, tuple(float(item) for item in given))
         except (TypeError, ValueError, OverflowError):
             rule, owner = "must be a sequence of numbers", type(value).__name__
-            problems.append(Problem(name, rule, repr(given), owner=owner))
+            problems.append(Problem(name, rule, repr(given), owner=owner, code=Mistake.KIND))
             continue
         unit = type(value).__dataclass_fields__[name].metadata["several"]["unit"]  # type: ignore[attr-defined]
         for i, number in enumerate(getattr(value, name)):
@@ -588,7 +602,7 @@ def _replace_at(where: str, part: object, changes: Mapping[str, object]) -> Any:
     if isinstance(part, Value):
         return part.replace(**changes)
     if not isinstance(part, tuple):
-        raise InvalidValue(f"{where} has no fields of its own")
+        raise InvalidValue(f"{where} has no fields of its own", code=Mistake.MISSING)
     items = list(part)
     inner: dict[int, dict[str, Any]] = {}
     for key, value in changes.items():
@@ -608,7 +622,8 @@ def _index(where: str, items: Sequence[object], which: str) -> int:
         return names.index(which)
     known = ", ".join([*map(str, range(len(items))), *filter(None, names)]) or "none"
     raise InvalidValue(
-        f"{where} holds {len(items)} values and no {which!r}; name one by place or name: {known}"
+        f"{where} holds {len(items)} values and no {which!r}; name one by place or name: {known}",
+        code=Mistake.UNKNOWN,
     )
 
 

@@ -15,7 +15,7 @@ from ..analysis.assessments import Assessments
 from ..analysis.uncertainty.samples import costly
 from ..equilibrium.modes import FAINT
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, Mistake, NoEquilibrium, RangeWarning
 from ..numerics.sampling import Span
 from ..quantities.progress import stages
 from ..quantities.say import value_of
@@ -199,7 +199,8 @@ def arguments(study: Study) -> dict[str, Any]:
         raise InvalidValue(
             "the study has no table [design]: it says what may be chosen and what is good, e.g. "
             '[design] objective = { of = "A_t" }, [design.vary] "roughness.sigma" = '
-            '{ low = "50 nm", high = "200 nm" }; or [life.design], of an oil'
+            '{ low = "50 nm", high = "200 nm" }; or [life.design], of an oil',
+            code=Mistake.MISSING,
         )
     given = dict(study.design)
     if given.pop("scatter", False) and study.uncertainty is not None:
@@ -207,7 +208,9 @@ def arguments(study: Study) -> dict[str, Any]:
     names = [name for name in ("F_star", "pressure") if name in given]
     if not names:
         if study.load == "separation":
-            raise InvalidValue("design needs a load: [load] gives a separation")
+            raise InvalidValue(
+                "design needs a load: [load] gives a separation", code=Mistake.BEYOND
+            )
         given[study.load] = study.values
     for name in names:
         if is_span(given[name]):

@@ -6,7 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..laws.asperity import OwnSpectrum, RollOff
 from ..populations.ellipticity import FACES, Ellipticity
 from ..populations.heights import Heights
@@ -47,7 +51,7 @@ def _heights_of_word(reader: Reader, path: str, value: object) -> Heights:
     if needed := needed_fields(HEIGHTS[name]):
         shown = ", ".join(f"{field} = ..." for field in needed)
         rule = f"is missing {', '.join(needed)}: write it as a table, "
-        raise wrong(path, f"{rule}{{ name = {say(name)}, {shown} }}", name)
+        raise wrong(path, f"{rule}{{ name = {say(name)}, {shown} }}", name, code=Mistake.MISSING)
     return _made_heights(reader, path, {"name": name})
 
 
@@ -82,11 +86,17 @@ def _ellipticity(reader: Reader, path: str, data: Any) -> object:
     if "ratios" in given or not {"first", "second", "angle"} & given.keys():
         keys = dict(keys_of(Ellipticity))
         keys["ratios"] = keys["ratios"]._replace(about="e.g. ratios = [1, 2, 5]")
-        keys |= {key: refused(SECOND_SHAPE) for key in (*FACE_KEYS, "angle") if key in given}
+        keys |= {
+            key: refused(SECOND_SHAPE, Mistake.CLASH)
+            for key in (*FACE_KEYS, "angle")
+            if key in given
+        }
         return reader.table(path, data, keys, lambda values: reader.make(Ellipticity, path, values))
     if len(set(RADII) & given.keys()) == 1:
         rule = "has the radius of one face only; give both R_first and R_second, or "
-        reader.mistakes.append(Problem(path, f"{rule}neither where they are equal"))
+        reader.mistakes.append(
+            Problem(path, f"{rule}neither where they are equal", code=Mistake.MISSING)
+        )
 
     def build(values: dict[str, Any]) -> Ellipticity:
         try:
@@ -108,7 +118,7 @@ def _angle(reader: Reader, path: str, value: object) -> object:
         return read_number(FACES["angle"], reader, path, value)
     except InvalidValue:
         rule = 'must be an angle from 0 to 90 degrees, e.g. "30 deg" (a number is in rad)'
-        raise wrong(path, f'{rule}, or "random"', value) from None
+        raise wrong(path, f'{rule}, or "random"', value, code=Mistake.KIND) from None
 
 
 FACE_KEYS = {
@@ -116,7 +126,7 @@ FACE_KEYS = {
     for key in (*RATIOS, *RADII)
 }
 ANGLE = Key(_angle, True, 'angle = "30 deg", or angle = "random"', {"type": ["number", "string"]})
-ELLIPTICITY = refused(NO_SHAPE)._replace(
+ELLIPTICITY = refused(NO_SHAPE, Mistake.KIND)._replace(
     about="shapes of elliptic asperities", table=_ellipticity, also=({"first": 1},)
 )
 FIELDS["Ellipticity | None"] = ELLIPTICITY
@@ -127,17 +137,21 @@ def _measured_spectrum(reader: Reader, path: str, value: object) -> OwnSpectrum 
     """The waves of the topography, for the law of one field."""
     if value != "measured":
         rule = 'must be "measured", for the waves of the topography in [roughness], or a table'
-        raise wrong(path, f'{rule}, e.g. {{ hurst = 0.7, corner = "sharp" }}', value)
+        raise wrong(
+            path, f'{rule}, e.g. {{ hurst = 0.7, corner = "sharp" }}', value, code=Mistake.KIND
+        )
     if get(reader.whole.get("roughness"), "topography") is None:
         rule = "goes with a topography in [roughness]; for σ, R and alpha leave it out, or give "
-        raise wrong(path, f"{rule}{{ hurst = 0.7 }}", value)
+        raise wrong(path, f"{rule}{{ hurst = 0.7 }}", value, code=Mistake.IDLE)
     if not reader.faces:
         return None  # what is wrong with the topography is told there
     try:
         one, *others = reader.faces
         return OwnSpectrum.of_both(one, others[0]) if others else OwnSpectrum.of(one)
     except InvalidValue as error:
-        raise InvalidValue(*(Problem(path, f": {told}") for told in error.problems)) from None
+        raise InvalidValue(
+            *(Problem(path, f": {told}", code=told.code) for told in error.problems)
+        ) from None
 
 
 FIELDS["OwnSpectrum | RollOff | None"] = table_of(RollOff, "waves of the roughness")._replace(

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..laws.particle.series import Series
 from ..quantities.value import quantity
 from ..systems.connector import Connector
@@ -85,7 +85,8 @@ def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
         raise InvalidValue(
             "a connector without dust always closes: add a table [particles], e.g. "
             'material = "quartz", distribution = "log-normal", median = "8 um", gsd = 1.6, '
-            'areal_density = "1e6 / m^2"'
+            'areal_density = "1e6 / m^2"',
+            code=Mistake.BEYOND,
         )
     law = values.get("particle_law", Series())
     whole = given | {"surfaces": values["surfaces"], "particles": dust, "law": law}

@@ -9,7 +9,7 @@ from typing import Any
 from ..analysis.design.problem import Limit, Objective, Suspension
 from ..analysis.design.search import AMOUNT
 from ..equilibrium.columns import about
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.measured import cleanliness
 from ..quantities.nearest import guess
 from ..quantities.units import say, to_si
@@ -47,10 +47,10 @@ def _design(reader: Reader, path: str, data: Any) -> object:
     """The task of [design]: variables, objectives, limits."""
     if all(get(data, name) is not None for name in ("F_star", "pressure")):
         rule = f"and {path}.pressure: only one of these can be given"
-        reader.mistakes.append(Problem(f"{path}.F_star", rule))
+        reader.mistakes.append(Problem(f"{path}.F_star", rule, code=Mistake.CLASH))
     if get(data, "scatter") is True and "uncertainty" not in reader.whole:
         rule = "= true needs a table [uncertainty]: what scatters"
-        reader.mistakes.append(Problem(f"{path}.scatter", rule))
+        reader.mistakes.append(Problem(f"{path}.scatter", rule, code=Mistake.MISSING))
     fluid = _fluid(reader)
     more = {} if fluid is None else {"suspension": fluid}
     return reader.table(path, data, KEYS, lambda values: values | more)
@@ -62,7 +62,7 @@ def _vary(reader: Reader, path: str, given: object) -> dict[str, object]:
     if not isinstance(given, dict) or not given:
         rule = "must be a table, e.g. "
         rule += '{ "particles.mean+particles.std" = { low = "50 nm", high = "1 um" } }'
-        raise wrong(path, rule, given)
+        raise wrong(path, rule, given, code=Mistake.KIND)
     flat = _flat(given).items()
     return dict(
         reader.read_each(
@@ -78,16 +78,21 @@ def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, o
         items = {f"{where}.{i}": each for i, each in enumerate(entry)}
         return label, list(reader.read_each(items, MATERIAL.read_any))
     if not (isinstance(entry, dict) and set(entry) == {"low", "high"}):
-        raise wrong(where, "must be { low = ..., high = ... }, or a list of materials", entry)
+        raise wrong(
+            where,
+            "must be { low = ..., high = ... }, or a list of materials",
+            entry,
+            code=Mistake.RANGE,
+        )
     if label == AMOUNT:
         if get(reader.whole.get("particles"), "concentration") is None:
             rule = ": [particles] gives no concentration; write there concentration and gap"
-            raise InvalidValue(Problem(where, rule))
+            raise InvalidValue(Problem(where, rule, code=Mistake.MISSING))
         ends = [_amount(f"{where}.{end}", entry[end]) for end in ("low", "high")]
         own = _amount("particles.concentration", reader.whole["particles"]["concentration"])
         if {each.by for each in ends} != {own.by}:
             rule = f"must be by {own.by}, like particles.concentration"
-            raise InvalidValue(Problem(where, rule))
+            raise InvalidValue(Problem(where, rule, code=Mistake.KIND))
         return label, tuple(each.amount for each in ends)
     inputs = inputs_of(reader.whole)
     found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
@@ -101,7 +106,7 @@ def _amount(where: str, value: Any) -> cleanliness.Concentration:
     try:
         return cleanliness.concentration(value)
     except InvalidValue as error:
-        raise InvalidValue(Problem(where, f"= {error}")) from None
+        raise InvalidValue(Problem(where, f"= {error}", code=error.code)) from None
 
 
 def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, object]:
@@ -150,7 +155,7 @@ def _several(
 def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: object) -> Any:
     example = EXAMPLE if kind is Objective else '{ of = "plastic_share", most = 0.3 }'
     if not isinstance(entry, dict) or not isinstance(entry.get("of"), str):
-        raise wrong(where, f"must be a table such as {example}", entry)
+        raise wrong(where, f"must be a table such as {example}", entry, code=Mistake.KIND)
     own = ("low", "high", "k", "tail", *WORDS) if kind is Objective else ("most", "least", "share")
 
     def one(reader: Reader, path: str, key: str) -> tuple[str, Any]:
@@ -158,7 +163,7 @@ def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry:
             return key, entry["of"]
         if key not in own:
             hint = guess(key, ("of", *own))
-            raise InvalidValue(Problem(path, "is not a known key", hint=hint))
+            raise InvalidValue(Problem(path, "is not a known key", hint=hint, code=Mistake.UNKNOWN))
         if key in WORDS:
             return key, read_word(WORDS[key], reader, path, entry[key])
         unit = "1" if key in ("k", "tail", "share") else _unit(entry["of"])
@@ -183,7 +188,7 @@ def _in_si(where: str, value: object, unit: str) -> float:
     try:
         return float(to_si(value, unit))
     except InvalidValue as error:
-        raise InvalidValue(Problem(where, f"= {error}")) from None
+        raise InvalidValue(Problem(where, f"= {error}", code=error.code)) from None
 
 
 KEYS = {

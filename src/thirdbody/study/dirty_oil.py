@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, Mistake, NoEquilibrium, RangeWarning
 from ..populations.distributions import Mixture
 from ..populations.measured.cleanliness import iso4406_of
 from ..quantities.record import Record
@@ -136,7 +136,9 @@ def need_particles(study: Study) -> None:
     """Refuse a filter where it has nothing to hold."""
     if study.film is None or study.contact.two_body:
         lacks = "[film]" if study.film is None else "[particles]"
-        raise InvalidValue(f"--filter has nothing to hold: the study has no table {lacks}")
+        raise InvalidValue(
+            f"--filter has nothing to hold: the study has no table {lacks}", code=Mistake.MISSING
+        )
 
 
 def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..errors import Mistake
 from ..quantities.value import quantity
 from .fields import about_of
 from .reader import (
@@ -46,7 +47,12 @@ def _cap(reader: Reader, path: str, value: object) -> str | float:
     if isinstance(value, str) and value in CAPS:
         return value
     if isinstance(value, str) and not any(letter.isdigit() for letter in value):
-        raise wrong(path, 'must be "hardness", "none", or a pressure such as "5 GPa"', value)
+        raise wrong(
+            path,
+            'must be "hardness", "none", or a pressure such as "5 GPa"',
+            value,
+            code=Mistake.RANGE,
+        )
     return read_number(CAP, reader, path, value)
 
 

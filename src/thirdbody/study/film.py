@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
@@ -86,13 +86,16 @@ def on_body(
         missing.remove("speed")
         turns = [name for name in ("shaft_speed", "speed") if hasattr(bodies, name)]
         rule = "is missing" + "".join(f", or body.{name}" for name in turns)
-        problems.append(Problem("film.speed", f"{rule}: {_keys()['speed'].about}"))
+        problems.append(
+            Problem("film.speed", f"{rule}: {_keys()['speed'].about}", code=Mistake.MISSING)
+        )
     if missing:
         problems.append(
             Problem(
                 "",
                 f"film has no {' and '.join(missing)}, and takes them from [body] only where its "
                 "faces are curved and load.force is one force",
+                code=Mistake.MISSING,
             )
         )
     raise InvalidValue(*problems)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import NOTHING, Key, Reader, Table, amounts, get, variants
@@ -33,7 +33,9 @@ def _load(reader: Reader, path: str, data: Any) -> object:
             if name in values:
                 return name, values[name]
         ways = f'one of {", ".join(LOADS)}, e.g. pressure = "5 MPa", or force on a [body]'
-        raise InvalidValue(Problem(f"[{path}]", "is empty", hint=f"give exactly {ways}"))
+        raise InvalidValue(
+            Problem(f"[{path}]", "is empty", hint=f"give exactly {ways}", code=Mistake.EMPTY)
+        )
 
     return reader.table(path, data, KEYS, build)
 
@@ -67,7 +69,8 @@ def loads_of(bodies: Body | None, forces: np.ndarray, contact: Contact) -> np.nd
         raise InvalidValue(
             f"load.force = {forces[0]:g} N needs a table [body] that says on what it acts, e.g. "
             '[body] kind = "ball-on-flat", diameter = "6 mm" (kinds: '
-            f"{', '.join(BODIES)}); or give load.pressure"
+            f"{', '.join(BODIES)}); or give load.pressure",
+            code=Mistake.MISSING,
         )
     hertz = bodies.hertz(forces, contact.E_ss)
     if bodies.conjunction is None:

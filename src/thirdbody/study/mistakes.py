@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue, Problem, in_study
-from ..quantities.nearest import guess
+from ..errors import InvalidValue, Mistake, Problem, in_study
+from ..quantities.nearest import Guess, guess
 from ..quantities.units import say
 from .fields import declarations
 from .vocabulary import near
@@ -58,21 +58,27 @@ class Known:
     def missing(self, path: str, key: str) -> Problem:
         """A key that must stand and does not."""
         about = self.keys.get(path, {}).get(key, "")
-        return Problem(_join(path, key), "is missing" + (f": {about}" if about else ""))
+        return Problem(
+            _join(path, key), "is missing" + (f": {about}" if about else ""), code=Mistake.MISSING
+        )
 
     def unknown(self, path: str, key: str, value: object) -> tuple[Problem, str | None]:
         """Problem of an unknown key, and the key that was probably meant."""
         known = self.keys.get(path, {})
         place, shown = _join(path, key), say(value)
         if why := self.refused.get(path, {}).get(key):
-            return Problem(place, why, shown), None
+            return Problem(place, why, shown, code=Mistake.IDLE), None
         if not path and _is_table(value):
             meant = near(key, known)
             hint = guess(key, known, meant=meant, show="[{}]".format)
-            return Problem(f"[{key}]", "is not a known table", hint=hint), meant
+            return Problem(
+                f"[{key}]", "is not a known table", hint=hint, code=Mistake.UNKNOWN
+            ), meant
 
         def not_known(more: str = "", hint: str = "") -> Problem:
-            return Problem(place, f"is not a known key{more}", shown, hint=hint)
+            return Problem(
+                place, f"is not a known key{more}", shown, hint=hint, code=Mistake.UNKNOWN
+            )
 
         tag, variants = self.variants.get(path, ("", {}))
         homes = [
@@ -87,8 +93,10 @@ class Known:
         numbered = [table for table in homes if re.fullmatch(rf"{re.escape(path)}\.\d+", table)]
         if numbered:
             several = path.rpartition(".")[2]
-            hint = f"there are several {several}: did you mean {numbered[0]}.{key}?"
-            return not_known(hint=hint), None
+            meant = f"{numbered[0]}.{key}"
+            return not_known(
+                hint=Guess(f"there are several {several}: did you mean {meant}?", meant)
+            ), None
         if meant is None and len(key) > 2:
             word = key.lower().replace("_", " ")
             meanings = {name: about.partition(", e.g.")[0] for name, about in known.items()}
@@ -101,7 +109,7 @@ class Known:
 def clash(path: str, data: Mapping[str, object], keys: Sequence[str], rule: str) -> Problem:
     """Keys of a table that cannot stand side by side."""
     others = "".join(f", {path}.{key} = {say(data[key])}" for key in keys[1:])
-    return Problem(f"{path}.{keys[0]}", f"{others}: {rule}", say(data[keys[0]]))
+    return Problem(f"{path}.{keys[0]}", f"{others}: {rule}", say(data[keys[0]]), code=Mistake.CLASH)
 
 
 def in_file(

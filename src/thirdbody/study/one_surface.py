@@ -12,7 +12,13 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, RangeWarning, note_of
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+    RangeWarning,
+    note_of,
+)
 from ..explicit.ensemble import counterpart, seats_on, spacing_for, surface_of
 from ..explicit.seats import GivenSeats
 from ..explicit.solve import solve
@@ -78,7 +84,10 @@ def one_surface(study: Study, F_star: object, *, points: int = POINTS) -> OneSur
     how = {name: asked[name] for name in OF_THE_DRAW if name in asked}
     seats = asked.get("seats", "random")
     if isinstance(seats, GivenSeats):
-        raise InvalidValue("explicit.seats: positions belong to a whole map, not to a part of it")
+        raise InvalidValue(
+            "explicit.seats: positions belong to a whole map, not to a part of it",
+            code=Mistake.BEYOND,
+        )
     loads = np.unique(np.atleast_1d(np.asarray(F_star, dtype=float)))
     spacing: float | None = None
     surface: object
@@ -121,9 +130,19 @@ def _window(face: Topography, points: int) -> tuple[np.ndarray, float, str]:
     """The part without gaps that is nearest the middle of a map [m], its spacing [m], in words."""
     problems = []
     if face.dim != 2:
-        problems.append(f"{face.source} is a profile; a map of heights is needed")
+        problems.append(
+            Problem(
+                "", f"{face.source} is a profile; a map of heights is needed", code=Mistake.KIND
+            )
+        )
     elif not math.isclose(*face.spacing, rel_tol=1e-6):
-        problems.append(f"{face.source} has pixels that are not square; resample it")
+        problems.append(
+            Problem(
+                "",
+                f"{face.source} has pixels that are not square; resample it",
+                code=Mistake.BEYOND,
+            )
+        )
     if problems:
         raise InvalidValue(*problems)
     z = np.asarray(face.filtered(), dtype=float)
@@ -140,7 +159,8 @@ def _window(face: Topography, points: int) -> tuple[np.ndarray, float, str]:
             return z[i : i + side, j : j + side], face.spacing[0], words
         side = side // 2 - side // 2 % 2
     raise InvalidValue(
-        f"{face.source} has no part of {FEWEST} x {FEWEST} points without missing data"
+        f"{face.source} has no part of {FEWEST} x {FEWEST} points without missing data",
+        code=Mistake.BEYOND,
     )
 
 

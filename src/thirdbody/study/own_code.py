@@ -16,7 +16,7 @@ from functools import cache
 from pathlib import Path
 
 from ..contact.output import AbstractOutput
-from ..errors import InvalidValue, Problem, tell_of_range
+from ..errors import InvalidValue, Mistake, Problem, tell_of_range
 from ..laws.base import AbstractAsperityLaw, AbstractParticleLaw, Law
 from ..populations.distributions import Distribution
 from ..populations.heights import Heights
@@ -60,7 +60,7 @@ def load_file(path: str | os.PathLike[str]) -> None:
         return
     where = f"--import {path}"
     if not file.is_file():
-        raise InvalidValue(f"{where}: there is no such file")
+        raise InvalidValue(f"{where}: there is no such file", code=Mistake.UNREADABLE)
     name = file.stem if file.stem.isidentifier() else "own_code"
     while name in sys.modules or importlib.util.find_spec(name):
         name += "_"
@@ -68,7 +68,9 @@ def load_file(path: str | os.PathLike[str]) -> None:
     def run() -> None:
         spec = importlib.util.spec_from_file_location(name, file)
         if spec is None or spec.loader is None:
-            raise InvalidValue(f"{where} is not a Python file; its name must end in .py")
+            raise InvalidValue(
+                f"{where} is not a Python file; its name must end in .py", code=Mistake.KIND
+            )
         module = importlib.util.module_from_spec(spec)
         sys.modules[name] = module  # dataclasses look it up
         spec.loader.exec_module(module)
@@ -77,7 +79,8 @@ def load_file(path: str | os.PathLike[str]) -> None:
         if not _looked_over(where, run, file):
             raise InvalidValue(
                 f"{where} brings nothing of its own: a class that derives from one of "
-                f"{', '.join(kind.__name__ for kind in KINDS)} and has a name"
+                f"{', '.join(kind.__name__ for kind in KINDS)} and has a name",
+                code=Mistake.EMPTY,
             )
     except BaseException:
         sys.modules.pop(name, None)
@@ -123,7 +126,9 @@ def _looked_over(where: str, run: Callable[[], object], file: Path | None) -> li
             if taken is not None:
                 other = f"{taken.__module__}.{taken.__name__}"
                 rule = f": there is a {kind} {name!r} already, {other}"
-                raise InvalidValue(Problem(where, rule, hint="choose another name"))
+                raise InvalidValue(
+                    Problem(where, rule, hint="choose another name", code=Mistake.CLASH)
+                )
             _complete(where, kind, law)
         return [law for _, _, law, _ in found]
     except Exception as error:
@@ -132,7 +137,9 @@ def _looked_over(where: str, run: Callable[[], object], file: Path | None) -> li
             registry.update(known)
         if isinstance(error, InvalidValue) and error.problems[0].place == where:
             raise
-        raise InvalidValue(f"{where}{_place(error, file)}: {_why(error)}") from None
+        raise InvalidValue(
+            f"{where}{_place(error, file)}: {_why(error)}", code=Mistake.UNREADABLE
+        ) from None
 
 
 def _complete(where: str, kind: str, law: type[Named]) -> None:
@@ -144,7 +151,9 @@ def _complete(where: str, kind: str, law: type[Named]) -> None:
     if not is_dataclass(law):
         missing.append("@dataclass(frozen=True, slots=True, kw_only=True) above it")
     if missing:
-        raise InvalidValue(Problem(where, f": {law.__name__} lacks {', '.join(missing)}"))
+        raise InvalidValue(
+            Problem(where, f": {law.__name__} lacks {', '.join(missing)}", code=Mistake.UNKNOWN)
+        )
 
 
 def _why(error: Exception) -> str:

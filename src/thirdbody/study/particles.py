@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.distributions import Histogram
 from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
@@ -80,7 +80,7 @@ def _parts(reader: Reader, path: str, value: object) -> object:
     """The components of a mixture, a list of tables."""
     if not (isinstance(value, list) and value):
         rule = 'must be a list of size distributions, e.g. [{ distribution = "monodisperse", '
-        raise wrong(path, f'{rule}mean = "100 nm" }}, ...]', value)
+        raise wrong(path, f'{rule}mean = "100 nm" }}, ...]', value, code=Mistake.KIND)
     return reader.read_each({f"{path}.{i}": item for i, item in enumerate(value)}, _component)
 
 
@@ -101,7 +101,7 @@ ABOUT_SHAPE = 'sphere, or the table { kind = "angular", roundness = 0.25, angle 
 def _sphere(reader: Reader, path: str, value: object) -> Sphere:
     if value == "sphere":
         return SPHERE
-    raise wrong(path, f"must be {ABOUT_SHAPE}", value)
+    raise wrong(path, f"must be {ABOUT_SHAPE}", value, code=Mistake.RANGE)
 
 
 SHAPE = variants("kind", SHAPES, ABOUT_SHAPE)._replace(read=_sphere, schema={"const": "sphere"})
@@ -119,7 +119,7 @@ OWN = ("sigma_0", "x_0", "at", "m")
 def _of_material(reader: Reader, path: str, value: object) -> dict[str, object]:
     """The strength that the material has, and nothing of one's own."""
     if value != "material":
-        raise wrong(path, NO_STRENGTH, value)
+        raise wrong(path, NO_STRENGTH, value, code=Mistake.RANGE)
     return {}
 
 
@@ -192,7 +192,7 @@ def _particles(reader: Reader, path: str, data: object) -> object:
         name = get(table, "name")
         if isinstance(name, str) and name and named.setdefault(name, i) != i:
             rule = f"is the name of {path}.{named[name]} as well; results could not tell them apart"
-            reader.mistakes.append(Problem(f"{path}.{i}.name", rule, say(name)))
+            reader.mistakes.append(Problem(f"{path}.{i}.name", rule, say(name), code=Mistake.CLASH))
     return reader.read_each({f"{path}.{i}": table for i, table in enumerate(data)}, _population)
 
 
@@ -295,11 +295,15 @@ def _problems_of_amount(
     ]
     if by_volume and given.keys().isdisjoint(("gap", "film")):
         rule = 'is missing: the height of the fluid whose particles are trapped, e.g. gap = "1 um"'
-        out.append(Problem(f"{path}.gap", rule, hint=f"{what} counts them per volume"))
+        out.append(
+            Problem(
+                f"{path}.gap", rule, hint=f"{what} counts them per volume", code=Mistake.MISSING
+            )
+        )
     idle = [] if by_volume else [name for name in _names_of_amount(kind) if name in given]
     if idle:
         rule = f"has no effect without {path}.concentration"
-        out.append(Problem(f"{path}.{idle[0]}", rule, say(given[idle[0]])))
+        out.append(Problem(f"{path}.{idle[0]}", rule, say(given[idle[0]]), code=Mistake.IDLE))
     return out
 
 
@@ -307,7 +311,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concent
     try:
         return cleanliness.concentration(value)
     except InvalidValue as error:
-        raise InvalidValue(Problem(path, f"= {error}")) from None
+        raise InvalidValue(Problem(path, f"= {error}", code=error.code)) from None
 
 
 def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
@@ -326,7 +330,7 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
             known = weighting if isinstance(weighting, str) and weighting in WEIGHTINGS else ""
             return _sizes_of_file(reader, value, known or "number")
         except InvalidValue as error:
-            raise InvalidValue(Problem(path, f": {error}")) from None
+            raise InvalidValue(Problem(path, f": {error}", code=error.code)) from None
 
     bins = table_of(Histogram).table if kind == "sizes" else None
     return keys | {
@@ -357,7 +361,8 @@ def _sizes_of_file(reader: Reader, value: object, weighting: str) -> MeasuredSiz
     if not isinstance(value, str):
         raise InvalidValue(
             f'{say(value)} must be the name of a file, e.g. "sizes.csv", or '
-            'its bins, { edges = ["1 um", "2 um"], counts = [5] }'
+            'its bins, { edges = ["1 um", "2 um"], counts = [5] }',
+            code=Mistake.KIND,
         )
     beside = reader.folder / value
     return read_sizes(beside if beside.exists() else Path(value), weighting=weighting)
@@ -425,7 +430,7 @@ def _settled(
         density = values["material"].density
     if density is None:
         rule = 'is missing: dust falls by its density, e.g. particle_density = "2650 kg/m^3"'
-        raise InvalidValue(Problem("particle_density", rule))
+        raise InvalidValue(Problem("particle_density", rule, code=Mistake.MISSING))
     number, sizes = clean_room.settled(iso_class, particle_density=density, **options)
     return Particles(diameter=sizes, areal_density=number, **values)
 

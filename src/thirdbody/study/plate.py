@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..laws.particle.series import Series
 from ..quantities.value import quantity
 from ..systems.chuck import Chuck
@@ -66,7 +66,8 @@ def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
         raise InvalidValue(
             "a plate without particles lies flat: add a table [particles] that says what they "
             'are, e.g. material = "quartz", distribution = "monodisperse", mean = "5 um", '
-            'areal_density = "1e4 / m^2"'
+            'areal_density = "1e4 / m^2"',
+            code=Mistake.BEYOND,
         )
     law = values.get("particle_law", Series())
     whole = given | {"surfaces": values["surfaces"], "particles": dust, "law": law}

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
-from ..errors import InvalidValue, Note, Problem, in_study
+from ..errors import InvalidValue, Mistake, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
@@ -199,7 +199,7 @@ class Reader:
         """
         if not isinstance(data, dict):
             written = f", written [{path}]" if "." not in path else " { ... }"
-            raise wrong(path, f"must be a table{written}", data)
+            raise wrong(path, f"must be a table{written}", data, code=Mistake.KIND)
         before, values = len(self.mistakes), {}
         for name, key in keys.items():
             if name in data:
@@ -344,9 +344,11 @@ class Unsaid:
         self.notes: list[str] = []
 
 
-def wrong(path: str, rule: str, value: object, *, hint: str = "") -> InvalidValue:
+def wrong(
+    path: str, rule: str, value: object, *, hint: str = "", code: Mistake | None = None
+) -> InvalidValue:
     """The error of one value of a file."""
-    return InvalidValue(Problem(path, rule, say(value), hint=hint))
+    return InvalidValue(Problem(path, rule, say(value), hint=hint, code=code))
 
 
 def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
@@ -368,13 +370,13 @@ def read_number(about: Quantity, reader: Notes, path: str, value: object) -> flo
     except InvalidValue as error:
         elsewhere = "; a load in Pa goes under the key pressure"
         cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
-        raise InvalidValue(Problem(path, f"= {error}{cause}")) from None
+        raise InvalidValue(Problem(path, f"= {error}{cause}", code=error.code)) from None
     if not math.isfinite(found):
         allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
-        raise wrong(path, f"is not a finite number{allowed}", value)
+        raise wrong(path, f"is not a finite number{allowed}", value, code=Mistake.RANGE)
     if why := problem_with(about, found):
         meant = "" if about["hint"] else f"; it is the {about['meaning']}"
-        raise wrong(path, in_study(why) + meant, value)
+        raise wrong(path, in_study(why) + meant, value, code=why.code)
     load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
     if likely := unit_meant(about, found, load=load):
         _refuse_slip(reader, path, value, f"{found:g} {about['unit']}", f"{found:g} {likely}")
@@ -394,7 +396,7 @@ def _refuse_slip(reader: Notes, path: str, value: object, taken: str, meant: str
         return
     rule = f"has no unit, so it would be {taken}, which is not plausible"
     any_value = f'With its unit any value is taken: "{taken}"'
-    raise wrong(path, rule, value, hint=f'was "{meant}" meant? {any_value}')
+    raise wrong(path, rule, value, hint=f'was "{meant}" meant? {any_value}', code=Mistake.UNIT)
 
 
 def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
@@ -406,7 +408,9 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
 
     def read(reader: Reader, path: str, value: object) -> tuple[float, ...]:
         if not isinstance(value, list):
-            raise wrong(path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value)
+            raise wrong(
+                path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value, code=Mistake.KIND
+            )
         return read_numbers(one, Unsaid(), path, value)
 
     schema = {"type": "array", "items": {"type": ["number", "string"]}}
@@ -441,7 +445,9 @@ def _amounts(about: Quantity, reader: Reader, path: str, value: object) -> np.nd
     if not isinstance(value, list):
         return np.array([read_number(about, reader, path, value)])
     if not value:
-        raise InvalidValue(Problem(path, "is empty; give at least one value", "[]"))
+        raise InvalidValue(
+            Problem(path, "is empty; give at least one value", "[]", code=Mistake.EMPTY)
+        )
     return np.array(read_numbers(about, reader, path, value))
 
 
@@ -482,10 +488,12 @@ def _problems_of_ends(about: Quantity, path: str, data: Any, log: bool) -> list[
     if low >= high:
         ends = f"from = {say(data['from'])} must be below to = {say(data['to'])}"
         hint = "exchange them" if low > high else "for one value write it alone"
-        problems.append(Problem(path, f"is an empty range: {ends}", hint=hint))
+        problems.append(Problem(path, f"is an empty range: {ends}", hint=hint, code=Mistake.ORDER))
     if log and low <= 0:
         rule, hint = 'must be > 0 with spacing = "log"', 'use spacing = "linear"'
-        problems.append(Problem(f"{path}.from", rule, say(data["from"]), hint=hint))
+        problems.append(
+            Problem(f"{path}.from", rule, say(data["from"]), hint=hint, code=Mistake.RANGE)
+        )
     return problems
 
 
@@ -500,7 +508,9 @@ def count(about: str = "", *, least: int = 1, most: int = MOST_POINTS) -> Key:
     def read(reader: Reader, path: str, value: Any) -> int:
         whole = isinstance(value, (int, float)) and not isinstance(value, bool)
         if not (whole and value == value // 1 and least <= value <= most):
-            raise wrong(path, f"must be a whole number from {least} to {most}", value)
+            raise wrong(
+                path, f"must be a whole number from {least} to {most}", value, code=Mistake.KIND
+            )
         return int(value)
 
     return Key(read, about=about, schema={"type": "integer", "minimum": least, "maximum": most})
@@ -517,7 +527,13 @@ def read_word(options: Iterable[str], reader: object, path: str, value: object) 
         return value
     meant = near(str(value), options)
     hint = guess(str(value), options, meant=meant, show=say, otherwise=None)
-    raise wrong(path, f"must be one of {', '.join(map(say, options))}", value, hint=hint)
+    raise wrong(
+        path,
+        f"must be one of {', '.join(map(say, options))}",
+        value,
+        hint=hint,
+        code=Mistake.OPTION,
+    )
 
 
 def words(options: Iterable[str] | None, about: str = "") -> Key:
@@ -528,18 +544,18 @@ def words(options: Iterable[str] | None, about: str = "") -> Key:
         if options is not None:
             return [read_word(options, reader, path, item) for item in values]
         if not all(isinstance(item, str) for item in values):
-            raise wrong(path, "must be a list of names in quotes", value)
+            raise wrong(path, "must be a list of names in quotes", value, code=Mistake.KIND)
         return values
 
     one = {"type": "string"} if options is None else {"enum": options}
     return Key(read, about=about, schema={"anyOf": [one, {"type": "array", "items": one}]})
 
 
-def refused(why: str) -> Key:
+def refused(why: str, code: Mistake = Mistake.IDLE) -> Key:
     """A key that is known and has no place here."""
 
     def read(reader: Reader, path: str, value: object) -> object:
-        raise wrong(path, why, value)
+        raise wrong(path, why, value, code=code)
 
     return Key(read, schema=NOTHING)
 
@@ -548,20 +564,22 @@ def _read_word_or_number(reader: Reader, path: str, value: object) -> str | floa
     """A word or a pure number; the object checks which words it takes."""
     if isinstance(value, str) or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
-    raise wrong(path, "must be a word in quotes or a number", value)
+    raise wrong(path, "must be a word in quotes or a number", value, code=Mistake.KIND)
 
 
 def _read_text(reader: Reader, path: str, value: object) -> str:
     if isinstance(value, str):
         return value
     simple = isinstance(value, (int, float)) and not isinstance(value, bool)
-    raise wrong(path, "must be text in quotes" + f', e.g. "{value}"' * simple, value)
+    raise wrong(
+        path, "must be text in quotes" + f', e.g. "{value}"' * simple, value, code=Mistake.KIND
+    )
 
 
 def _read_switch(reader: Reader, path: str, value: object) -> bool:
     if isinstance(value, bool):
         return value
-    raise wrong(path, "must be true or false, without quotes", value)
+    raise wrong(path, "must be true or false, without quotes", value, code=Mistake.KIND)
 
 
 text = Key(_read_text, schema={"type": "string"})

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.finish import STATED, Finish, assumption_sentence, processes
 from ..populations.measured.topography import FORMS, from_topography
 from ..populations.roughness import Roughness
@@ -59,7 +59,7 @@ def _roughness(reader: Reader, path: str, data: Any) -> Any:
                     "must be R_first R_second/(R_first + R_second)"
                     f" = {value_of(both, 'm')} of the ellipticity; leave it out"
                 )
-                raise wrong(f"{path}.R", rule, data["R"])
+                raise wrong(f"{path}.R", rule, data["R"], code=Mistake.CLASH)
         return reader.make(Roughness, path, kept)
 
     return reader.table(path, data, keys, build)
@@ -103,7 +103,10 @@ def _read_drawing(reader: Reader, path: str, data: dict[str, object]) -> Any:
             if "R" in values:
                 raise
             raise InvalidValue(
-                *(Problem(f"{path}.R", f"is missing: {text}") for text in error.problems)
+                *(
+                    Problem(f"{path}.R", f"is missing: {text}", code=Mistake.MISSING)
+                    for text in error.problems
+                )
             ) from None
         used = {name: getattr(found, name) for name in KNOWN_BETTER}
         reader.assumed.append(f"{path}: {assumption_sentence(faces, used)}")
@@ -123,18 +126,22 @@ def _problems_of_drawing(path: str, data: Mapping[str, object]) -> list[Problem]
     sides = [key for key in SIDES if key in data]
     if pair and sides:
         rule = f"is that of the pair, and {path}.{sides[0]} that of a face; keep one of the two"
-        return [Problem(f"{path}.{pair[0]}", rule, say(data[pair[0]]))]
+        return [Problem(f"{path}.{pair[0]}", rule, say(data[pair[0]]), code=Mistake.CLASH)]
     if not pair and not sides:
         rule = 'has no height; give Ra, Rq or Rz of the pair, e.g. Ra = "0.2 um", or of each '
-        return [Problem(path, f"{rule}face, [{path}.first] and [{path}.second]")]
+        return [
+            Problem(path, f"{rule}face, [{path}.first] and [{path}.second]", code=Mistake.MISSING)
+        ]
     if pair == ["sigma"]:
         rule = "goes with the height of a drawing; write "
         rule += f"Rq = {say(data['sigma'])} instead of sigma"
-        return [Problem(f"{path}.process", rule, say(data.get("process")))]
+        return [Problem(f"{path}.process", rule, say(data.get("process")), code=Mistake.IDLE)]
     if len(sides) == 1:
         other = next(face for face in SIDES if face not in sides)
         rule = f"is missing: give both faces, or for a smooth one against {sides[0]} "
-        return [Problem(f"{path}.{other}", f"{rule}the height alone, {path}.Ra")]
+        return [
+            Problem(f"{path}.{other}", f"{rule}the height alone, {path}.Ra", code=Mistake.MISSING)
+        ]
     return []
 
 
@@ -164,7 +171,7 @@ NO_SHAPE = (
 def _shape_measured(reader: Reader, path: str, value: object) -> str:
     """Shapes of the summits counted."""
     if value != "measured":
-        raise wrong(path, NO_SHAPE, value)
+        raise wrong(path, NO_SHAPE, value, code=Mistake.OPTION)
     return "measured"
 
 
@@ -173,7 +180,7 @@ def _shape_beside(reader: Reader, path: str, data: Mapping[str, object]) -> obje
     if radii := [key for key in RADII if get(data, key) is not None]:
         both = "both" if len(radii) == 2 else "it"
         rule = f"would give R, which the topography tells; remove {both}"
-        reader.mistakes.append(Problem(f"{path}.{' and '.join(radii)}", rule))
+        reader.mistakes.append(Problem(f"{path}.{' and '.join(radii)}", rule, code=Mistake.CLASH))
         data = {key: value for key, value in data.items() if key not in radii}
     return ELLIPTICITY.table(reader, path, data)  # type: ignore[misc]
 
@@ -188,7 +195,7 @@ def _files(reader: Reader, path: str, value: Any) -> list[Path]:
     names = value if isinstance(value, list) else [value]
     if not (1 <= len(names) <= 2 and all(isinstance(name, str) for name in names)):
         rule = "must be the name of a file in quotes, or a list of two for the two faces"
-        raise wrong(path, rule, value)
+        raise wrong(path, rule, value, code=Mistake.RANGE)
     beside = [reader.folder / name for name in names]
     return [
         near if near.exists() or (not Path(name).exists() and name != "example") else Path(name)
@@ -215,7 +222,7 @@ BESIDE = {
     "spacing": amounts("spacing", SPACING),
     "channel": text._replace(about="name of a channel of the file"),
 }
-TWICE = refused("is told by the topography as well; remove one of the two")
+TWICE = refused("is told by the topography as well; remove one of the two", Mistake.CLASH)
 
 
 def _topography(reader: Reader, path: str, data: dict[str, object]) -> object:
@@ -229,7 +236,12 @@ def _topography(reader: Reader, path: str, data: dict[str, object]) -> object:
         counted = [name for name, shape in shapes.items() if isinstance(shape, str)]
         if len(files) == 2 and counted:
             rule = "goes with one file: summits of two faces do not add, only their moments do"
-            raise InvalidValue(*(Problem(f"{path}.{name}", rule, '"measured"') for name in counted))
+            raise InvalidValue(
+                *(
+                    Problem(f"{path}.{name}", rule, '"measured"', code=Mistake.BEYOND)
+                    for name in counted
+                )
+            )
         try:
             faces = [from_topography(file, **values) for file in files]
             cutoff = max(face.cutoff for face in faces)

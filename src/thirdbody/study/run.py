@@ -10,7 +10,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.modes import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
-from ..errors import InvalidValue, RangeWarning, ThirdBodyError, note_of
+from ..errors import InvalidValue, Mistake, RangeWarning, ThirdBodyError, note_of
 from .load import pressed
 from .results import Entrained, FilmResult, Passing, StudyResult
 from .whole import Study
@@ -84,7 +84,8 @@ def run_film(study: Study) -> FilmResult:
         raise InvalidValue(
             "the study has no table [film]: it says what is lubricated, e.g. [film] "
             'load = "20 N", speed = "0.5 m/s", conjunction = { shape = "point", R = "9.5 mm" }, '
-            f'oil = {{ eta = "20 mPa s", alpha = "20 / GPa" }}{more}'
+            f'oil = {{ eta = "20 mPa s", alpha = "20 / GPa" }}{more}',
+            code=Mistake.MISSING,
         )
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)

@@ -7,7 +7,7 @@ from contextlib import suppress
 from functools import partial
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..laws import asperity, particle
 from ..populations.materials import Material, MaterialPair, materials
 from ..quantities.units import say
@@ -43,7 +43,7 @@ def _from_library(reader: Reader, path: str, value: object) -> Material:
         f"is not a material of the library ({some} and {len(known) - 3} more: thirdbody "
         "materials)" + (f"; did you mean {say(near)}?" if near else "")
     )
-    raise wrong(path, rule, value, hint=OTHER)
+    raise wrong(path, rule, value, hint=OTHER, code=Mistake.UNKNOWN)
 
 
 NAMES = {"anyOf": [{"enum": list(materials)}, {"type": "string"}]}  # and those of a file
@@ -65,7 +65,10 @@ def _own_materials(reader: Reader, path: str, given: object) -> object:
     except InvalidValue as error:
         reader.library = None
         raise InvalidValue(
-            *(Problem(path, f": {problem}", say(given)) for problem in error.problems)
+            *(
+                Problem(path, f": {problem}", say(given), code=problem.code)
+                for problem in error.problems
+            )
         ) from None
     return name
 

@@ -14,7 +14,7 @@ from ..analysis.sweep.reduction import KEYS
 from ..contact.contact import Contact
 from ..contact.output import every_column
 from ..equilibrium.columns import COLUMNS
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..numerics.sampling import DESIGNS
 from .inputs import Input, field_of, inputs_of
 from .reader import (
@@ -93,14 +93,14 @@ def _inputs_that_vary(
 def _quantiles(reader: Reader, path: str, value: Any) -> list[float]:
     values = value if isinstance(value, list) else [value]
     if any(isinstance(item, bool) or not isinstance(item, (int, float)) for item in values):
-        raise wrong(path, "must be a list of numbers", value)
+        raise wrong(path, "must be a list of numbers", value, code=Mistake.KIND)
     return [float(item) for item in values]
 
 
 def _thresholds(reader: Reader, path: str, value: object) -> dict[str, object]:
     if isinstance(value, dict):
         return value
-    raise wrong(path, "must be a table, e.g. { A_t = 0.2 }", value)
+    raise wrong(path, "must be a table, e.g. { A_t = 0.2 }", value, code=Mistake.KIND)
 
 
 REDUCTIONS = {

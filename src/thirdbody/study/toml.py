@@ -8,7 +8,11 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..quantities.files import read_bytes
 from ..quantities.nearest import near
 from ..quantities.units import say
@@ -25,26 +29,33 @@ def read(path: Path) -> dict[str, object]:
     except FileNotFoundError:
         meant = near(path.name, [p.name for p in _toml_files(path)], cutoff=0.75)
         guess = f"; did you mean {path.with_name(meant)}?" if meant else ""
-        raise InvalidValue(f"cannot read {path}: there is no such file{guess}") from None
+        raise InvalidValue(
+            f"cannot read {path}: there is no such file{guess}", code=Mistake.UNREADABLE
+        ) from None
     except IsADirectoryError:
-        raise InvalidValue(f"cannot read {path}: it is a folder, not a study file") from None
+        raise InvalidValue(
+            f"cannot read {path}: it is a folder, not a study file", code=Mistake.UNREADABLE
+        ) from None
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise InvalidValue(
             f"cannot read {path}: line {line} is not UTF-8 text; save the file as UTF-8, "
-            "or write um instead of µm"
+            "or write um instead of µm",
+            code=Mistake.UNREADABLE,
         ) from None
     except InvalidValue:
         raise
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
-        raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
+        raise InvalidValue(f"cannot read {path}: {why.lower()}", code=Mistake.UNREADABLE) from None
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InvalidValue(_syntax(path, text, str(error))) from None
+        raise InvalidValue(_syntax(path, text, str(error)), code=Mistake.FORM) from None
     except RecursionError:
-        raise InvalidValue(f"{path} is nested too deeply to be a study file") from None
+        raise InvalidValue(
+            f"{path} is nested too deeply to be a study file", code=Mistake.UNREADABLE
+        ) from None
 
 
 def value_of(text: str) -> Any:
@@ -95,12 +106,15 @@ def override(data: dict[str, object], overrides: Iterable[str]) -> dict[str, obj
         path, equals, value = text.partition("=")
         keys = [key.strip() for key in path.split(".")]
         if not equals or not all(keys):
-            problems.append(f'--set {text!r} must be KEY=VALUE, e.g. --set particles.mean="500 nm"')
+            rule = f'--set {text!r} must be KEY=VALUE, e.g. --set particles.mean="500 nm"'
+            problems.append(Problem("", rule, code=Mistake.FORM))
             continue
         try:
             _set(data, keys, value_of(value))
         except InvalidValue as error:
-            problems += [f"--set {text}: {problem}" for problem in error.problems]
+            problems += [
+                Problem("", f"--set {text}: {each}", code=each.code) for each in error.problems
+            ]
     if problems:
         raise InvalidValue(*problems)
     return data
@@ -131,15 +145,18 @@ def _place(table: object, where: str, key: str, rest: list[str]) -> Any:
         raise InvalidValue(
             f"{where} is a list of {len(table)}, {numbers}; name one of them, e.g. {example}"
             if table
-            else f"{where} is an empty list"
+            else f"{where} is an empty list",
+            code=Mistake.SHAPE,
         )
     if not isinstance(table, dict):
         raise InvalidValue(
             f"{where} = {say(table)} is not a table, so {key} cannot be "
-            f"set in it; set {where} as a whole, e.g. --set '{where}={{ ... }}'"
+            f"set in it; set {where} as a whole, e.g. --set '{where}={{ ... }}'",
+            code=Mistake.KIND,
         )
     if where == "particles" and key.isdecimal() and table:
         raise InvalidValue(
-            f"there is one table [particles], which has no number; name {'.'.join([where, *rest])}"
+            f"there is one table [particles], which has no number; name {'.'.join([where, *rest])}",
+            code=Mistake.UNKNOWN,
         )
     return key

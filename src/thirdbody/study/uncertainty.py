@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.nearest import guess, near_path
 from ..quantities.units import Quantity, say
 from .inputs import Input, inputs_of
@@ -24,12 +24,19 @@ def _inputs(reader: Reader, path: str, given: object) -> dict[str, Uncertain]:
     if not isinstance(given, dict) or not given:
         rule = "must be a table of inputs, e.g. "
         raise wrong(
-            path, f'{rule}{{ "roughness.sigma" = {{ low = "80 nm", high = "120 nm" }} }}', given
+            path,
+            f'{rule}{{ "roughness.sigma" = {{ low = "80 nm", high = "120 nm" }} }}',
+            given,
+            code=Mistake.KIND,
         )
     inputs = inputs_of(reader.whole)
     entries = ranges_of(given)
     if any(label.startswith(LIFE) for label in entries) and "life" not in reader.whole:
-        raise InvalidValue(Problem(path, "names numbers of [life], and there is no such table"))
+        raise InvalidValue(
+            Problem(
+                path, "names numbers of [life], and there is no such table", code=Mistake.MISSING
+            )
+        )
 
     def one(reader: Reader, where: str, told: tuple[str, object]) -> tuple[str, Uncertain]:
         label, entry = told
@@ -72,7 +79,9 @@ def field_of_input(
     table, _, last = name.rpartition(".")
     if table == "load" and last in LOADS:
         if get(whole.get("load"), last) is None:
-            raise InvalidValue(Problem(where, f": {name} is not the load that [load] gives"))
+            raise InvalidValue(
+                Problem(where, f": {name} is not the load that [load] gives", code=Mistake.UNKNOWN)
+            )
         return {"separation": "d"}.get(last, last), LOADS[last]
     known = {
         each.name: (each.field, each.quantity) for each in inputs if each.quantity and not each.idle
@@ -82,13 +91,15 @@ def field_of_input(
     if name in known:
         return known[name]
     if why := next((each.idle for each in inputs if each.name == name), ""):
-        raise InvalidValue(Problem(where, f": {name} {why}"))
+        raise InvalidValue(Problem(where, f": {name} {why}", code=Mistake.IDLE))
     if table == "particles" and "particles" not in whole:
         rule = f": there is no [particles] table, so {name} is no input"
-        raise InvalidValue(Problem(where, rule))
+        raise InvalidValue(Problem(where, rule, code=Mistake.BEYOND))
     meant = near_path(name, known)
     hint = guess("", listed, meant=meant, otherwise="it has ")
-    raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
+    raise InvalidValue(
+        Problem(where, f": {name} is not a number of this study", hint=hint, code=Mistake.UNKNOWN)
+    )
 
 
 def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -> Uncertain:
@@ -98,7 +109,12 @@ def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -
     kind = next((kind for kind, names in KINDS.items() if set(names) == set(given)), None)
     if kind is None or (spacing is not None and "low" not in given):
         ways = '{ low, high }, with spacing = "log" for a range of decades, '
-        raise wrong(where, f"must be one of {ways}{{ mean, std }} or {{ median, gsd }}", entry)
+        raise wrong(
+            where,
+            f"must be one of {ways}{{ mean, std }} or {{ median, gsd }}",
+            entry,
+            code=Mistake.OPTION,
+        )
     if spacing is not None:
         spacing = read_word(("linear", "log"), reader, f"{where}.spacing", spacing)
         kind = "log-uniform" if spacing == "log" else kind
@@ -113,7 +129,9 @@ def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -
     try:
         return Uncertain(kind=kind, first=first, second=second)
     except InvalidValue as error:
-        raise InvalidValue(*(Problem(where, f": {text}") for text in error.problems)) from None
+        raise InvalidValue(
+            *(Problem(where, f": {text}", code=text.code) for text in error.problems)
+        ) from None
 
 
 def ranges_of(tree: dict[str, Any], path: str = "") -> dict[str, object]:

@@ -12,7 +12,11 @@ from __future__ import annotations
 
 import math
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..populations.measured.cleanliness import read_iso4406
 from ..quantities.carried import takes_units
 from ..quantities.units import say
@@ -97,8 +101,13 @@ def _kappa(kappa: float) -> float:
     _positive(kappa=kappa)
     if kappa < KAPPA[0]:
         raise InvalidValue(
-            f"kappa = {kappa:g} must be at least {KAPPA[0]:g}: below, ISO 281 gives no factor "
-            "(is the viscosity that at the working temperature?)"
+            Problem(
+                "kappa",
+                f"must be at least {KAPPA[0]:g}: below, ISO 281 gives no factor (is the "
+                "viscosity that at the working temperature?)",
+                f"{kappa:g}",
+                code=Mistake.RANGE,
+            )
         )
     return min(kappa, KAPPA[1])
 
@@ -173,11 +182,20 @@ def viscosity_ratio(viscosity: float, *, turns: float, D: float) -> float:
 
 def _row(place: str, state: str, D: float) -> tuple[float, float]:
     if place not in PLACES:
-        raise InvalidValue(f"place = {say(place)} must be one of {', '.join(map(say, PLACES))}")
+        raise InvalidValue(
+            Problem(
+                "place",
+                f"must be one of {', '.join(map(say, PLACES))}",
+                f"{say(place)}",
+                code=Mistake.OPTION,
+            )
+        )
     if place == "grease":
         if state not in GREASES:
             known = ", ".join(map(say, GREASES))
-            raise InvalidValue(f"grease state = {say(state)} must be one of {known}")
+            raise InvalidValue(
+                f"grease state = {say(state)} must be one of {known}", code=Mistake.OPTION
+            )
         c, b = GREASES[state]
         return (c, LARGE[1]) if state == "slight contamination" and D >= LARGE[0] else (c, b)
     counted = [number or 0 for number in read_iso4406(state)[1:]]
@@ -186,7 +204,8 @@ def _row(place: str, state: str, D: float) -> tuple[float, float]:
             return found
     raise InvalidValue(
         f"ISO 4406 code {say(state)} is dirtier than the last one with a factor here, "
-        f"{say(list(OILS[place])[-1])} for place = {say(place)}"
+        f"{say(list(OILS[place])[-1])} for place = {say(place)}",
+        code=Mistake.BEYOND,
     )
 
 
@@ -242,8 +261,13 @@ def contamination_factor(place: str, state: str, *, kappa: float, D: float) -> f
     clean = 1 - b / mm ** (1 / 3)
     if clean <= 0:
         raise InvalidValue(
-            f"D = {D:g} must be above {1e-3 * b**3:.3g} [m], where the factor of this row reaches "
-            "0; mm are 1e-3"
+            Problem(
+                "D",
+                f"must be above {0.001 * b**3:.3g} [m], where the factor of this row reaches 0; "
+                "mm are 1e-3",
+                f"{D:g}",
+                code=Mistake.ORDER,
+            )
         )
     return min(1.0, c * kappa**0.68 * mm**0.55) * clean
 
@@ -287,7 +311,11 @@ def life_factor(bearing: str, *, kappa: float, load: float) -> float:
     1.127238
     """
     if bearing not in BEARINGS:
-        raise InvalidValue(f"bearing = {say(bearing)} must be one of 'ball', 'roller'")
+        raise InvalidValue(
+            Problem(
+                "bearing", "must be one of 'ball', 'roller'", f"{say(bearing)}", code=Mistake.OPTION
+            )
+        )
     kappa = _kappa(kappa)
     _positive(load=load)
     A, m, n, q = BEARINGS[bearing]

@@ -9,7 +9,7 @@ from functools import cache
 from importlib import resources
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.arguments import names_arguments
 from ..quantities.nearest import guess
 from ..quantities.units import say
@@ -101,7 +101,14 @@ def bearing_size(which: str) -> BearingSize:
     fill 0.6 of the circle. The file ``data/bearings.toml`` says what was confirmed where.
     """
     if not isinstance(which, str):
-        raise InvalidValue(f"which = {which!r} must be a designation in quotes, e.g. '6205'")
+        raise InvalidValue(
+            Problem(
+                "which",
+                "must be a designation in quotes, e.g. '6205'",
+                repr(which),
+                code=Mistake.KIND,
+            )
+        )
     text = which.strip().upper().replace("×", "X")
     if sides := re.fullmatch(r"([\d.]+)\s*X\s*([\d.]+)\s*X\s*([\d.]+)\s*(?:MM)?(.*)", text):
         bore, outer, width = (float(each) for each in sides.groups()[:3])
@@ -116,6 +123,7 @@ def bearing_size(which: str) -> BearingSize:
                 f"{say(which)} must be a deep-groove ball bearing 6000 to 6012, 6200 to 6212 or "
                 '6300 to 6312, or its bore x outer diameter x width in mm, e.g. "25x52x15"',
                 hint=hint or "",
+                code=Mistake.KIND,
             )
         )
     bore, outer, width, balls, ball = known[found[1]]
@@ -130,10 +138,13 @@ def _of_dimensions(which: str, bore: float, outer: float, width: float, suffix: 
     if not (0 < bore < outer and width > 0):
         raise InvalidValue(
             f"{say(which)}: bore, outer diameter and width in mm must rise from bore to outer "
-            'diameter and be above 0, e.g. "25x52x15"'
+            'diameter and be above 0, e.g. "25x52x15"',
+            code=Mistake.ORDER,
         )
     if bore > largest:
-        raise InvalidValue(f"{say(which)}: the bore must be at most {largest} mm")
+        raise InvalidValue(
+            f"{say(which)}: the bore must be at most {largest} mm", code=Mistake.RANGE
+        )
     ball = round(BALL * (outer - bore), 3)
     balls = max(3, round(FILL * math.pi / math.asin(2 * ball / (bore + outer))))
     name, limits = _clearance(bore, suffix)

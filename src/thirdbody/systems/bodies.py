@@ -23,7 +23,14 @@ from ..contact.contact import Contact
 from ..equilibrium.crowding import crowded_places
 from ..equilibrium.solve import solve
 from ..equilibrium.words import meets
-from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    Note,
+    Problem,
+    RangeWarning,
+)
 from ..laws.asperity import ZMC
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units
@@ -219,7 +226,7 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
     ('rough body', 990, 886)
     """
     if not (math.isfinite(force) and force > 0):
-        raise InvalidValue(f"force = {force!r} must be > 0 [N]")
+        raise InvalidValue(Problem("force", "must be > 0 [N]", repr(force), code=Mistake.RANGE))
     hertz = body.hertz(force, contact.E_ss)
     kind = next(name for name, each in BODIES.items() if type(body) is each)
     H = contact.surfaces.H

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ..errors import Problem
+from ..errors import Mistake, Problem
 from ..quantities.value import Value, choice, quantity
 from .conjunctions import Hertz, Line, Point
 
@@ -136,6 +136,7 @@ class BallInGroove(Body):
                     "must be above the "
                     f"diameter of a ball, {self.diameter:g} [m]; check the units of both",
                     f"{self.pitch_diameter:g}",
+                    code=Mistake.ORDER,
                 )
             ]
         return []
@@ -191,6 +192,7 @@ class Roller(Body):
                     f"must be above the diameter of the roller, "
                     f'{self.diameter:g} [m], with ring = "outer"; check the units of both',
                     f"{track:g}",
+                    code=Mistake.ORDER,
                 )
             ]
         return []

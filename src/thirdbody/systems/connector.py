@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..laws.particle.series import Series
 from ..laws.particle.tension import breaks
 from ..populations.conduction import conducts
@@ -153,16 +153,34 @@ class Connector(Value):
         out: list[str] = []
         for name in ("contacts", "parallel"):
             if getattr(self, name) % 1:
-                out.append(Problem(name, "must be a whole number", f"{getattr(self, name):g}"))
+                out.append(
+                    Problem(
+                        name,
+                        "must be a whole number",
+                        f"{getattr(self, name):g}",
+                        code=Mistake.KIND,
+                    )
+                )
         names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
         for name in self.conducting:
             if name not in (*names, BY_MATERIAL):
                 known = ", ".join(map(say, names))
-                out.append(Problem("conducting", f"must name particles, here {known}", say(name)))
+                out.append(
+                    Problem(
+                        "conducting",
+                        f"must name particles, here {known}",
+                        say(name),
+                        code=Mistake.KIND,
+                    )
+                )
         for dust, name in zip(self.particles, names, strict=True):
             if dust.strength is not None:
                 out.append(
-                    f"{name}: particles that break are not followed here; leave out strength"
+                    Problem(
+                        "",
+                        f"{name}: particles that break are not followed here; leave out strength",
+                        code=Mistake.BEYOND,
+                    )
                 )
             largest = dust.diameter.support[1]
             if self.radius <= largest:
@@ -172,6 +190,7 @@ class Connector(Value):
                         f"must be above the largest particle of {name}, "
                         f"{value_of(largest, 'm')}: contacts come down on dust, not on boulders",
                         value_of(self.radius, "m"),
+                        code=Mistake.ORDER,
                     )
                 )
         return out
@@ -289,7 +308,7 @@ class Connector(Value):
             A load below zero or not finite.
         """
         if not (math.isfinite(load) and load >= 0):
-            raise InvalidValue("load must be finite and not below 0 N")
+            raise InvalidValue("load must be finite and not below 0 N", code=Mistake.RANGE)
         insulating, conductors = self._kinds(conduct=False), self._kinds(conduct=True)
         if not conductors:
             low, high = _open(insulating, np.array([load]), 0.0)

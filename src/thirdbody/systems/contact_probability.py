@@ -22,7 +22,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..laws.particle.series import Series
 from ..numerics.quadrature import panel_rule
 from ..populations.distributions import Monodisperse
@@ -118,13 +122,19 @@ class ContactProbability(Value):
         Value.__post_init__(self)
         if self.particles.strength is not None:
             raise InvalidValue(
-                "particles.strength must be left out: particles that break are not followed here"
+                "particles.strength must be left out: particles that break are not followed here",
+                code=Mistake.BEYOND,
             )
         largest = self.particles.diameter.support[1]
         if self.radius <= largest:
             raise InvalidValue(
-                f"radius = {value_of(self.radius, 'm')} must be above the largest particle, "
-                f"{value_of(largest, 'm')}: the sphere comes down on dust, not on a boulder"
+                Problem(
+                    "radius",
+                    f"must be above the largest particle, {value_of(largest, 'm')}: the sphere "
+                    "comes down on dust, not on a boulder",
+                    f"{value_of(self.radius, 'm')}",
+                    code=Mistake.ORDER,
+                )
             )
 
     @property
@@ -170,7 +180,7 @@ class ContactProbability(Value):
         """
         loads = np.asarray(load, dtype=float)
         if not np.all(np.isfinite(loads) & (loads >= 0)):
-            raise InvalidValue("load must be finite and not below 0 N")
+            raise InvalidValue("load must be finite and not below 0 N", code=Mistake.RANGE)
         out = np.full((2, loads.size), math.exp(-self.in_the_way))
         left = loads.ravel().copy()
         while np.any(left > 0):

@@ -14,6 +14,7 @@ from ..effects.temperature import FlashTemperature
 from ..equilibrium.solve import solve, solve_untold
 from ..errors import (
     InvalidValue,
+    Mistake,
     NoEquilibrium,
     Note,
     Problem,
@@ -427,7 +428,7 @@ def _operating_problems(
         asked = {"pressure": pressure, "sliding_speed": sliding_speed}
         out = [f"{name} is missing" for name, value in asked.items() if value is None]
         return out + [
-            Problem(name, "must be a number > 0", f"{value:g}")
+            Problem(name, "must be a number > 0", f"{value:g}", code=Mistake.KIND)
             for name, value in asked.items()
             if value is not None and not (math.isfinite(value) and value > 0)
         ]
@@ -460,7 +461,8 @@ def _loop(
     if melts and min(melts) <= cold:
         raise InvalidValue(
             f"feedback: T_melt = {number(min(melts))} must be above the temperature without "
-            f"friction, {number(cold)}; are both in K, or both in °C?"
+            f"friction, {number(cold)}; are both in K, or both in °C?",
+            code=Mistake.ORDER,
         )
     span = LAST * (min(melts) - cold) if melts else WARMEST
     return _Loop(contact, laws, path, film, flash, cold, span)

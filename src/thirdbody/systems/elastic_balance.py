@@ -14,7 +14,12 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.crowding import crowded_places
 from ..equilibrium.load_scan import load_scan
-from ..errors import InvalidValue, NoEquilibrium
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    Problem,
+)
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.say import value_of
 
@@ -59,7 +64,10 @@ class Skin:
         self.warnings: tuple[str, ...] = ()
         if isinstance(source, Contact):
             if E_star is not None:
-                raise InvalidValue("E_star follows from the contact; give it only with a callable")
+                raise InvalidValue(
+                    "E_star follows from the contact; give it only with a callable",
+                    code=Mistake.BEYOND,
+                )
             self.bound = interface(source)
             self.E_star = source.E_ss
             skin = self.bound.asperities
@@ -74,10 +82,17 @@ class Skin:
                 )
         elif callable(source):
             if E_star is None or not E_star > 0:
-                raise InvalidValue(f"E_star = {E_star!r} must be > 0 [Pa] with a pressure law")
+                raise InvalidValue(
+                    Problem(
+                        "E_star",
+                        "must be > 0 [Pa] with a pressure law",
+                        repr(E_star),
+                        code=Mistake.RANGE,
+                    )
+                )
             self.E_star, self.law = float(E_star), source
         else:
-            raise InvalidValue(f"{source!r} must be a Contact or a pressure law")
+            raise InvalidValue(f"{source!r} must be a Contact or a pressure law", code=Mistake.KIND)
 
     def __call__(self, gap: Array) -> tuple[Array, Array]:
         """Pressure [Pa] and its slope [Pa/m]."""
@@ -104,7 +119,7 @@ class Skin:
         """Gap at which the pressure is negligible beside that at ``gap``."""
         p, slope = self.one(gap)
         if p < 0:
-            raise InvalidValue(TENSILE)
+            raise InvalidValue(TENSILE, code=Mistake.BEYOND)
         if not (p > 0 and slope < 0):
             raise NoEquilibrium(f"no contact at a gap of {value_of(gap, 'm')}")
         step = low = 0.0
@@ -316,7 +331,7 @@ def balance_at(
         grid = shape.grid(n, extent)
         gap, p, slope, residual = _newton(skin, grid, d, _values(series, n))
         if np.min(p) < 0:
-            raise InvalidValue(TENSILE)
+            raise InvalidValue(TENSILE, code=Mistake.BEYOND)
         if not np.max(p) > 0:
             raise NoEquilibrium(f"no contact at a separation of {value_of(d, 'm')}")
         beyond = grid.x[p < NEGLIGIBLE * np.max(p)]
@@ -360,10 +375,12 @@ def balance(
     ``quick`` stops at five digits.
     """
     if (d is None) == (load is None):
-        raise InvalidValue("give exactly one of the separation d and the load")
+        raise InvalidValue(
+            "give exactly one of the separation d and the load", code=Mistake.MISSING
+        )
     given = d if load is None else load
     if given is None or not math.isfinite(given) or (load is not None and load <= 0):
-        raise InvalidValue(f"{given!r} must be finite, a load > 0")
+        raise InvalidValue(f"{given!r} must be finite, a load > 0", code=Mistake.RANGE)
     if load is None:
         return balance_at(skin, shape, given)
     d = _rigid(skin, shape, given) if guess is None else guess

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..effects.friction import Friction
 from ..effects.single.heat import body_conductance, partition
-from ..errors import Note, Problem
+from ..errors import Mistake, Note, Problem
 from ..quantities.say import value_of
 from ..quantities.value import Value, choice, quantity
 
@@ -150,7 +150,14 @@ class Softening(Value):
     def _problems(self) -> list[str]:
         if self.T_melt > self.T_0:
             return []
-        return [Problem("T_melt", f"must be above T_0 = {self.T_0:g}", f"{self.T_melt:g}")]
+        return [
+            Problem(
+                "T_melt",
+                f"must be above T_0 = {self.T_0:g}",
+                f"{self.T_melt:g}",
+                code=Mistake.ORDER,
+            )
+        ]
 
     def share(self, T: float) -> float:
         """Hardness over H_0 at a temperature T [1]; NaN from T_melt on."""
@@ -241,7 +248,11 @@ class ThermalPath(Value):
     def _problems(self) -> list[str]:
         if self.h_1 + self.h_2 > 0:
             return []
-        return [Problem("h_1", "and h_2 leave the heat no way out: one must be > 0", "0")]
+        return [
+            Problem(
+                "h_1", "and h_2 leave the heat no way out: one must be > 0", "0", code=Mistake.CLASH
+            )
+        ]
 
     def needs(self, contact: Contact) -> list[str]:
         """What a contact lacks for it."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import Problem
+from ..errors import Mistake, Problem
 from ..populations.distributions import Distribution
 from ..quantities.value import Value, choice, quantity
 from .film_formulas import AbstractFilm, Line, Oil, Point
@@ -181,7 +181,14 @@ class FilmConditions(Value):
     def _problems(self) -> list[str]:
         out: list[str] = []
         if not isinstance(self.conjunction, Point | Line):
-            out.append(Problem("conjunction", "must be a Point or Line", repr(self.conjunction)))
+            out.append(
+                Problem(
+                    "conjunction",
+                    "must be a Point or Line",
+                    repr(self.conjunction),
+                    code=Mistake.KIND,
+                )
+            )
         elif self.formula is not None and self.formula.shape != self.conjunction.shape:
             out.append(
                 Problem(
@@ -189,10 +196,11 @@ class FilmConditions(Value):
                     f"is for {self.formula.shape} "
                     f"contacts, and the conjunction is a {self.conjunction.shape}",
                     f"{self.formula.name}",
+                    code=Mistake.BEYOND,
                 )
             )
         if not isinstance(self.oil, Oil):
-            out.append(Problem("oil", "must be an Oil", repr(self.oil)))
+            out.append(Problem("oil", "must be an Oil", repr(self.oil), code=Mistake.KIND))
         if self.few > self.most:
             out.append(
                 Problem(
@@ -200,11 +208,14 @@ class FilmConditions(Value):
                     f"must be at most most = {self.most:g}: the film "
                     "is full below the first share of the solids and boundary above the second",
                     f"{self.few:g}",
+                    code=Mistake.ORDER,
                 )
             )
         speeds = np.atleast_1d(np.asarray(self.speed, dtype=float))
         if not speeds.size or not np.all(np.isfinite(speeds) & (speeds > 0)):
-            out.append(Problem("speed", "must be numbers > 0 [m/s], at least one"))
+            out.append(
+                Problem("speed", "must be numbers > 0 [m/s], at least one", code=Mistake.RANGE)
+            )
         else:
             object.__setattr__(self, "speed", tuple(speeds.tolist()))
         return out

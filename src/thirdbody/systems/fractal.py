@@ -16,7 +16,7 @@ from scipy import special
 
 from ..contact.particle_averages import size_average
 from ..contact.particle_sums import Part
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..laws.asperity import JG, AbstractAsperityLaw, Hermite
 from ..laws.base import HERMITE
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
@@ -228,7 +228,9 @@ class MajumdarBhushan(Value):
         the area, so the fraction depends on A_n.
         """
         if self.nominal_area is None:
-            raise InvalidValue("MajumdarBhushan.nominal_area is needed for a pressure [m^2]")
+            raise InvalidValue(
+                "MajumdarBhushan.nominal_area is needed for a pressure [m^2]", code=Mistake.MISSING
+            )
         a_L = self.largest_spot(np.asarray(pressure, dtype=float) * self.nominal_area)
         return np.minimum(self.area(a_L) / self.nominal_area, 1.0)
 
@@ -458,7 +460,7 @@ class GhaedniaMultiscale(Value):
             "law": AbstractAsperityLaw,
         }
         out: list[str] = [
-            Problem(name, f"is not a {kind}", repr(getattr(self, name)))
+            Problem(name, f"is not a {kind}", repr(getattr(self, name)), code=Mistake.KIND)
             for name, kind in kinds.items()
             if not isinstance(getattr(self, name), kind)
         ]
@@ -469,12 +471,15 @@ class GhaedniaMultiscale(Value):
                 Problem(
                     "particles",
                     "have a strength, and this model does not break particles; remove it",
+                    code=Mistake.BEYOND,
                 )
             )
         if not isinstance(self.particles.shape, Sphere):
             out.append(
                 Problem(
-                    "particles", "are angular, and those of this model are spheres; remove shape"
+                    "particles",
+                    "are angular, and those of this model are spheres; remove shape",
+                    code=Mistake.BEYOND,
                 )
             )
         for name in ("E_star", "H"):
@@ -485,6 +490,7 @@ class GhaedniaMultiscale(Value):
                         f"surface.{name}",
                         f"Pa differs from that of the surfaces, {value_of(given, 'Pa')}",
                         f"{own:g}",
+                        code=Mistake.BEYOND,
                     )
                 )
         if not self.law.scale_free:
@@ -495,10 +501,17 @@ class GhaedniaMultiscale(Value):
                     "particles of all sizes need a law that only knows indentation over radius, "
                     "e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
+                    code=Mistake.BEYOND,
                 )
             )
         if isinstance(self.law, JG) and self.size_effect is not None:
-            out.append(Problem("law", "= JG has its own hardness; use another with a size_effect"))
+            out.append(
+                Problem(
+                    "law",
+                    "= JG has its own hardness; use another with a size_effect",
+                    code=Mistake.BEYOND,
+                )
+            )
         return out
 
     def solve(self, pressure: ArrayLike) -> MultiscaleState:
@@ -508,7 +521,7 @@ class GhaedniaMultiscale(Value):
         given = np.asarray(pressure, dtype=float)
         p = np.atleast_1d(given).ravel()
         if not np.all(p > 0):
-            raise InvalidValue("pressure must be > 0 [Pa]")
+            raise InvalidValue("pressure must be > 0 [Pa]", code=Mistake.RANGE)
         A_0 = self.surface.fraction(p)
         local = p / A_0
         film = ParticleFilm(self)

@@ -34,7 +34,12 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.status import DEEPEST
-from ..errors import InvalidValue, NoEquilibrium
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    Problem,
+)
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule, subdivide
 from ..numerics.roots import halley_root
@@ -171,7 +176,7 @@ def mean_interaction(
     """
     for name, value in (("nominal_area", nominal_area), ("kappa", kappa)):
         if not (math.isfinite(value) and value > 0):
-            raise InvalidValue(f"{name} = {value!r} must be > 0")
+            raise InvalidValue(Problem(f"{name}", "must be > 0", repr(value), code=Mistake.RANGE))
     _check_sum(contact)
     bound = interface(contact)
     compliance = kappa * math.sqrt(nominal_area) / contact.E_ss
@@ -182,7 +187,8 @@ def mean_interaction(
         if not load_scan(bound).monotone:
             raise InvalidValue(
                 "the load of this contact does not fall everywhere with d, so one d_0 may belong "
-                "to several states; give the load instead of d_0"
+                "to several states; give the load instead of d_0",
+                code=Mistake.BEYOND,
             )
 
         def gap(d: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
@@ -222,7 +228,8 @@ def _check_sum(contact: Contact) -> None:
             f"asperity_law {contact.asperity_law.name}: its pressures already press each other's "
             "ground down, and interaction would count that twice; call solve, or take a law of "
             'single asperities, e.g. "zmc"; how two bodies sink in as a whole is that of '
-            "rough_body"
+            "rough_body",
+            code=Mistake.BEYOND,
         )
 
 
@@ -278,13 +285,15 @@ class _SelfLoaded:
         if not contact.two_body:
             raise InvalidValue(
                 "local interaction is derived for asperities; it has no form for particles. "
-                "Use mean_interaction, or a contact without particles"
+                "Use mean_interaction, or a contact without particles",
+                code=Mistake.BEYOND,
             )
         rough, surfaces = contact.roughness, contact.surfaces
         if rough.ellipticity is not None:
             raise InvalidValue(
                 "local interaction is derived for asperities of one shape; use mean_interaction, "
-                "or a law with one ratio and a roughness without ellipticity"
+                "or a law with one ratio and a roughness without ellipticity",
+                code=Mistake.BEYOND,
             )
         self.E_star = contact.E_ss
         self.R, self.sigma_s, self.density = rough.R, rough.sigma_s, rough.density
@@ -295,7 +304,9 @@ class _SelfLoaded:
             R=self.R, E_star=self.E_star, H=surfaces.H, nu=surfaces.softer.nu
         )
         if law.start < 0 or np.any(law.reduced("force", np.geomspace(1e-12, 1e3, 200)) < 0):
-            raise InvalidValue(f"local interaction needs F_1 >= 0; {law.title} is adhesive")
+            raise InvalidValue(
+                f"local interaction needs F_1 >= 0; {law.title} is adhesive", code=Mistake.BEYOND
+            )
         self.omega_1 = float(law.yield_interference(R=self.R, E_star=self.E_star, H=surfaces.H))
         self.unit = math.pi * self.R * self.omega_1
         self.force_unit = self.unit * surfaces.H
@@ -482,7 +493,9 @@ def local_interaction(
     name, values, scalar = given_load(contact, pressure, F_star, d)
     sums = _SelfLoaded(contact)
     if nominal_area is not None and not nominal_area > 0:
-        raise InvalidValue(f"nominal_area = {nominal_area!r} must be > 0 [m^2]")
+        raise InvalidValue(
+            Problem("nominal_area", "must be > 0 [m^2]", repr(nominal_area), code=Mistake.RANGE)
+        )
     if name == "d":
         gaps = values
         loads = np.array([sums.at_gap(float(gap)) for gap in values])

@@ -17,7 +17,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units
 from ..quantities.record import Record
@@ -71,7 +75,9 @@ def radial_integral(eps: float, *, exponent: float = BALLS) -> float:
     (0.2288, 4.37)
     """
     if not (math.isfinite(eps) and eps > 0):
-        raise InvalidValue(f"eps = {eps!r} must be a finite number above 0")
+        raise InvalidValue(
+            Problem("eps", "must be a finite number above 0", repr(eps), code=Mistake.RANGE)
+        )
     t, w = gauss_legendre(NODES)
     if eps >= 1:
         psi = 0.5 * math.pi * (1 + t)
@@ -177,7 +183,9 @@ def share_radial_load(
         if not (math.isfinite(value) and value > 0)
     ]
     if not math.isfinite(clearance):
-        problems.append(f"clearance = {clearance!r} must be a finite number [m]")
+        problems.append(
+            Problem("clearance", "must be a finite number [m]", repr(clearance), code=Mistake.RANGE)
+        )
     if problems:
         raise InvalidValue(*problems)
     half = 0.5 * clearance

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
 
 import numpy as np
 
-from ..errors import Problem
+from ..errors import Mistake, Problem
 from ..quantities.carried import takes_units
 from ..quantities.value import choice, quantity
 from .body_shapes import BallInGroove, Body, Ring
@@ -392,20 +392,30 @@ def _misfits(bearing: Any, size: float, what: str, count: float) -> list[str]:
     if outer <= bore:
         rule = f"must be above the bore, {bore:g} [m]"
         hint = "check the units of both"
-        return [Problem("outer_diameter", rule, f"{outer:g}", hint=hint, owner=kind)]
+        return [
+            Problem("outer_diameter", rule, f"{outer:g}", hint=hint, owner=kind, code=Mistake.ORDER)
+        ]
     out: list[str] = []
     if size >= (room := 0.5 * (outer - bore)):
         rule = f"must be below {room:g} [m], the room between bore and outer diameter"
-        out.append(Problem(f"{what}_diameter", rule, f"{size:g}", owner=kind))
+        out.append(Problem(f"{what}_diameter", rule, f"{size:g}", owner=kind, code=Mistake.ORDER))
     elif count * size > math.pi * bearing.pitch_diameter:
         rule = f"of {size:g} m do not fit on a circle of {bearing.pitch_diameter:g} m"
-        out.append(Problem(f"{what}s", rule, f"{count:g}", owner=kind))
+        out.append(Problem(f"{what}s", rule, f"{count:g}", owner=kind, code=Mistake.BEYOND))
     if count != round(count):
-        out.append(Problem(f"{what}s", "must be a whole number", f"{count:g}", owner=kind))
+        out.append(
+            Problem(
+                f"{what}s", "must be a whole number", f"{count:g}", owner=kind, code=Mistake.KIND
+            )
+        )
     if abs(bearing.clearance) > 0.1 * size:
         rule = f"must be within a tenth of the {what}, {0.1 * size:g} [m]"
         told = f"{bearing.clearance:g}"
-        out.append(Problem("clearance", rule, told, hint="10 um are 10e-6", owner=kind))
+        out.append(
+            Problem(
+                "clearance", rule, told, hint="10 um are 10e-6", owner=kind, code=Mistake.BEYOND
+            )
+        )
     return out
 
 
@@ -532,6 +542,7 @@ class BallScrew(Body):
                     f"must be above the diameter of "
                     f"a ball, {self.diameter:g} [m]; check the units of both",
                     f"{self.pitch_diameter:g}",
+                    code=Mistake.ORDER,
                 )
             ]
         if self.lead < self.diameter:
@@ -541,6 +552,7 @@ class BallScrew(Body):
                     f"must be at least the diameter of a ball, "
                     f"{self.diameter:g} [m], which lies between two turns",
                     f"{self.lead:g}",
+                    code=Mistake.RANGE,
                 )
             ]
         return []

@@ -29,7 +29,16 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, note_of, tell_of_range
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    Note,
+    Problem,
+    RangeWarning,
+    note_of,
+    tell_of_range,
+)
 from ..numerics.roots import bracketed_root
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
@@ -454,14 +463,34 @@ def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, 
         try:
             array = np.asarray(value, dtype=float)
         except (TypeError, ValueError):
-            problems.append(f"{name} = {value!r} must be a number or an array of numbers [{unit}]")
+            problems.append(
+                Problem(
+                    f"{name}",
+                    f"must be a number or an array of numbers [{unit}]",
+                    repr(value),
+                    code=Mistake.KIND,
+                )
+            )
             continue
         if array.ndim > 1 or not array.size:
-            problems.append(f"{name} has shape {array.shape}; give a number or a 1-D array")
+            problems.append(
+                Problem(
+                    "",
+                    f"{name} has shape {array.shape}; give a number or a 1-D array",
+                    code=Mistake.SHAPE,
+                )
+            )
         elif not np.all(np.isfinite(array) & (array > 0)):
             bad = float(array[~(np.isfinite(array) & (array > 0))].flat[0])
             hint = "; without motion there is no film: use solve" if name == "speed" else ""
-            problems.append(f"{name} = {bad:g} must be finite and > 0 [{unit}]{hint}")
+            problems.append(
+                Problem(
+                    f"{name}",
+                    f"must be finite and > 0 [{unit}]{hint}",
+                    f"{bad:g}",
+                    code=Mistake.RANGE,
+                )
+            )
         values.append(array)
     if problems:
         raise InvalidValue(*problems)
@@ -470,7 +499,8 @@ def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, 
     except ValueError:
         raise InvalidValue(
             f"load {values[0].shape} and speed {values[1].shape} differ in length; "
-            "each must be one or N"
+            "each must be one or N",
+            code=Mistake.SHAPE,
         ) from None
     return np.atleast_1d(w).astype(float), np.atleast_1d(u).astype(float), w.ndim == 0
 
@@ -486,30 +516,60 @@ def _check(
 ) -> None:
     problems = []
     if not isinstance(contact, Contact):
-        problems.append(f"contact = {contact!r} must be a Contact")
+        problems.append(Problem("contact", "must be a Contact", repr(contact), code=Mistake.KIND))
     if not isinstance(conjunction, Point | Line):
         problems.append(
-            f"conjunction = {conjunction!r} must be films.Point or films.Line, e.g. "
-            "films.Point(R=10e-3)"
+            Problem(
+                "conjunction",
+                "must be films.Point or films.Line, e.g. films.Point(R=10e-3)",
+                repr(conjunction),
+                code=Mistake.KIND,
+            )
         )
     if not isinstance(oil, Oil):
-        problems.append(f"oil = {oil!r} must be films.Oil, e.g. films.Oil(eta=0.04, alpha=2e-8)")
+        problems.append(
+            Problem(
+                "oil",
+                "must be films.Oil, e.g. films.Oil(eta=0.04, alpha=2e-8)",
+                repr(oil),
+                code=Mistake.KIND,
+            )
+        )
     if not isinstance(film, AbstractFilm):
-        problems.append(f"film = {film!r} must be a film formula of thirdbody.films")
+        problems.append(
+            Problem(
+                "film", "must be a film formula of thirdbody.films", repr(film), code=Mistake.KIND
+            )
+        )
     elif isinstance(conjunction, Point | Line) and film.shape != conjunction.shape:
         problems.append(
-            f"film = {film.name} is for {film.shape} contacts, and the conjunction is a "
-            f"{conjunction.shape}"
+            Problem(
+                "film",
+                f"is for {film.shape} contacts, and the conjunction is a {conjunction.shape}",
+                f"{film.name}",
+                code=Mistake.BEYOND,
+            )
         )
     if hertz not in ("mean", "maximum"):
-        problems.append(f"hertz = {hertz!r} must be 'mean' or 'maximum'")
+        problems.append(
+            Problem("hertz", "must be 'mean' or 'maximum'", repr(hertz), code=Mistake.OPTION)
+        )
     if slide_roll is not None and not (
         isinstance(slide_roll, int | float) and math.isfinite(slide_roll) and slide_roll >= 0
     ):
-        problems.append(f"slide_roll = {slide_roll!r} must be one number >= 0 [1]")
+        problems.append(
+            Problem(
+                "slide_roll", "must be one number >= 0 [1]", repr(slide_roll), code=Mistake.KIND
+            )
+        )
     if not 0 <= shares[0] <= shares[1] <= 1:
         problems.append(
-            f"few, most = {shares[0]:g}, {shares[1]:g} must be shares with 0 <= few <= most <= 1"
+            Problem(
+                "",
+                f"few, most = {shares[0]:g}, {shares[1]:g} must be shares with 0 <= few <= most "
+                "<= 1",
+                code=Mistake.RANGE,
+            )
         )
     if problems:
         raise InvalidValue(*problems)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..numerics.quadrature import gauss_legendre
 from ..populations.distributions import Distribution, PowerLaw
 from ..quantities.units import say, to_si
@@ -117,18 +117,27 @@ class Filter(Value):
                     "",
                     f"has {len(x)} sizes and {len(beta)} betas; give one for each size",
                     owner="Filter",
+                    code=Mistake.SHAPE,
                 )
             ]
         out: list[str] = []
         if any(not (math.isfinite(v) and v > 0) for v in x) or any(
             b <= a for a, b in zip(x, x[1:], strict=False)
         ):
-            out.append(Problem("sizes", "must increase and start above 0 [m]"))
+            out.append(Problem("sizes", "must increase and start above 0 [m]", code=Mistake.ORDER))
         if any(not (math.isfinite(v) and v >= 1) for v in beta):
-            out.append(Problem("betas", "must be at least 1: a filter adds no particles"))
+            out.append(
+                Problem(
+                    "betas", "must be at least 1: a filter adds no particles", code=Mistake.EMPTY
+                )
+            )
         elif any(b < a for a, b in zip(beta, beta[1:], strict=False)):
             out.append(
-                Problem("betas", "must not fall: a filter that holds small ones holds large ones")
+                Problem(
+                    "betas",
+                    "must not fall: a filter that holds small ones holds large ones",
+                    code=Mistake.ORDER,
+                )
             )
         return out
 
@@ -147,14 +156,16 @@ class Filter(Value):
             left = re.sub(r"^\s*(beta|β)_?\s*|\(c\)\s*$", "", left).strip()
             try:
                 if not equals:
-                    raise InvalidValue(f"{say(pair)} has no '='")
+                    raise InvalidValue(f"{say(pair)} has no '='", code=Mistake.FORM)
                 plain = re.fullmatch(r"[\d.]+(e-?\d+)?", left)
                 sizes.append(1e-6 * float(left) if plain else to_si(left, "m"))
                 betas.append(to_si(right.strip(), "1"))
             except (InvalidValue, ValueError) as error:
                 why = error.problems[0] if isinstance(error, InvalidValue) else str(error)
                 raise InvalidValue(
-                    f'{why}; a filter is written as on its data sheet, size [µm]=β: "5=75, 10=1000"'
+                    f"{why}; a filter is written as on its data sheet, size [µm]=β: "
+                    '"5=75, 10=1000"',
+                    code=Mistake.FORM,
                 ) from None
         order = np.argsort(sizes, kind="stable")
         return cls(sizes=tuple(sizes[i] for i in order), betas=tuple(betas[i] for i in order))
@@ -306,7 +317,9 @@ class Filter(Value):
         low, high = diameter.support
         if not 0 < low < high:
             raise InvalidValue(
-                "a filter needs sizes that are spread: particles of one size have no count above it"
+                "a filter needs sizes that are spread: particles of one size have no count "
+                "above it",
+                code=Mistake.BEYOND,
             )
         own = [x for x in (*self.sizes, self._finest, *diameter.kinks) if low < x < high]
         edges = np.unique([*np.geomspace(low, high, CLASSES + 1), *own])

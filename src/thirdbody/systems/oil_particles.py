@@ -23,7 +23,7 @@ from ..contact.broken_averages import broken_average
 from ..effects.single.dent import Debris, Dent, dent_of, dents_after, flattened_diameter, sink, sunk
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
-from ..errors import InvalidValue, Problem, tell_of_range
+from ..errors import InvalidValue, Mistake, Problem, tell_of_range
 from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
@@ -208,7 +208,9 @@ class FilmParticles(Value):
 
     def _problems(self) -> list[str]:
         out: list[str] = [
-            Problem(name, f"must be a {kind.__name__}", repr(getattr(self, name)))
+            Problem(
+                name, f"must be a {kind.__name__}", repr(getattr(self, name)), code=Mistake.KIND
+            )
             for name, kind in (
                 ("surfaces", MaterialPair),
                 ("material", Material),
@@ -224,6 +226,7 @@ class FilmParticles(Value):
                     f"with debris = {self.debris!r}: "
                     "brittle particles, and only those, need the size of their fragments [m]",
                     repr(self.fragment),
+                    code=Mistake.MISSING,
                 )
             )
         if not isinstance(self.strength, WeibullStrength | None):
@@ -232,6 +235,7 @@ class FilmParticles(Value):
                     "strength",
                     "must be a WeibullStrength, e.g. WeibullStrength.of(material), or None",
                     repr(self.strength),
+                    code=Mistake.KIND,
                 )
             )
         elif self.strength is not None and self.fragment is not None:
@@ -239,6 +243,7 @@ class FilmParticles(Value):
                 Problem(
                     "strength",
                     f"and fragment = {self.fragment:g} would break the particles twice; remove one",
+                    code=Mistake.CLASH,
                 )
             )
         if self.slip > 0 and self.f_ab is None:
@@ -247,6 +252,7 @@ class FilmParticles(Value):
                     "f_ab",
                     "is missing: with slip, particles groove, and the removed part "
                     "of a groove (0 to 1) must be given",
+                    code=Mistake.MISSING,
                 )
             )
         return out

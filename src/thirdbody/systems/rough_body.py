@@ -28,7 +28,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ..quantities.carried import takes_units
 from .elastic_balance import (
     COARSE,
@@ -171,7 +175,7 @@ def _result(
 
 def _positive(name: str, value: float) -> float:
     if not (math.isfinite(value) and value > 0):
-        raise InvalidValue(f"{name} = {value!r} must be > 0 [m]")
+        raise InvalidValue(Problem(f"{name}", "must be > 0 [m]", repr(value), code=Mistake.RANGE))
     return float(value)
 
 
@@ -347,10 +351,12 @@ def curve(
     """
     solvers = {"sphere": rough_sphere, "cylinder": rough_cylinder}
     if shape not in solvers:
-        raise InvalidValue(f"shape = {shape!r} must be 'sphere' or 'cylinder'")
+        raise InvalidValue(
+            Problem("shape", "must be 'sphere' or 'cylinder'", repr(shape), code=Mistake.OPTION)
+        )
     values = np.atleast_1d(np.asarray(loads, dtype=float))
     if values.ndim != 1:
-        raise InvalidValue("loads must be a number or a 1-D array")
+        raise InvalidValue("loads must be a number or a 1-D array", code=Mistake.SHAPE)
     solved: list[RoughBody | None] = [None] * len(values)
     guess = None
     for i in np.argsort(values):

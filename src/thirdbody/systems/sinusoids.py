@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self
 
 import numpy as np
 
-from ..errors import Problem
+from ..errors import Mistake, Problem
 from ..quantities.carried import takes_units
 from ..quantities.say import percent
 from ..quantities.value import Value, items_of, quantity
@@ -172,10 +172,16 @@ class Stack(Value):
 
     def _problems(self) -> list[str]:
         if not self.levels or not all(isinstance(level, Sinusoid) for level in self.levels):
-            return [Problem("levels", "must be one or more Sinusoid")]
+            return [Problem("levels", "must be one or more Sinusoid", code=Mistake.KIND)]
         f = [level.frequency for level in self.levels]
         if any(b <= a for a, b in zip(f[:-1], f[1:], strict=True)):
-            return [Problem("levels", "must rise in frequency: the coarse scale comes first")]
+            return [
+                Problem(
+                    "levels",
+                    "must rise in frequency: the coarse scale comes first",
+                    code=Mistake.ORDER,
+                )
+            ]
         return []
 
     @classmethod

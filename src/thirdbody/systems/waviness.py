@@ -23,7 +23,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue, NoEquilibrium
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    Problem,
+)
 from ..quantities.carried import takes_units
 from ..quantities.say import value_of
 from .elastic_balance import (
@@ -142,7 +147,7 @@ class Histogram:
     def solve(self, skin: Skin, d: float | None, load: float | None) -> Balance:
         if load is None:
             if d is None:
-                raise InvalidValue("give exactly one of d, pressure, F_star")
+                raise InvalidValue("give exactly one of d, pressure, F_star", code=Mistake.MISSING)
             return self._balance_at(skin, d)
         low = high = skin.origin + float(np.max(self.heights))
         step = float(np.ptp(self.heights)) + (skin.step or abs(skin.one(low)[0] / skin.one(low)[1]))
@@ -215,7 +220,7 @@ def _result(skin: Skin, state: Balance, cosine: bool) -> WavyContact:
 
 def _load(skin: Skin, pressure: float | None, F_star: float | None) -> float | None:
     if pressure is not None and F_star is not None:
-        raise InvalidValue("give exactly one of d, pressure, F_star")
+        raise InvalidValue("give exactly one of d, pressure, F_star", code=Mistake.MISSING)
     return pressure if F_star is None else F_star * skin.E_star
 
 
@@ -324,7 +329,9 @@ def elastic_wave(
     """
     for name, value in (("amplitude", amplitude), ("wavelength", wavelength)):
         if not (math.isfinite(value) and value >= 0):
-            raise InvalidValue(f"{name} = {value!r} must be >= 0 [m]")
+            raise InvalidValue(
+                Problem(f"{name}", "must be >= 0 [m]", repr(value), code=Mistake.RANGE)
+            )
     skin = Skin(contact, E_star)
     wave = Wave(float(amplitude), float(wavelength), skin.E_star)
     return _result(skin, balance(skin, wave, d=d, load=_load(skin, pressure, F_star)), True)
@@ -375,15 +382,17 @@ def measured_wave(
     zeta = np.atleast_1d(np.asarray(heights, dtype=float))
     weights = np.ones_like(zeta) if counts is None else np.asarray(counts, dtype=float)
     if zeta.ndim != 1 or weights.shape != zeta.shape or not len(zeta):
-        raise InvalidValue("heights and counts must be 1-D and of equal length")
+        raise InvalidValue("heights and counts must be 1-D and of equal length", code=Mistake.SHAPE)
     if not (np.all(np.isfinite(zeta)) and np.all(weights >= 0) and 0 < weights.sum() < math.inf):
-        raise InvalidValue("heights must be finite, counts >= 0 with a positive finite sum")
+        raise InvalidValue(
+            "heights must be finite, counts >= 0 with a positive finite sum", code=Mistake.RANGE
+        )
     skin = Skin(contact, E_star)
     weights = weights / weights.sum()
     load = _load(skin, pressure, F_star)
     if (d is None) == (load is None):
-        raise InvalidValue("give exactly one of d, pressure, F_star")
+        raise InvalidValue("give exactly one of d, pressure, F_star", code=Mistake.MISSING)
     if load is not None and not (math.isfinite(load) and load > 0):
-        raise InvalidValue(f"the load {load!r} must be finite and > 0")
+        raise InvalidValue(f"the load {load!r} must be finite and > 0", code=Mistake.RANGE)
     state = Histogram(zeta - weights @ zeta, weights).solve(skin, d, load)
     return _result(skin, state, False)

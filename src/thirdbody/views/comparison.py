@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..analysis.compare import csv_text
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..quantities.say import number
 
 if TYPE_CHECKING:
@@ -191,7 +191,9 @@ def save(
 
     folder = Path(folder)
     if folder.exists() and not folder.is_dir():
-        raise InvalidValue(f"cannot write into {folder}: a file of that name exists")
+        raise InvalidValue(
+            f"cannot write into {folder}: a file of that name exists", code=Mistake.UNWRITABLE
+        )
     drawing = figure(table, at=at)
     text = csv_text(table)
     if not force:

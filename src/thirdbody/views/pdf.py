@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..version import __version__
 
 __all__ = ["find_browser", "need_browser", "pdf_of"]
@@ -62,7 +62,8 @@ def need_browser() -> str:
         lacking = f"{BROWSER} = {asked} is no program" if asked else "none of them was found"
         raise InvalidValue(
             f"a PDF is drawn by Chromium, Chrome or Edge, and {lacking}; install one, name its "
-            f"program in {BROWSER}, or open the HTML page in any browser and print it"
+            f"program in {BROWSER}, or open the HTML page in any browser and print it",
+            code=Mistake.ABSENT,
         )
     return found
 
@@ -92,14 +93,18 @@ def pdf_of(page: str) -> bytes:
                 [*words, source.as_uri()], capture_output=True, timeout=PATIENCE, check=False
             )
         except subprocess.TimeoutExpired:
-            raise InvalidValue(f"{browser} made no PDF within {PATIENCE:g} s") from None
+            raise InvalidValue(
+                f"{browser} made no PDF within {PATIENCE:g} s", code=Mistake.UNWRITABLE
+            ) from None
         except OSError as error:
-            raise InvalidValue(f"{browser} cannot be started: {error.strerror}") from None
+            raise InvalidValue(
+                f"{browser} cannot be started: {error.strerror}", code=Mistake.UNWRITABLE
+            ) from None
         held = target.read_bytes() if target.is_file() else b""
     if not held.startswith(b"%PDF"):
         said = done.stderr.decode("utf-8", "replace").strip().splitlines()
         why = said[-1][:200] if said else f"exit status {done.returncode}"
-        raise InvalidValue(f"{browser} made no PDF: {why}")
+        raise InvalidValue(f"{browser} made no PDF: {why}", code=Mistake.UNWRITABLE)
     return _without_date(held)
 
 

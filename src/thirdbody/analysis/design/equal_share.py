@@ -10,7 +10,11 @@ import numpy as np
 from ...contact.contact import Contact
 from ...equilibrium.modes import need_shares
 from ...equilibrium.solve import solve
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
 
@@ -71,10 +75,14 @@ def equal_share_size(
 
     need_positive(low=low, high=high)
     if not low < high:
-        raise InvalidValue(f"low = {low!r} must be below high = {high!r}")
+        raise InvalidValue(
+            Problem("low", f"must be below high = {high!r}", repr(low), code=Mistake.ORDER)
+        )
     need_shares(share=share)
     if len(contact.populations) != 1:
-        raise InvalidValue("equal_share_size needs exactly one population of particles")
+        raise InvalidValue(
+            "equal_share_size needs exactly one population of particles", code=Mistake.MISSING
+        )
     (dust,) = contact.populations
     unit = contact.roughness.sigma / dust.diameter.mean_diameter
     bare = contact.replace(outputs=())

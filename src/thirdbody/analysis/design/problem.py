@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...populations.measured import cleanliness
 from ...populations.particles import Particles
 from ...quantities.value import Value, choice, quantity
@@ -61,7 +61,11 @@ class Objective(Value):
     def _problems(self) -> list[str]:
         if self.low < self.high:
             return []
-        return [Problem("low", f"must be below high = {self.high:g}", f"{self.low:g}")]
+        return [
+            Problem(
+                "low", f"must be below high = {self.high:g}", f"{self.low:g}", code=Mistake.ORDER
+            )
+        ]
 
     @property
     def sign(self) -> float:
@@ -125,7 +129,12 @@ class Limit(Value):
     def _problems(self) -> list[str]:
         if self.most is None and self.least is None:
             return [
-                Problem("", f"of {self.of} gives neither most nor least", owner=type(self).__name__)
+                Problem(
+                    "",
+                    f"of {self.of} gives neither most nor least",
+                    owner=type(self).__name__,
+                    code=Mistake.MISSING,
+                )
             ]
         return []
 
@@ -194,7 +203,9 @@ class Suspension(Value):
         """Particles per nominal area [1/m²], of these sizes and this material."""
         amount = self.concentration if concentration is None else concentration
         if amount is None:
-            raise InvalidValue("Suspension.concentration is missing, and it is not searched")
+            raise InvalidValue(
+                "Suspension.concentration is missing, and it is not searched", code=Mistake.MISSING
+            )
         found = cleanliness.Concentration(float(amount), self.by)
         density = self.particle_density or particles.material.density
         n = cleanliness.particles_in(

@@ -11,7 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of
 from ...equilibrium.solve import given_load
-from ...errors import Advice, InvalidValue
+from ...errors import (
+    Advice,
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
 from ..inputs import input_of as moved_input
@@ -40,7 +45,9 @@ def _load_cases(
     loads = np.atleast_1d(np.asarray(cases[load], float))
     share = np.ones(len(loads)) if weights is None else np.asarray(weights, float)
     if share.shape != loads.shape or not (np.all(share >= 0) and share.sum() > 0):
-        raise InvalidValue(f"weights must be {len(loads)} numbers >= 0, one a load")
+        raise InvalidValue(
+            f"weights must be {len(loads)} numbers >= 0, one a load", code=Mistake.SHAPE
+        )
     return load, loads, share / share.sum()
 
 
@@ -104,7 +111,9 @@ def _choices(
         try:
             if _is_materials(allowed):
                 if not isinstance(contact.value_at(name), Material):
-                    raise InvalidValue(f"vary[{name!r}] lists materials, but {name} is not one")
+                    raise InvalidValue(
+                        f"vary[{name!r}] lists materials, but {name} is not one", code=Mistake.KIND
+                    )
                 materials[name] = list(allowed)
             else:
                 variables[name] = _variable(contact, name, allowed)
@@ -112,7 +121,11 @@ def _choices(
             problems += error.problems
     if not vary:
         problems.append(
-            'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}'
+            Problem(
+                "",
+                'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}',
+                code=Mistake.EMPTY,
+            )
         )
     return variables, materials, problems
 
@@ -121,19 +134,25 @@ def _unknown(
     contact: Contact, objectives: Sequence[Objective], limits: Sequence[Limit]
 ) -> list[str]:
     """Problems of objectives and limits: names of no column, or names given twice."""
-    problems = []
+    problems: list[str] = []
     if not objectives:
-        problems.append("objective is empty; say what should be small or large")
+        problems.append(
+            Problem("", "objective is empty; say what should be small or large", code=Mistake.EMPTY)
+        )
     known = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
     both: list[Objective | Limit] = [*objectives, *limits]
     problems += [
-        f"{type(each).__name__} of {each.of!r}: no such number; the states of this contact have "
-        f"{', '.join(sorted(known))}"
+        Problem(
+            "",
+            f"{type(each).__name__} of {each.of!r}: no such number; the states of this contact "
+            f"have {', '.join(sorted(known))}",
+            code=Mistake.UNKNOWN,
+        )
         for each in both
         if each.of not in known
     ]
     if len({each.label for each in objectives}) < len(objectives):
-        problems.append("two objectives are the same")
+        problems.append(Problem("", "two objectives are the same", code=Mistake.CLASH))
     return problems
 
 
@@ -182,12 +201,16 @@ def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
     try:
         low, high = (float(end) for end in allowed)
     except (TypeError, ValueError):
-        raise InvalidValue(f"vary[{name!r}] = {allowed!r} must be (low, high)") from None
+        raise InvalidValue(
+            Problem(f"vary[{name!r}]", "must be (low, high)", repr(allowed), code=Mistake.KIND)
+        ) from None
     if not low < high:
-        raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be below high = {high:g}")
+        raise InvalidValue(
+            f"vary[{name!r}]: low = {low:g} must be below high = {high:g}", code=Mistake.ORDER
+        )
     if name == AMOUNT:
         if low <= 0:
-            raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be > 0")
+            raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be > 0", code=Mistake.RANGE)
         return Variable(name, low, high, None)
     found = Variable(name, low, high, moved_input(contact, name))
     for end in (low, high):

@@ -30,7 +30,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...quantities.files import is_draft, remove_files, write_text
 from ...quantities.progress import reporting
 from ...quantities.run_files import (
@@ -136,7 +140,8 @@ class Folder:
         except (OSError, ValueError, KeyError, TypeError, RuntimeError) as error:
             why = (str(error) or type(error).__name__).splitlines()[0]
             raise InvalidValue(
-                f"{self.data} is damaged ({why}); remove it, and the same command makes it again"
+                f"{self.data} is damaged ({why}); remove it, and the same command makes it again",
+                code=Mistake.DAMAGED,
             ) from None
 
     def open(self) -> xarray.Dataset:
@@ -213,7 +218,8 @@ class Folder:
                 if name != "zarr.json" and there[name] != wanted[name] != prints[name]:
                     raise InvalidValue(
                         f"{self.data / name} is damaged, and this version of zarr makes another "
-                        f"one; remove {self.data}, and the same command solves all of it again"
+                        f"one; remove {self.data}, and the same command solves all of it again",
+                        code=Mistake.DAMAGED,
                     )
         same = found is not None or any(
             there[name] == prints[name] for name in names if name.endswith("/zarr.json")
@@ -376,7 +382,9 @@ class Folder:
         """Refuse a folder that holds something else."""
         path = self.path
         if path.exists() and not path.is_dir():
-            raise InvalidValue(f"{path} must be a folder, and a file of that name exists")
+            raise InvalidValue(
+                f"{path} must be a folder, and a file of that name exists", code=Mistake.UNWRITABLE
+            )
         if not path.exists():
             return
         found = read_json(path / "study.json")
@@ -393,7 +401,8 @@ class Folder:
             raise InvalidValue(
                 f"{path} holds another study: the order of its inputs, which decides the samples "
                 f"that each is given, is {there} there and {here} here; write them in that order, "
-                "or give another folder"
+                "or give another folder",
+                code=Mistake.OTHER_STUDY,
             )
         refuse_another(path, found, study, derived=("order",))
 
@@ -409,11 +418,13 @@ class Folder:
         if "study.json" in strange:
             raise InvalidValue(
                 f"{self.path / 'study.json'} cannot be read, so nobody knows what {self.path} "
-                "holds; give another folder"
+                "holds; give another folder",
+                code=Mistake.UNREADABLE,
             )
         raise InvalidValue(
             f"{self.path} holds files that are not of a sweep ({', '.join(strange[:3])}); "
-            "give a new or an empty folder"
+            "give a new or an empty folder",
+            code=Mistake.UNWRITABLE,
         )
 
     @contextmanager
@@ -436,7 +447,8 @@ class Folder:
                 who = file.read(100).strip()
                 raise InvalidValue(
                     f"{self.path} is in use by another run{f' (process {who})' if who else ''}; "
-                    "wait for it, or give another folder"
+                    "wait for it, or give another folder",
+                    code=Mistake.UNWRITABLE,
                 ) from None
             file.truncate(0)
             file.write(str(os.getpid()))
@@ -507,17 +519,26 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
     folder = Folder(place, kind, ())
     names = {each["study"] for each in folder.markers(None).values() if each is not None}
     if study is None and not names:
-        raise InvalidValue(f"{place} holds no sweep: there is no study.json that can be read")
+        raise InvalidValue(
+            f"{place} holds no sweep: there is no study.json that can be read",
+            code=Mistake.UNREADABLE,
+        )
     name = None if study is None else name_of(study)
-    problems = []
+    problems: list[str] = []
     if name is None or (names and name not in names):
-        problems.append(f"{place / 'study.json'} is damaged")
+        problems.append(Problem("", f"{place / 'study.json'} is damaged", code=Mistake.DAMAGED))
         name = min(names)
     found = folder.look(name, progress)
     problems += found.problems
     finished = folder.finished is not None
     if (place / "finished.json").exists() and not finished:
-        problems.append(f"{place / 'finished.json'} is damaged, or the data are missing")
+        problems.append(
+            Problem(
+                "",
+                f"{place / 'finished.json'} is damaged, or the data are missing",
+                code=Mistake.DAMAGED,
+            )
+        )
     if problems:
         many = len(problems) > MOST
         more = [f"and {len(problems) - MOST} files more"] if many else []

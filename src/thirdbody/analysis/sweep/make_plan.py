@@ -14,7 +14,7 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of, quantity_of
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import unknown_inputs
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...numerics.sampling import DESIGNS, Span, SweepDesign
 from ...quantities.arguments import only_one
 from ...quantities.units import Range
@@ -47,7 +47,9 @@ def make_plan(
     entries: dict[str, object] = dict(vary or {})
     problems = _not_known("design", design, get_args(SweepDesign))
     if load in entries:
-        raise InvalidValue(Problem(f"vary[{load!r}]", "is the load, which is given already"))
+        raise InvalidValue(
+            Problem(f"vary[{load!r}]", "is the load, which is given already", code=Mistake.CLASH)
+        )
     problems += unknown_inputs(contact, entries)
     listed, spans, slips = _inputs(contact, load, entries | {load: loads}, design)
     problems += slips
@@ -58,12 +60,18 @@ def make_plan(
                 "samples ranges and none is given; a range is (low, high) or "
                 "{'low': ..., 'high': ..., 'scale': 'log'}",
                 repr(design),
+                code=Mistake.MISSING,
             )
         )
     problems += _sampling_problems(design, samples, seed)
     if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
         problems.append(
-            Problem("chunk", "must be a whole number of states, at least 1", repr(chunk))
+            Problem(
+                "chunk",
+                "must be a whole number of states, at least 1",
+                repr(chunk),
+                code=Mistake.KIND,
+            )
         )
     problems += _unequal_lengths(listed) if design == "zip" else []
     known = columns_of(contact)
@@ -102,6 +110,7 @@ def _inputs(
                         label,
                         "is a range to be sampled, which needs design = 'latin' or 'sobol'",
                         repr(entry),
+                        code=Mistake.IDLE,
                     )
                 )
                 continue
@@ -112,7 +121,9 @@ def _inputs(
         else:
             values = _as_array(entry)
             if not len(values):
-                problems.append(Problem(label, "is empty; give at least one value"))
+                problems.append(
+                    Problem(label, "is empty; give at least one value", code=Mistake.EMPTY)
+                )
             listed[name] = values
         if name == load:
             problems += _refused_loads(contact, load, entry, values)
@@ -138,7 +149,11 @@ def _unequal_lengths(listed: Arrays) -> list[str]:
     if len({size for size in sizes.values() if size != 1}) <= 1:
         return []
     shown = ", ".join(f"{name} {size}" for name, size in sizes.items())
-    return [Problem("design", f"needs inputs of one length, and got {shown}", "'zip'")]
+    return [
+        Problem(
+            "design", f"needs inputs of one length, and got {shown}", "'zip'", code=Mistake.SHAPE
+        )
+    ]
 
 
 def _with_whole_cells(plan: Plan) -> Plan:
@@ -150,7 +165,8 @@ def _with_whole_cells(plan: Plan) -> Plan:
             f"reduce['quantiles']: a cell has {cell:,} samples of {len(plan.columns)} columns, and "
             f"exact quantiles need them in memory, which holds {CELL:,} numbers; name fewer "
             f"columns, take at most {CELL // 4:,} samples, or leave the quantiles out (mean, "
-            "extrema and exceed have no limit)"
+            "extrema and exceed have no limit)",
+            code=Mistake.TOO_LARGE,
         )
     return dataclasses.replace(plan, chunk=max(plan.chunk, cell))
 
@@ -162,20 +178,31 @@ def _span(label: str, entry: Any) -> tuple[Span | None, list[str]]:
     keys = keys if pair else dict(entry)
     if not {"low", "high"} <= set(keys) <= {"low", "high", "scale"}:
         return None, [
-            Problem(label, "must be (low, high) or have the keys low, high, scale", repr(entry))
+            Problem(
+                label,
+                "must be (low, high) or have the keys low, high, scale",
+                repr(entry),
+                code=Mistake.KIND,
+            )
         ]
     low, high, scale = keys["low"], keys["high"], keys.get("scale", "linear")
     problems = _not_known(f"{label} scale", scale, ("linear", "log"))
     for end in (low, high):
         about: Range = {"unit": "SI", "gt": None, "ge": None, "lt": None, "le": None, "hint": ""}
         if problem_with(about, end):
-            problems.append(Problem(label, f": {end!r} must be a finite number in SI units"))
+            problems.append(
+                Problem(label, f": {end!r} must be a finite number in SI units", code=Mistake.RANGE)
+            )
     if problems:
         return None, problems
     if not low < high:
-        return None, [Problem(label, f": low = {low:g} must be below high = {high:g}")]
+        return None, [
+            Problem(label, f": low = {low:g} must be below high = {high:g}", code=Mistake.ORDER)
+        ]
     if scale == "log" and low <= 0:
-        return None, [Problem(label, f": low = {low:g} must be > 0 with scale = 'log'")]
+        return None, [
+            Problem(label, f": low = {low:g} must be > 0 with scale = 'log'", code=Mistake.RANGE)
+        ]
     return Span(float(low), float(high), scale), []
 
 
@@ -183,20 +210,39 @@ def _sampling_problems(design: str, samples: object, seed: object) -> list[str]:
     out: list[str] = []
     if design in DESIGNS:
         if isinstance(samples, bool) or not isinstance(samples, int) or samples < 1:
-            out.append(Problem("samples", "must be a whole number, at least 1", repr(samples)))
+            out.append(
+                Problem(
+                    "samples",
+                    "must be a whole number, at least 1",
+                    repr(samples),
+                    code=Mistake.KIND,
+                )
+            )
         elif samples > 2**48:
-            out.append(Problem("samples", f"must be at most {2**48:,}", f"{samples:,}"))
+            out.append(
+                Problem("samples", f"must be at most {2**48:,}", f"{samples:,}", code=Mistake.RANGE)
+            )
         if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
-            out.append(Problem("seed", "must be a whole number, at least 0", repr(seed)))
+            out.append(
+                Problem("seed", "must be a whole number, at least 0", repr(seed), code=Mistake.KIND)
+            )
     elif samples is not None:
-        out.append(Problem("samples", "goes with design = 'latin' or 'sobol'", repr(samples)))
+        out.append(
+            Problem(
+                "samples", "goes with design = 'latin' or 'sobol'", repr(samples), code=Mistake.IDLE
+            )
+        )
     return out
 
 
 def _not_known(what: str, word: object, options: Sequence[str]) -> list[str]:
     if word in options:
         return []
-    return [Problem(what, f"must be one of {', '.join(map(repr, options))}", repr(word))]
+    return [
+        Problem(
+            what, f"must be one of {', '.join(map(repr, options))}", repr(word), code=Mistake.OPTION
+        )
+    ]
 
 
 def _as_array(entry: object) -> NDArray[Any]:
@@ -222,7 +268,10 @@ def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> l
     some = values[values != 0] if name in ABSENT else values
     ends = [] if not len(some) else [some.min(), some.max()]
     bad = [value for value in ends if problem_with(about, value)]
-    return [Problem(label, f": {value:g} {problem_with(about, value)}") for value in bad[:1]]
+    return [
+        Problem(label, f": {value:g} {problem_with(about, value)}", code=Mistake.RANGE)
+        for value in bad[:1]
+    ]
 
 
 def _refused_loads(contact: Contact, load: str, entry: object, values: NDArray[Any]) -> list[str]:

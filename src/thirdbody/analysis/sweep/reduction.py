@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...equilibrium.columns import about
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 
 __all__ = ["Reduction"]
 
@@ -59,7 +59,9 @@ class Reduction:
     ) -> Reduction:
         """From what a user writes; ``dims`` are the dimensions and the inputs along each."""
         problems = [
-            Problem(f"reduce[{key!r}]", f"is not known; it has {', '.join(KEYS)}")
+            Problem(
+                f"reduce[{key!r}]", f"is not known; it has {', '.join(KEYS)}", code=Mistake.UNKNOWN
+            )
             for key in asked
             if key not in KEYS
         ]
@@ -67,20 +69,28 @@ class Reduction:
         given = asked.get("over", ["sample"] if "sample" in dims else None)
         if given is None:
             problems.append(
-                Problem("reduce['over']", "is missing: the varied inputs to reduce over")
+                Problem(
+                    "reduce['over']",
+                    "is missing: the varied inputs to reduce over",
+                    code=Mistake.MISSING,
+                )
             )
         for name in [given] if isinstance(given, str) else given or ():
             home = next((dim for dim, inputs in dims.items() if name in (dim, *inputs)), None)
             if home is None:
                 known = ", ".join(dict.fromkeys(n for dim in dims for n in (dim, *dims[dim])))
                 problems.append(
-                    Problem("reduce['over']", f"names {name!r}, which is not varied: {known}")
+                    Problem(
+                        "reduce['over']",
+                        f"names {name!r}, which is not varied: {known}",
+                        code=Mistake.UNKNOWN,
+                    )
                 )
             else:
                 over.append(home)
         quantiles = tuple(float(q) for q in np.atleast_1d(asked.get("quantiles", ())))
         problems += [
-            Problem("reduce['quantiles']", "must be from 0 to 1", f"{q:g}")
+            Problem("reduce['quantiles']", "must be from 0 to 1", f"{q:g}", code=Mistake.RANGE)
             for q in quantiles
             if not 0 <= q <= 1
         ]
@@ -88,15 +98,24 @@ class Reduction:
         for name, threshold in exceed.items():
             if name not in columns:
                 rule = f"names {name!r}, which is not among the columns {', '.join(columns)}"
-                problems.append(Problem("reduce['exceed']", rule))
+                problems.append(Problem("reduce['exceed']", rule, code=Mistake.UNKNOWN))
             elif isinstance(threshold, bool) or not isinstance(threshold, (int, float)):
                 problems.append(
-                    Problem(f"reduce['exceed'][{name!r}]", "must be a number", repr(threshold))
+                    Problem(
+                        f"reduce['exceed'][{name!r}]",
+                        "must be a number",
+                        repr(threshold),
+                        code=Mistake.KIND,
+                    )
                 )
         extrema, mean = asked.get("extrema", False), asked.get("mean", False)
         if not (set(asked) - {"over"}):
             problems.append(
-                Problem("reduce", "keeps nothing: give quantiles, exceed, extrema or mean")
+                Problem(
+                    "reduce",
+                    "keeps nothing: give quantiles, exceed, extrema or mean",
+                    code=Mistake.EMPTY,
+                )
             )
         if problems:
             raise InvalidValue(*problems)

@@ -14,7 +14,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ...errors import InvalidValue, tell_of_range
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+    tell_of_range,
+)
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Cost, Report, reporting, solving
 from ...quantities.run_files import sealed
@@ -194,7 +199,14 @@ def run(
         A package is missing, the folder is in use, or it holds something else.
     """
     if format not in FORMATS:
-        raise InvalidValue(f"format = {format!r} must be one of {', '.join(map(repr, FORMATS))}")
+        raise InvalidValue(
+            Problem(
+                "format",
+                f"must be one of {', '.join(map(repr, FORMATS))}",
+                repr(format),
+                code=Mistake.OPTION,
+            )
+        )
     _require_packages(format)
     folder = Folder(Path(out), format, tuple(plan.layout().variables))
     study = {**plan.to_dict(), "format": format}
@@ -209,7 +221,10 @@ def run(
                 print(f"{folder.path} is finished: nothing to do", file=sys.stderr)
             return folder
         if not os.access(folder.path, os.W_OK):
-            raise InvalidValue(f"{damage_words(folder.path, found)}; but it cannot be written")
+            raise InvalidValue(
+                f"{damage_words(folder.path, found)}; but it cannot be written",
+                code=Mistake.UNWRITABLE,
+            )
     notes = plan.notes()  # refuses inputs before anything is written
     make_folder(folder.path)
     with folder.locked():
@@ -231,12 +246,18 @@ def _require_packages(format: str) -> None:
             module = importlib.import_module(name)
         except ImportError:
             raise InvalidValue(
-                f"format = {format!r} needs the package {name}: pip install 'thirdbody[sweep]'"
+                Problem(
+                    "format",
+                    f"needs the package {name}: pip install 'thirdbody[sweep]'",
+                    repr(format),
+                    code=Mistake.ABSENT,
+                )
             ) from None
         if name == "zarr" and int(module.__version__.split(".")[0]) < 3:
             raise InvalidValue(
                 f"format = 'zarr' needs zarr 3 and finds {module.__version__}: "
-                "pip install 'thirdbody[sweep]'"
+                "pip install 'thirdbody[sweep]'",
+                code=Mistake.ABSENT,
             )
 
 

@@ -12,7 +12,11 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from ...contact.contact import Contact
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...numerics.sampling import SweepDesign
 from ...quantities.carried import takes_units
 from ...quantities.files import refused_by_disk
@@ -140,9 +144,20 @@ def sweep(
         chunk=chunk,
     )
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise InvalidValue(f"workers = {workers!r} must be a whole number, at least 1")
+        raise InvalidValue(
+            Problem(
+                "workers", "must be a whole number, at least 1", repr(workers), code=Mistake.KIND
+            )
+        )
     if client is not None and not hasattr(client, "submit"):
-        raise InvalidValue(f"client = {client!r:.60} must be a Client of distributed, or None")
+        raise InvalidValue(
+            Problem(
+                "client",
+                "must be a Client of distributed, or None",
+                f"{client!r:.60}",
+                code=Mistake.KIND,
+            )
+        )
     if out is None:
         return streaming.in_memory(plan, workers=workers, client=client, progress=progress)
     with refused_by_disk(out):

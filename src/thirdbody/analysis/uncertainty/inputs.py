@@ -11,7 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...contact.contact import Contact
-from ...errors import InvalidValue, Problem
+from ...errors import (
+    Clause,
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...quantities.carried import takes_units
 from ...quantities.uncertain import are_correlated, is_uncertain
 from ...quantities.value import problem_with
@@ -74,13 +79,22 @@ class Uncertain:
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise InvalidValue(f"kind = {self.kind!r} must be one of {', '.join(KINDS)}")
+            raise InvalidValue(
+                Problem(
+                    "kind",
+                    f"must be one of {', '.join(KINDS)}",
+                    repr(self.kind),
+                    code=Mistake.OPTION,
+                )
+            )
         one, two = KINDS[self.kind]
         problems = []
         for name, item in ((one, self.first), (two, self.second)):
             number = isinstance(item, (int, float, np.number)) and not isinstance(item, bool)
             if not (number and math.isfinite(item)):
-                problems.append(f"{name} = {item!r} must be a finite number")
+                problems.append(
+                    Problem(f"{name}", "must be a finite number", repr(item), code=Mistake.RANGE)
+                )
         if not problems:
             for name in ("first", "second"):
                 object.__setattr__(self, name, float(getattr(self, name)))
@@ -88,17 +102,39 @@ class Uncertain:
             shown = f"{one} = {first:g}"
             if two == "high" and not first < second:
                 swap = "; exchange them" if first > second else "; what is exact needs no range"
-                problems.append(f"{shown} must be below high = {second:g}{swap}")
+                problems.append(
+                    Problem(
+                        "", f"{shown} must be below high = {second:g}{swap}", code=Mistake.ORDER
+                    )
+                )
             elif self.kind == "log-uniform" and first <= 0:
-                problems.append(f"{shown} must be > 0 for a range even in the logarithm")
+                problems.append(
+                    Problem(
+                        "",
+                        f"{shown} must be > 0 for a range even in the logarithm",
+                        code=Mistake.RANGE,
+                    )
+                )
             elif two == "std" and second <= 0:
-                problems.append(f"std = {second:g} must be > 0; what is exact needs no range")
+                problems.append(
+                    Problem(
+                        "std",
+                        "must be > 0; what is exact needs no range",
+                        f"{second:g}",
+                        code=Mistake.RANGE,
+                    )
+                )
             elif two == "gsd" and not 1 < second <= 20:
                 problems.append(
-                    f"gsd = {second:g} must be above 1, at most 20: a factor, 1.2 for about 20 %"
+                    Problem(
+                        "gsd",
+                        "must be above 1, at most 20: a factor, 1.2 for about 20 %",
+                        f"{second:g}",
+                        code=Mistake.RANGE,
+                    )
                 )
             if two == "gsd" and first <= 0:
-                problems.append(f"{shown} must be > 0")
+                problems.append(Problem("", f"{shown} must be > 0", code=Mistake.RANGE))
         if problems:
             raise InvalidValue(*problems)
 
@@ -153,8 +189,13 @@ class Uncertain:
         """
         if not is_uncertain(number):
             raise InvalidValue(
-                f"number = {number!r:.80} must have a nominal_value and a std_dev, as a ufloat; of "
-                "a quantity with a unit, give it in SI"
+                Problem(
+                    "number",
+                    "must have a nominal_value and a std_dev, as a ufloat; of a quantity with a "
+                    "unit, give it in SI",
+                    f"{number!r:.80}",
+                    code=Mistake.KIND,
+                )
             )
         return cls.normal(mean=float(number.nominal_value), std=float(number.std_dev))
 
@@ -318,7 +359,11 @@ def drawn_inputs(
     problems = _correlated(inputs, where)
     if not inputs:
         problems.append(
-            'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}'
+            Problem(
+                "",
+                'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}',
+                code=Mistake.EMPTY,
+            )
         )
     for label, given in inputs.items():
         place = where.format(label)
@@ -327,29 +372,40 @@ def drawn_inputs(
             if label not in ("pressure", "F_star", "d"):
                 each = input_of(contact, label, where)
             elif label != load:
-                problems.append(f"{place}: the given load is {load}; only that can be uncertain")
+                rule = f": the given load is {load}; only that can be uncertain"
+                problems.append(Problem(place, rule, code=Mistake.CLASH))
                 continue
             elif np.ndim(loads):
-                problems.append(f"{place}: give one load where the load is uncertain")
+                rule = ": give one load where the load is uncertain"
+                problems.append(Problem(place, rule, code=Mistake.SHAPE))
                 continue
+        except InvalidValue as error:
+            problems += [
+                why if why.place and not why.owner else Problem(place, f": {why}", code=why.code)
+                for why in error.problems
+            ]
+            continue
+        try:
             one = as_uncertain(given)
         except InvalidValue as error:
-            said = [why if why.place and not why.owner else Problem(place, f": {why}")
-                    for why in error.problems]  # fmt: skip
-            problems += said
+            problems += [Problem(place, f": {why}", code=why.code) for why in error.problems]
             continue
         except TypeError:
-            problems.append(
-                f"{place} = {given!r} must be (low, high), or one of Uncertain.uniform, "
-                "log_uniform, normal, lognormal; or a ufloat"
+            rule = (
+                "must be (low, high), or one of Uncertain.uniform, log_uniform, normal, lognormal; "
+                "or a ufloat"
             )
+            problems.append(Problem(place, rule, repr(given), code=Mistake.KIND))
             continue
         names = (each,) if isinstance(each, str) else each.names
         for name in names:
             if name in taken:
-                problems.append(f"{place} and {where.format(taken[name])} both move {name}")
+                rule = f"and {where.format(taken[name])} both move {name}"
+                problems.append(Problem(place, rule, code=Mistake.CLASH))
             taken[name] = label
-        problems += [f"{place}: {text}" for text in _beyond(contact, each, one)]
+        problems += [
+            Problem(place, f": {text}", code=text.code) for text in _beyond(contact, each, one)
+        ]
         moved.append(each)
         known.append(one)
     if problems:
@@ -357,11 +413,12 @@ def drawn_inputs(
     return Drawn(tuple(moved), tuple(known))
 
 
-def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[str]:
+def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[Clause]:
     """Why the ends of a distribution cannot stand for the input."""
     for end in (known.quantile(0.0), known.quantile(1.0)):
         if isinstance(moved, str):
-            why = None if moved == "d" or end > 0 else "must be > 0"
+            low = moved != "d" and end <= 0
+            why = Mistake.RANGE.clause("must be > 0") if low else None
         else:
             values = moved.numbers_at((end - moved.values[0]) / moved.scales[0])
             found = (problem_with(declared(contact, n), float(v)) for n, v in values.items())
@@ -369,5 +426,5 @@ def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[str]
         if why:
             cause = "; a lognormal stays positive" if known.kind == "normal" else ""
             far = ", six standard deviations from the mean," if known.kind == "normal" else ""
-            return [f"the value {end:.4g}{far} {why}{cause}"]
+            return [why.code.clause(f"the value {end:.4g}{far} {why}{cause}")]
     return []

@@ -27,7 +27,12 @@ from ...equilibrium.critical_loads import CRITICAL, critical_loads
 from ...equilibrium.crowding import crowded
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
-from ...errors import InvalidValue, tell_of_range
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+    tell_of_range,
+)
 from ...quantities import notebook
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
@@ -197,15 +202,24 @@ class Propagation(Record):
         from scipy.special import ndtri
 
         if of not in self.bands:
-            raise InvalidValue(f"of = {of!r} must be one of {', '.join(self.bands)}")
+            raise InvalidValue(
+                Problem(
+                    "of", f"must be one of {', '.join(self.bands)}", repr(of), code=Mistake.OPTION
+                )
+            )
         if len(self.probabilities) < 2:
-            raise InvalidValue("a band of one quantile has no width; ask for two quantiles or more")
+            raise InvalidValue(
+                "a band of one quantile has no width; ask for two quantiles or more",
+                code=Mistake.BEYOND,
+            )
         band, low, high = np.asarray(self.bands[of]), self.probabilities[0], self.probabilities[-1]
         std = (band[..., -1] - band[..., 0]) / float(ndtri(high) - ndtri(low))
         place = self.probabilities.index(0.5) if 0.5 in self.probabilities else None
         middle = band[..., [0, -1]].mean(axis=-1) if place is None else band[..., place]
         if not np.all(np.isfinite(middle) & np.isfinite(std)):
-            raise InvalidValue(f"the band of {of} is not finite; see bands and critical_status")
+            raise InvalidValue(
+                f"the band of {of} is not finite; see bands and critical_status", code=Mistake.RANGE
+            )
         if band.ndim == 1:
             return uncertain_number(float(middle), float(std))
         return [uncertain_number(*pair) for pair in zip(middle.tolist(), std.tolist(), strict=True)]
@@ -338,10 +352,13 @@ class Propagation(Record):
             from SALib.sample import sobol as sample
         except ImportError:
             raise InvalidValue(
-                "Sobol indices need SALib; pip install 'thirdbody[uncertainty]'"
+                "Sobol indices need SALib; pip install 'thirdbody[uncertainty]'",
+                code=Mistake.ABSENT,
             ) from None
         if samples < 2 or samples & (samples - 1):
-            raise InvalidValue(f"samples = {samples} must be a power of two")
+            raise InvalidValue(
+                Problem("samples", "must be a power of two", f"{samples}", code=Mistake.RANGE)
+            )
         names = outputs_of([of] if isinstance(of, str) else of, self.contact)
         width = len(self.inputs)
         cube = {"num_vars": width, "names": list(self.inputs), "bounds": [[0.0, 1.0]] * width}
@@ -363,11 +380,23 @@ class Propagation(Record):
             groups = groups[np.isfinite(groups).all(1)]
             if len(groups) < samples / 2:
                 raise InvalidValue(
-                    f"of = {name!r} has a value in only {len(groups)} of {samples} groups of "
-                    "samples; its variance is none of the inputs' alone"
+                    Problem(
+                        "of",
+                        f"has a value in only {len(groups)} of {samples} groups of samples; its "
+                        "variance is none of the inputs' alone",
+                        repr(name),
+                        code=Mistake.BEYOND,
+                    )
                 )
             if np.ptp(groups) == 0:
-                raise InvalidValue(f"of = {name!r} is the same in every sample: no variance")
+                raise InvalidValue(
+                    Problem(
+                        "of",
+                        "is the same in every sample: no variance",
+                        repr(name),
+                        code=Mistake.BEYOND,
+                    )
+                )
             # SALib takes a seed of zero for none
             found = analyse.analyze(
                 cube, groups.ravel(), calc_second_order=False, seed=self.seed + 1

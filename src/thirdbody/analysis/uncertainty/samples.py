@@ -14,7 +14,11 @@ from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, lo
 from ...equilibrium.modes import MODES
 from ...equilibrium.states import carries, state_columns, tables_each
 from ...equilibrium.status import MOST_AREA
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...numerics.sampling import sobol
 from ...quantities.record import Column
 from ...quantities.say import percent
@@ -89,7 +93,13 @@ def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
         if name not in known
     ]
     if not names:
-        problems.append("outputs is empty; name a column of Equilibrium or a critical load")
+        problems.append(
+            Problem(
+                "",
+                "outputs is empty; name a column of Equilibrium or a critical load",
+                code=Mistake.EMPTY,
+            )
+        )
     if contact.two_body:
         problems += [
             f"{name!r} needs particles: a two-body contact is always s-s"
@@ -111,7 +121,14 @@ def check_counts(
         ("seed", seed, 0),
     ):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            problems.append(f"{name} = {value!r} must be a whole number, at least {least}")
+            problems.append(
+                Problem(
+                    f"{name}",
+                    f"must be a whole number, at least {least}",
+                    repr(value),
+                    code=Mistake.KIND,
+                )
+            )
     if problems:
         raise InvalidValue(*problems)
 

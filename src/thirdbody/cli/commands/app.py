@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 
 __all__ = ["command"]
 
@@ -45,7 +45,8 @@ def command(
     """The page in the browser, where sliders move the answer."""
     if importlib.util.find_spec("nicegui") is None:
         raise InvalidValue(
-            "thirdbody app needs NiceGUI, which is not installed: pip install 'thirdbody[app]'"
+            "thirdbody app needs NiceGUI, which is not installed: pip install 'thirdbody[app]'",
+            code=Mistake.ABSENT,
         )
     from ...study.toml import read
 
@@ -68,6 +69,7 @@ def _free(host: str, port: int) -> int:
         except OSError as error:
             raise InvalidValue(
                 f"cannot listen on {host}, port {port}: {(error.strerror or str(error)).lower()}; "
-                "choose another with --port, or --port 0 for a free one"
+                "choose another with --port, or --port 0 for a free one",
+                code=Mistake.UNWRITABLE,
             ) from None
         return int(probe.getsockname()[1])

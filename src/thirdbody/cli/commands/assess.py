@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ..options import AsJson, Force, KeepFile, Settings, argument, option, read_study
 from ..show import terminal
 from ..streams import STDOUT, TableFiles, print_json, tell_written, warn
@@ -43,7 +43,8 @@ def command(options: Options) -> None:
 
     if options.keep is not None and not asks_for_bands(options.study, options.settings or ()):
         raise InvalidValue(
-            "--keep keeps the histories of [life.uncertainty], and the study has none"
+            "--keep keeps the histories of [life.uncertainty], and the study has none",
+            code=Mistake.MISSING,
         )
 
     if asks_for_bands(options.study, options.settings or ()):
@@ -75,7 +76,7 @@ def _assess_life(options: Options) -> None:
 
     if options.html is not None:
         rule = "--html writes no page on [life.uncertainty]; thirdbody report writes one with it"
-        raise InvalidValue(rule)
+        raise InvalidValue(rule, code=Mistake.MISSING)
     files = TableFiles(json=STDOUT if options.as_json else None)
     asked = read_question(load_life, options.study, options.settings, files, force=options.force)
     with resumable("assess", options.keep):

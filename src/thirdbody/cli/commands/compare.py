@@ -8,7 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...equilibrium.words import load_of
-from ...errors import InvalidValue, NoEquilibrium
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    Problem,
+)
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
@@ -82,9 +87,13 @@ def command(options: Options) -> None:
     from ...analysis.compare import Persson, compared
     from ..own_files import refuse_strangers
 
-    problems = []
+    problems: list[str] = []
     if options.at not in PLACES:
-        problems.append(f"--at {options.at} must be one of {', '.join(PLACES)}")
+        problems.append(
+            Problem(
+                "", f"--at {options.at} must be one of {', '.join(PLACES)}", code=Mistake.OPTION
+            )
+        )
     problems += not_a_folder(options.out)
     if problems:
         raise InvalidValue(*problems)

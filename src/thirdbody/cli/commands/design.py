@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, join_words, number, percent, value_of
 from ...quantities.tables import Table
@@ -88,7 +88,9 @@ def _choose_for_oil(options: Options) -> None:
     from ..answers import give_answer, read_question
 
     if options.figure is not None:
-        raise InvalidValue("--figure draws the points of [design]; [life.design] has none")
+        raise InvalidValue(
+            "--figure draws the points of [design]; [life.design] has none", code=Mistake.MISSING
+        )
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     asked = read_question(load_oil, options.study, options.settings, files, force=options.force)
     with heartbeat("design"):

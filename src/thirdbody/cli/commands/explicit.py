@@ -11,7 +11,11 @@ from typing import Any
 
 import typer
 
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...quantities.plain_data import plain_data
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
@@ -107,9 +111,9 @@ def command(options: Options) -> None:
 def _check(maps: str, workers: int, out: Path | None) -> None:
     problems = not_a_folder(out)
     if maps not in MAPS:
-        problems.append(f"--maps {maps} must be last or all")
+        problems.append(Problem("", f"--maps {maps} must be last or all", code=Mistake.OPTION))
     if workers < 1:
-        problems.append(f"--workers {workers} must be at least 1")
+        problems.append(Problem("", f"--workers {workers} must be at least 1", code=Mistake.RANGE))
     if problems:
         raise InvalidValue(*problems)
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.say import number
 from ...quantities.tables import Table
 from ..options import AsJson
@@ -59,7 +59,8 @@ def command(
         kinds = dict.fromkeys(entry.get("kind", "") for entry in every.values())
         raise InvalidValue(
             f"no material has {asked!r} in its name or description; "
-            f"there are kinds {', '.join(filter(None, kinds))}"
+            f"there are kinds {', '.join(filter(None, kinds))}",
+            code=Mistake.UNKNOWN,
         )
     if as_table:
         print(_materials_in_markdown(entries))

@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from .schema import schema_text
 
 __all__ = ["KINDS", "command"]
@@ -77,18 +77,39 @@ def command(
     measured = Path(which) if which is not None and kind not in SIZED else None
     if kind not in KINDS:
         hint = guess(kind, KINDS, otherwise=None)
-        problems.append(Problem("KIND", f"{kind} must be one of {', '.join(KINDS)}", hint=hint))
+        problems.append(
+            Problem(
+                "KIND", f"{kind} must be one of {', '.join(KINDS)}", hint=hint, code=Mistake.OPTION
+            )
+        )
     elif measured is not None and kind != "measured-surface":
-        problems.append(f"FILE {measured} goes with measured-surface; {kind} needs none")
+        problems.append(
+            Problem(
+                "",
+                f"FILE {measured} goes with measured-surface; {kind} needs none",
+                code=Mistake.IDLE,
+            )
+        )
     elif measured is not None and not measured.is_file():
-        problems.append(f"FILE {measured}: there is no such file")
+        problems.append(
+            Problem("", f"FILE {measured}: there is no such file", code=Mistake.UNREADABLE)
+        )
     target = out or Path(f"{kind}.toml")
     if not problems and target.exists():
         problems.append(
-            f"{target} exists and is not overwritten; remove it, or choose another: --out NAME.toml"
+            Problem(
+                "",
+                f"{target} exists and is not overwritten; remove it, or choose another: --out "
+                "NAME.toml",
+                code=Mistake.UNWRITABLE,
+            )
         )
     if schema and target.name == SCHEMA:
-        problems.append(f"--out {target} is the name of the schema; choose another")
+        problems.append(
+            Problem(
+                "", f"--out {target} is the name of the schema; choose another", code=Mistake.CLASH
+            )
+        )
     if problems:
         raise InvalidValue(*problems)
     text = resources.files("thirdbody").joinpath(f"data/studies/{kind}.toml").read_text("utf-8")

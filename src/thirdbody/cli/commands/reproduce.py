@@ -8,7 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...papers import PAPERS
 from ..options import argument, not_a_folder, option
 
@@ -35,9 +39,15 @@ def command(options: Options) -> None:
     """Every figure and the ledger of claims of a paper."""
     from importlib import import_module
 
-    problems = []
+    problems: list[str] = []
     if options.paper not in PAPERS:
-        problems.append(f"paper = {options.paper!r} must be one of {', '.join(PAPERS)}")
+        problems.append(
+            Problem(
+                "",
+                f"paper = {options.paper!r} must be one of {', '.join(PAPERS)}",
+                code=Mistake.OPTION,
+            )
+        )
     folder = options.out or Path(options.paper)
     problems += not_a_folder(folder)
     if problems:

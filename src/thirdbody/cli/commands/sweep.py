@@ -9,7 +9,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...errors import InvalidValue, NoEquilibrium
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    Problem,
+)
 from ...quantities.say import join_words, percent, plural, value_of
 from ..interrupt import Interrupted
 from ..options import Force, ParquetFile, Settings, XlsxFile, argument, option, tell_notes
@@ -123,7 +128,8 @@ def _need_files(
     if files.paths and rows > MOST_IN_A_TABLE:
         raise InvalidValue(
             f"{files.paths[0]} would have {rows:,} rows, and {MOST_IN_A_TABLE:,} are the most of a "
-            "table; leave it out and read the folder with xarray, or give [sweep.reduce]"
+            "table; leave it out and read the folder with xarray, or give [sweep.reduce]",
+            code=Mistake.TOO_LARGE,
         )
     refuse_clashes(files.paths, files_of(study, settings or ()))
     files.need(force=force)
@@ -171,7 +177,9 @@ def _check(folder: Path, *, alone: bool) -> None:
     from ...analysis.sweep.folder import check_folder
 
     if not alone:
-        raise InvalidValue("--check DIR stands alone, without STUDY.toml and --out")
+        raise InvalidValue(
+            "--check DIR stands alone, without STUDY.toml and --out", code=Mistake.CLASH
+        )
     found, *rest = check_folder(folder, progress=True).splitlines()
     warn_of(rest)
     print(found)
@@ -184,15 +192,23 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
 
     problems = []
     if format not in FORMATS:
-        problems.append(f"--format {format} must be one of {', '.join(FORMATS)}")
+        problems.append(
+            Problem(
+                "", f"--format {format} must be one of {', '.join(FORMATS)}", code=Mistake.OPTION
+            )
+        )
     if workers < 1:
-        problems.append(f"--workers {workers} must be at least 1")
+        problems.append(Problem("", f"--workers {workers} must be at least 1", code=Mistake.RANGE))
     try:
         asked = load_study(study, settings or ())
         if asked.sweep is None:
             problems.append(
-                f"{study} has no table [sweep]: it says what is varied, e.g. "
-                '[sweep.vary] roughness.sigma = ["50 nm", "100 nm"]'
+                Problem(
+                    "",
+                    f"{study} has no table [sweep]: it says what is varied, e.g. "
+                    '[sweep.vary] roughness.sigma = ["50 nm", "100 nm"]',
+                    code=Mistake.MISSING,
+                )
             )
     except InvalidValue as error:
         problems += error.problems

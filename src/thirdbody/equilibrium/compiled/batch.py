@@ -13,7 +13,12 @@ import numpy as np
 from ...contact.asperity_sums import GaussianSum
 from ...contact.contact import Contact
 from ...contact.interface import Interface, together
-from ...errors import InvalidValue, NotCompiled
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    NotCompiled,
+    Problem,
+)
 from ...laws.particle.series import Series as ParticleSeries
 from ...populations.materials import reduced_modulus, softer_hardness
 from ..load_scan import load_scan
@@ -85,8 +90,13 @@ def threads() -> int:
     if given := os.environ.get("THIRDBODY_THREADS", "").strip():
         if not (given.isascii() and given.isdecimal() and 0 < int(given) <= MOST_THREADS):
             raise InvalidValue(
-                f"THIRDBODY_THREADS = {given!r} must be a whole number from 1 to {MOST_THREADS}: "
-                "how many threads share the states; remove it for one each processor"
+                Problem(
+                    "THIRDBODY_THREADS",
+                    f"must be a whole number from 1 to {MOST_THREADS}: how many threads share "
+                    "the states; remove it for one each processor",
+                    repr(given),
+                    code=Mistake.KIND,
+                )
             )
         return int(given)
     usable = getattr(os, "sched_getaffinity", None)

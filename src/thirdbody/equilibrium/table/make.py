@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...contact.interface import Interface, interface
-from ...errors import InvalidValue, RangeWarning, tell_of_range
+from ...errors import InvalidValue, Mistake, RangeWarning, tell_of_range
 from ...quantities.carried import takes_units
 from ..load_scan import LoadScan, load_scan
 from ..solve import pull_off, solve
@@ -166,7 +166,7 @@ def _upper_end(bound: Interface, scan: LoadScan) -> float:
     """The largest d that carries `LEAST_LOAD`, or more where the load jumps over it."""
     d, _, status = scan.solve_across_jumps(np.array([LEAST_LOAD * bound.contact.E_ss]), "loading")
     if np.isnan(d[0]):
-        raise InvalidValue(f"no table: {status.words[0]}; give high [m]")
+        raise InvalidValue(f"no table: {status.words[0]}; give high [m]", code=Mistake.MISSING)
     return float(d[0])
 
 
@@ -184,7 +184,8 @@ def _lower_end(bound: Interface, d_high: float) -> float:
     if stop == 0 and F1[0] < 0 < F[0]:
         raise InvalidValue(
             f"A_t is above {MOST_AREA:g} at the upper end already, so the range has no natural "
-            "lower end; give low [m]"
+            "lower end; give low [m]",
+            code=Mistake.BEYOND,
         )
     if stop == len(d):
         return bottom
@@ -209,7 +210,8 @@ def _panel_count(bound: Interface, low: float, high: float) -> int:
     if count > MOST_PANELS:
         raise InvalidValue(
             f"the range of {high - low:.4g} m needs {count} panels to see particles "
-            f"{width:.3g} m wide; give low and high closer together"
+            f"{width:.3g} m wide; give low and high closer together",
+            code=Mistake.BEYOND,
         )
     return max(count, 4)
 
@@ -220,12 +222,14 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
     if low < bottom - 1e-12 * bound.asperities.sigma_s:
         raise InvalidValue(
             f"low: {name} = {low + shift:.6g} m must be >= {bottom + shift:.6g} m, "
-            f"{bound.why_lowest} and the model ends"
+            f"{bound.why_lowest} and the model ends",
+            code=Mistake.RANGE,
         )
     if not low < high:
         raise InvalidValue(
             f"the range of {name} from {low + shift:.6g} to {high + shift:.6g} m is empty; give "
-            "low and high [m]"
+            "low and high [m]",
+            code=Mistake.ORDER,
         )
     d = np.linspace(low, high, 8 * _panel_count(bound, low, high))
     F = bound.load(d)[:, 0]
@@ -239,7 +243,8 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
         )
         raise InvalidValue(
             f"high: {name} = {high + shift:.6g} m is too far: from {at + shift:.6g} m on {what}; "
-            "leave high out, or give a smaller one"
+            "leave high out, or give a smaller one",
+            code=Mistake.BEYOND,
         )
 
 
@@ -391,7 +396,8 @@ class _Panels:
             raise InvalidValue(
                 f"the pressure rises with the separation between {self.name} = {a:.6g} and "
                 f"{b:.6g} m, so one pressure would have several gaps; give low >= {b:.6g} m, the "
-                f"branch met on approach, or high <= {a:.6g} m"
+                f"branch met on approach, or high <= {a:.6g} m",
+                code=Mistake.BEYOND,
             )
 
     def _give_up(
@@ -411,16 +417,19 @@ class _Panels:
                 raise InvalidValue(
                     f"{which} jumps by {jumps[which]:.3g} {place}, so no continuous table is "
                     f"within {tolerance:g}; take a law without jumps, or particles of more than "
-                    "one size, or give a range without that place"
+                    "one size, or give a range without that place",
+                    code=Mistake.BEYOND,
                 )
             raise InvalidValue(
                 f"the tolerance {tolerance:g} cannot be met {place}: the load is not known that "
-                "well there; give a larger tolerance or another range"
+                "well there; give a larger tolerance or another range",
+                code=Mistake.BEYOND,
             )
         if len(x) > MOST_PANELS:
             raise InvalidValue(
                 f"the tolerance {tolerance:g} needs more than {MOST_PANELS} panels; give a larger "
-                f"one (met so far: {stated.max():.3g})"
+                f"one (met so far: {stated.max():.3g})",
+                code=Mistake.TOO_LARGE,
             )
 
 

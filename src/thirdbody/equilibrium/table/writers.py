@@ -17,7 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...contact.interface import interface
-from ...errors import Advice, InvalidValue
+from ...errors import (
+    Advice,
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import write_text
@@ -141,7 +146,9 @@ class ContactTable:
                 "give columns=... when the table is made",
                 "this command makes tables without shares",
             )
-            raise InvalidValue(f"share {name!r} is not in this table; it has " + known)
+            raise InvalidValue(
+                f"share {name!r} is not in this table; it has " + known, code=Mistake.UNKNOWN
+            )
         c = self._shares[name]
         x = np.clip(np.asarray(h, dtype=float), self.h[0], self.h[-1])
         i = self._p.panel(x)
@@ -241,7 +248,9 @@ class ContactTable:
         """
         length, stress, per_m, per_Pa = _units(units)
         if not (name.isascii() and name.replace("_", "").replace("-", "").isalnum()):
-            raise InvalidValue(f"name = {name!r} must be letters, digits, - and _")
+            raise InvalidValue(
+                Problem("name", "must be letters, digits, - and _", repr(name), code=Mistake.FORM)
+            )
         x, worst = self._rows(tolerance)
         # the tangent at the last knot leads to no pressure at all
         foot = self.h[-1] - self._p.last / float(self._p.slope(self.h[-1:])[0])
@@ -250,7 +259,12 @@ class ContactTable:
         over = [f"{(datum - at) * per_m:.12e}" for at in x[::-1].tolist()]
         if len(set(over)) < len(over):
             raise InvalidValue(
-                f"datum = {datum:g} m is so far from the gaps that pairs coincide when written"
+                Problem(
+                    "datum",
+                    "m is so far from the gaps that pairs coincide when written",
+                    f"{datum:g}",
+                    code=Mistake.BEYOND,
+                )
             )
         pairs = [
             f"{value * per_Pa:.12e}, {at}" for value, at in zip(p[::-1].tolist(), over, strict=True)
@@ -395,7 +409,12 @@ class ContactTable:
         """Separations between which straight lines of p (or ln p) keep an error, and it."""
         if not (_is_number(tolerance) and 1e-6 <= tolerance <= 0.1):
             raise InvalidValue(
-                f"tolerance = {tolerance!r} of straight lines must be from 1e-6 to 0.1 [1]"
+                Problem(
+                    "tolerance",
+                    "of straight lines must be from 1e-6 to 0.1 [1]",
+                    repr(tolerance),
+                    code=Mistake.RANGE,
+                )
             )
         x = self.h[[0, -1]]
         while True:
@@ -405,8 +424,13 @@ class ContactTable:
                 return x, float(error.max())
             if len(x) > MOST_ROWS:
                 raise InvalidValue(
-                    f"tolerance = {tolerance!r} takes more than {MOST_ROWS:,} straight lines: the "
-                    "error no longer falls with their length; ask for less"
+                    Problem(
+                        "tolerance",
+                        f"takes more than {MOST_ROWS:,} straight lines: the error no longer "
+                        "falls with their length; ask for less",
+                        repr(tolerance),
+                        code=Mistake.TOO_LARGE,
+                    )
                 )
             x = np.insert(x, bad + 1, 0.5 * (x[bad] + x[bad + 1]))
 
@@ -450,7 +474,11 @@ def rounded_up(error: float) -> str:
 
 def _units(word: str) -> tuple[str, str, float, float]:
     if word not in UNITS:
-        raise InvalidValue(f"units = {word!r} must be 'SI' (m, Pa) or 'mm' (mm, MPa)")
+        raise InvalidValue(
+            Problem(
+                "units", "must be 'SI' (m, Pa) or 'mm' (mm, MPa)", repr(word), code=Mistake.OPTION
+            )
+        )
     return UNITS[word]
 
 

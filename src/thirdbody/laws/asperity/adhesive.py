@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw, Branch
 from . import formulas
@@ -22,7 +22,9 @@ WORK_HINT = "mJ/m² are 50e-3; w is γ_1 + γ_2 − γ_12, not γ"
 def _filled(law: JKR | DMT) -> float:
     """The unit of its load, of a law that is bound to a contact."""
     if law.scale is None:
-        raise InvalidValue(f"{type(law).__name__}.scale is needed; a contact fills it in")
+        raise InvalidValue(
+            f"{type(law).__name__}.scale is needed; a contact fills it in", code=Mistake.MISSING
+        )
     return law.scale
 
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Self
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw, Branch
 from .layer import ElasticLayer
@@ -139,7 +139,9 @@ class Coated(AbstractAsperityLaw):
     @property
     def _unit(self) -> float:
         if self.scale is None:
-            raise InvalidValue("Coated.scale is needed; a contact fills it in")
+            raise InvalidValue(
+                "Coated.scale is needed; a contact fills it in", code=Mistake.MISSING
+            )
         return self.scale
 
     @property

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from ...errors import Advice, Problem
+from ...errors import Advice, Mistake, Problem
 from ...populations.heights import GaussianHeights
 from ..base import AbstractAsperityLaw, AbstractParticleLaw, Branch, Jump, SeatedLaw
 from ..field.own import OwnSpectrum, RollOff
@@ -106,10 +106,15 @@ class Field(AbstractAsperityLaw):
                     "must be an OwnSpectrum, a RollOff or None: "
                     "OwnSpectrum.of(from_topography(...))",
                     repr(self.spectrum),
+                    code=Mistake.KIND,
                 )
             ]
         if not isinstance(self.remainder, bool):
-            return [Problem("remainder", "must be True or False", repr(self.remainder))]
+            return [
+                Problem(
+                    "remainder", "must be True or False", repr(self.remainder), code=Mistake.KIND
+                )
+            ]
         return []
 
     def problems(
@@ -123,6 +128,7 @@ class Field(AbstractAsperityLaw):
                     "field takes Gaussian heights: the distribution of summits "
                     f"{type(roughness.heights).__name__} says nothing of the field between them",
                     hint="use GaussianHeights, or another law",
+                    code=Mistake.BEYOND,
                 )
             )
         if roughness.ellipticity is not None:
@@ -131,6 +137,7 @@ class Field(AbstractAsperityLaw):
                     "asperity_law",
                     "field has no summits of several shapes",
                     hint="remove the ellipticity, or take elliptic-zmc",
+                    code=Mistake.BEYOND,
                 )
             )
         low, high = self.bandwidths
@@ -141,6 +148,7 @@ class Field(AbstractAsperityLaw):
                     f"field knows bandwidths alpha from {low:g} to {high:g}, not "
                     f"{roughness.alpha:.4g}",
                     hint="use another law",
+                    code=Mistake.BEYOND,
                 )
             )
         out += [
@@ -153,6 +161,7 @@ class Field(AbstractAsperityLaw):
                 )
                 + law.name
                 + (f' with seat = "{law.seat}"' if isinstance(law, SeatedLaw) else ""),
+                code=Mistake.MISSING,
             )
             for law in particle_laws
             if not (isinstance(law, SeatedLaw) and law.seat == "rough")

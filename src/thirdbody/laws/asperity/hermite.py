@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...errors import Problem
+from ...errors import Mistake, Problem
 from ..base import Jump
 from .zmc import ZMC
 
@@ -59,6 +59,7 @@ class Hermite(ZMC):
                 f"with rho = {self.rho:g} makes the pressure overshoot H: "
                 "(k/2) ln rho must stay below 3 (1 - k)",
                 f"{self.k:g}",
+                code=Mistake.RANGE,
             )
         ]
 

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw, Branch, Jump
 
@@ -84,7 +84,9 @@ class JG(AbstractAsperityLaw):
 
     def _constants(self) -> tuple[float, float, float]:
         if self.nu is None or self.yield_strain is None:
-            raise InvalidValue("JG.nu is needed; a contact takes it from the softer body")
+            raise InvalidValue(
+                "JG.nu is needed; a contact takes it from the softer body", code=Mistake.MISSING
+            )
         C = 1.295 * math.exp(0.736 * self.nu)
         return C, 0.14 * math.exp(23 * self.yield_strain), self.yield_strain
 

@@ -32,7 +32,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import cheb2poly
 from scipy.special import spherical_jn
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...numerics.chebyshev import PiecewiseChebyshev, chebyshev_transform
 from ...numerics.quadrature import gauss_legendre, panel_rule
 from ...quantities.value import Value, quantity
@@ -122,7 +122,7 @@ class ElasticLayer(Value):
         """
         radius = np.asarray(a_t, dtype=float)
         if np.any((radius < 0) | (radius > THINNEST)):
-            raise InvalidValue(f"a/t must lie between 0 and {THINNEST:g}")
+            raise InvalidValue(f"a/t must lie between 0 and {THINNEST:g}", code=Mistake.RANGE)
         out = np.array([_solve(self, float(alpha)) for alpha in radius.ravel()])
         Phi, Delta, s = out.reshape(-1, 3).T.reshape(3, *radius.shape)
         return Phi, Delta, s

@@ -7,7 +7,7 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Self
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw
 
@@ -36,7 +36,8 @@ class PeakPressureLaw(AbstractAsperityLaw):
         if self.nu is None:
             name = type(self).__name__
             raise InvalidValue(
-                f"{name}.nu is needed (K = 0.454 + 0.41 nu) when {name}.K is not given"
+                f"{name}.nu is needed (K = 0.454 + 0.41 nu) when {name}.K is not given",
+                code=Mistake.MISSING,
             )
         return 0.454 + 0.41 * self.nu
 

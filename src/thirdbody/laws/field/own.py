@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-from ...errors import InvalidValue, NoEquilibrium, Problem
+from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...populations.measured.spectra import filled
 from ...quantities.say import percent
 from ...quantities.value import Value, choice, quantity
@@ -92,15 +92,21 @@ class OwnSpectrum(Value):
 
     def _problems(self) -> list[str]:
         if len(self.q) != len(self.weight) or len(self.q) < 8:
-            return [Problem("q", "and weight must be as many numbers, 8 at least")]
+            return [
+                Problem("q", "and weight must be as many numbers, 8 at least", code=Mistake.SHAPE)
+            ]
         if not (all(a < b for a, b in zip(self.q, self.q[1:], strict=False)) and self.q[0] > 0):
-            return [Problem("q", "must be increasing numbers above 0 [1/m]")]
+            return [Problem("q", "must be increasing numbers above 0 [1/m]", code=Mistake.ORDER)]
         if not (min(self.weight) >= 0 and sum(self.weight) > 0):
-            return [Problem("weight", "must be numbers from 0, not all 0")]
+            return [Problem("weight", "must be numbers from 0, not all 0", code=Mistake.KIND)]
         if not self.heights or abs(sum(G * G for G in self.heights) - 1) > 1e-6:
-            return [Problem("heights", "must be numbers G_n whose squares sum to 1")]
+            return [
+                Problem("heights", "must be numbers G_n whose squares sum to 1", code=Mistake.RANGE)
+            ]
         if not 0 <= self.box < math.inf:
-            return [Problem("box", "must be a length from 0 [m]", repr(self.box))]
+            return [
+                Problem("box", "must be a length from 0 [m]", repr(self.box), code=Mistake.RANGE)
+            ]
         return []
 
     @classmethod
@@ -131,13 +137,16 @@ class OwnSpectrum(Value):
         Gaussian field in the same order, and its waves are kept, with the polynomial z(t).
         """
         if surface.dim != 2:
-            raise InvalidValue("a profile does not tell the waves of a surface: measure a map")
+            raise InvalidValue(
+                "a profile does not tell the waves of a surface: measure a map", code=Mistake.BEYOND
+            )
         z = np.array(surface.filtered(cutoff), dtype=float)
         missing = float(np.mean(~np.isfinite(z)))
         if missing > MISSING:
             raise InvalidValue(
                 f"{percent(missing, digits=2)} of the points of the map are missing (up to "
-                f"{percent(MISSING, digits=1)}), so that its waves are not known; crop it"
+                f"{percent(MISSING, digits=1)}), so that its waves are not known; crop it",
+                code=Mistake.BEYOND,
             )
         z = filled(z)
         t = (z - z.mean()) / z.std()
@@ -182,7 +191,8 @@ class OwnSpectrum(Value):
         if len(own.heights) > 1:
             raise InvalidValue(
                 "the heights of one of two faces are not Gaussian, and those of both together are "
-                "not known; give one face, or leave the spectrum out"
+                "not known; give one face, or leave the spectrum out",
+                code=Mistake.CLASH,
             )
         return own
 
@@ -239,7 +249,8 @@ def _ranked(z: Array, skewness: float, excess: float) -> tuple[Array, tuple[floa
         raise InvalidValue(
             f"heights of skewness {skewness:.2g} and excess kurtosis {excess:.2g} are too far from "
             f"Gaussian (up to {MOST_SKEWED:g} and {MOST_PEAKED:g}) for the law field; use a sum "
-            "over summits with the measured heights"
+            "over summits with the measured heights",
+            code=Mistake.BEYOND,
         )
     order = np.argsort(z, axis=None, kind="stable")
     t = np.empty(z.size)

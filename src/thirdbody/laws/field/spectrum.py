@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import j0
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...numerics.chebyshev import chebyshev_transform
 from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import bracketed_root
@@ -249,7 +249,8 @@ def rolled_off(alpha: float, hurst: float = HURST, corner: str = "smooth") -> Sp
     root = float(bracketed_root(miss, *ends)[0])
     if math.isnan(root):
         raise InvalidValue(
-            f"no spectrum that rolls off and ends has the bandwidth α = {alpha:.4g}; it is above 2"
+            f"no spectrum that rolls off and ends has the bandwidth α = {alpha:.4g}; it is above 2",
+            code=Mistake.BEYOND,
         )
     share = shares(root)
     longest = math.sqrt(2 / float(share @ q**2))

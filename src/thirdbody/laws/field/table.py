@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import erfcx, ndtr
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from .conduction import TERMS, patch_stiffness
 from .programme import MOMENTS
 from .reduced import mean_pressure
@@ -222,7 +222,8 @@ def field_of(chi: float, alpha: float) -> FieldSurface:
     if not low <= alpha <= high:
         raise InvalidValue(
             f"asperity_law field: the bandwidth alpha = {alpha:.4g} must be from {low:g} to "
-            f"{high:g}, as far as its table goes; use another law"
+            f"{high:g}, as far as its table goes; use another law",
+            code=Mistake.BEYOND,
         )
     soft = chi <= SOFT
     rows = rows_of(np.array([chi]), np.array([alpha]), soft=soft)[0]

@@ -6,7 +6,7 @@ import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.value import choice, quantity
 from ..base import FLAKES, SERIES, AbstractParticleLaw, OneParticle
 
@@ -125,7 +125,13 @@ class Horng2022(AbstractParticleLaw):
             known = ", ".join(fields)
             raise InvalidValue(
                 *(
-                    Problem("", f"has no switch {key!r}", hint=f"it has {known}", owner="Horng2022")
+                    Problem(
+                        "",
+                        f"has no switch {key!r}",
+                        hint=f"it has {known}",
+                        owner="Horng2022",
+                        code=Mistake.UNKNOWN,
+                    )
                     for key in unknown
                 )
             )
@@ -137,7 +143,7 @@ class Horng2022(AbstractParticleLaw):
 
     def _problems(self) -> list[str]:
         return [
-            Problem(key, "must be true or false", f"{getattr(self, key)!r}")
+            Problem(key, "must be true or false", f"{getattr(self, key)!r}", code=Mistake.KIND)
             for key in ("plastic", "normalise")
             if not isinstance(getattr(self, key), bool)
         ]
@@ -147,4 +153,4 @@ class Horng2022(AbstractParticleLaw):
         return self.datum
 
     def one(self, *, surfaces: MaterialPair, particle: Material) -> OneParticle:
-        raise InvalidValue(NO_ONE_PARTICLE)
+        raise InvalidValue(NO_ONE_PARTICLE, code=Mistake.BEYOND)

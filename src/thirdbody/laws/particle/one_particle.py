@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...numerics.chebyshev import PiecewiseChebyshev
 from ...numerics.roots import bracketed_root
 from ...populations.materials import reduced_modulus
@@ -117,7 +117,8 @@ class Side:
             else:
                 raise InvalidValue(
                     f"the law {self.law.name} has no indentation at which the contact of a "
-                    "particle is as wide as the particle: its area must grow with the indentation"
+                    "particle is as wide as the particle: its area must grow with the indentation",
+                    code=Mistake.RANGE,
                 )
             found = bracketed_root(excess, low, high, (full[rest],))
             y[rest] = np.where(excess(high, full[rest]) <= 0, high, found)
@@ -268,7 +269,8 @@ class SqueezedParticle(OneParticle):
                 f"the hardness {hardness} is so high against the contact modulus {modulus} that a "
                 f"particle would stay elastic beyond {self.kinks[-1]:.3g} times its diameter; the "
                 "contact law holds "
-                "for small indentations only (check the units of E and H)"
+                "for small indentations only (check the units of E and H)",
+                code=Mistake.BEYOND,
             )
         self._split_table = None if self.equal else self._tabulate_split()
         if not self.equal:

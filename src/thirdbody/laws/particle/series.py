@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Literal
 
-from ...errors import Note, Problem
+from ...errors import Mistake, Note, Problem
 from ...populations.shape import Angular
 from ...quantities.value import choice, quantity
 from ..asperity.hermite import Hermite
@@ -170,7 +170,12 @@ class Series(SeatedLaw, _OfTips):
         out = []
         if not isinstance(self.law, AbstractAsperityLaw):
             out.append(
-                Problem("law", "must be a law of one contact, e.g. " + HERMITE, repr(self.law))
+                Problem(
+                    "law",
+                    "must be a law of one contact, e.g. " + HERMITE,
+                    repr(self.law),
+                    code=Mistake.KIND,
+                )
             )
         elif self.law.of_surface:
             out.append(
@@ -179,6 +184,7 @@ class Series(SeatedLaw, _OfTips):
                     "is a law of a whole surface; particles "
                     "need a law of one contact, e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
+                    code=Mistake.BEYOND,
                 )
             )
         elif not self.law.scale_free:
@@ -188,11 +194,16 @@ class Series(SeatedLaw, _OfTips):
                     "has a length of its own; particles of "
                     "all sizes need a law that only knows indentation over radius, e.g. " + HERMITE,
                     f"{type(self.law).__name__}",
+                    code=Mistake.BEYOND,
                 )
             )
         if self.soft != "squashed" and (self.friction_factor, self.onset) != (0.2, "hermite"):
             out.append(
-                Problem("friction_factor", f"and onset need soft = 'squashed', not {self.soft!r}")
+                Problem(
+                    "friction_factor",
+                    f"and onset need soft = 'squashed', not {self.soft!r}",
+                    code=Mistake.IDLE,
+                )
             )
         if not self.friction_factor > 0:
             out.append(
@@ -201,6 +212,7 @@ class Series(SeatedLaw, _OfTips):
                     "must be > 0: without friction "
                     "on its faces a squashed particle spreads without bound",
                     f"{self.friction_factor:g}",
+                    code=Mistake.RANGE,
                 )
             )
         return out + SeatedLaw._problems(self)

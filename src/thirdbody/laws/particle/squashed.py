@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.say import value_of
 from ..asperity.jg import JG
 from .one_particle import Side
@@ -98,7 +98,8 @@ class Squash:
                 "from "
                 f"{low:g} to "
                 f"{high:g}, and the surfaces at most {high:g} times as hard; check the units of E "
-                "and H, or use soft = 'sphere'"
+                "and H, or use soft = 'sphere'",
+                code=Mistake.BEYOND,
             )
         if self.onset == "jg":
             low, high = JG_RANGE
@@ -107,7 +108,8 @@ class Squash:
                     f"onset = 'jg' holds for E*/H from {low:g} to {high:g} of a squashed particle, "
                     f"and here it is {E_star / H:.3g} (E* = {value_of(E_star, 'Pa', 3)}, H = "
                     f"{value_of(H, 'Pa', 3)}): "
-                    "its contact area would grow too fast; use onset = 'hermite'"
+                    "its contact area would grow too fast; use onset = 'hermite'",
+                    code=Mistake.BEYOND,
                 )
             return _OfJacksonGreen(self, JG(), E_star, H, nu, R)
         bound = law.bound(R=R, E_star=E_star, H=H, nu=nu)
@@ -186,7 +188,8 @@ class _SquashedSide(Side):
                     "hardness of "
                     f"the surfaces, {value_of(float(surface), 'Pa', 3)}, before it is squashed to "
                     f"{THINNEST:g} of its "
-                    "size; check H and friction_factor, or use soft = 'sphere'"
+                    "size; check H and friction_factor, or use soft = 'sphere'",
+                    code=Mistake.BEYOND,
                 )
         if low == high:
             return y
@@ -246,7 +249,8 @@ class _OfJacksonGreen(_SquashedSide):
         if first == 0:
             raise InvalidValue(
                 f"onset = 'jg': with ν = {self.law.nu:g} and E*/H so, the contact area never fills "
-                "the volume of a squashed particle; use onset = 'hermite'"
+                "the volume of a squashed particle; use onset = 'hermite'",
+                code=Mistake.BEYOND,
             )
         return np.array(self._where(excess, grid[first - 1], grid[first]))
 

@@ -14,7 +14,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...quantities.plain_data import plain_data
 from ...quantities.say import number, percent, signed
 from ...version import __version__
@@ -114,7 +118,9 @@ def reproduce(
         Another preset, or a folder that cannot be made.
     """
     if preset not in PRESETS:
-        raise InvalidValue(f"preset = {preset!r} must be 'full' or 'quick'")
+        raise InvalidValue(
+            Problem("preset", "must be 'full' or 'quick'", repr(preset), code=Mistake.OPTION)
+        )
     effort = PRESETS[preset]
 
     def find(folder: Path, report: Progress) -> Summary:

@@ -7,7 +7,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...version import __version__
 from .. import engine
 from ..engine import Picture, Progress
@@ -165,7 +169,11 @@ def reproduce(
     66
     """
     if preset not in READINGS:
-        raise InvalidValue(f"preset = {preset!r} must be one of {', '.join(READINGS)}")
+        raise InvalidValue(
+            Problem(
+                "preset", f"must be one of {', '.join(READINGS)}", repr(preset), code=Mistake.OPTION
+            )
+        )
 
     def find(folder: Path, report: Progress) -> Summary:
         books = {name: Curves(reading) for name, reading in READINGS.items()}

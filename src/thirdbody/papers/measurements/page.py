@@ -9,7 +9,11 @@ from html import escape
 from pathlib import Path
 from typing import Any, ClassVar
 
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...version import __version__
 from ...views.html import symbols, table
 from .. import engine
@@ -107,7 +111,14 @@ def reproduce(
         A preset, or a folder that cannot be made.
     """
     if preset is not None:
-        raise InvalidValue(f"preset = {preset!r} has no meaning for measurements; leave it out")
+        raise InvalidValue(
+            Problem(
+                "preset",
+                "has no meaning for measurements; leave it out",
+                repr(preset),
+                code=Mistake.IDLE,
+            )
+        )
     return engine.reproduce("measurements", partial(find, Summary, rows()), out, progress=progress)
 
 

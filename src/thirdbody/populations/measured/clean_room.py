@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...numerics.quadrature import panel_rule
 from ...quantities.carried import takes_units
 from ...quantities.units import say
@@ -60,7 +60,10 @@ def read_class(value: object) -> float:
     except ValueError:
         found = math.nan
     if isinstance(value, bool) or not 0 < found <= 9:
-        raise InvalidValue(f"{say(value)} is no class of ISO 14644-1, which go up to 9, e.g. 7")
+        raise InvalidValue(
+            f"{say(value)} is no class of ISO 14644-1, which go up to 9, e.g. 7",
+            code=Mistake.OPTION,
+        )
     return found
 
 
@@ -120,7 +123,8 @@ def settled(
     """
     if not 0 < smallest < largest:
         raise InvalidValue(
-            f"smallest = {smallest:g} m must be above 0 and below largest = {largest:g} m"
+            f"smallest = {smallest:g} m must be above 0 and below largest = {largest:g} m",
+            code=Mistake.RANGE,
         )
     count = math.ceil(math.log(largest / smallest) / math.log(STEP))
     edges = np.geomspace(smallest, largest, count + 1)

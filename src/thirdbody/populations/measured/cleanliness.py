@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.units import MICRONS, not_among, say
@@ -131,11 +131,13 @@ def sizes_above(sizes: ArrayLike, *, counts: ArrayLike, largest: float) -> Distr
     x = [float(size) for size in np.ravel(np.asarray(sizes, float))]
     if not largest > x[-1]:
         rule = f"must be above {x[-1]:g} [m], the largest size that is counted"
-        raise InvalidValue(Problem("largest", rule, f"{largest:g}", hint=MICRONS))
+        raise InvalidValue(
+            Problem("largest", rule, f"{largest:g}", hint=MICRONS, code=Mistake.ORDER)
+        )
     numbers = [float(n) for n in np.ravel(np.asarray(counts, float))]
     if len(numbers) != len(x):
         rule = f"must be a number for each of {len(x)} sizes"
-        raise InvalidValue(Problem("counts", rule, f"{len(numbers)} numbers"))
+        raise InvalidValue(Problem("counts", rule, f"{len(numbers)} numbers", code=Mistake.SHAPE))
     return _falling(x, numbers, None, largest)
 
 
@@ -144,10 +146,14 @@ def _check_ends(kind: str, sizes: list[float], smallest: float | None, largest: 
         rule = (
             f"must be above 0 and at most {sizes[0]:g} [m], the smallest size that the code counts"
         )
-        raise InvalidValue(Problem("smallest", rule, f"{smallest:g}", hint=MICRONS))
+        raise InvalidValue(
+            Problem("smallest", rule, f"{smallest:g}", hint=MICRONS, code=Mistake.RANGE)
+        )
     if not (math.isfinite(largest) and largest > sizes[-1]):
         rule = f"must be above {sizes[-1]:g} [m], the largest size that the code counts"
-        raise InvalidValue(Problem("largest", rule, f"{largest:g}", hint=MICRONS))
+        raise InvalidValue(
+            Problem("largest", rule, f"{largest:g}", hint=MICRONS, code=Mistake.ORDER)
+        )
 
 
 @names_arguments
@@ -177,17 +183,21 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
     most = len(_table("cleanliness")["iso4406"]["most"]) - 1
     shown = f"ISO 4406 code {say(code)}"
     if not isinstance(code, str):
-        raise InvalidValue(f'{shown} must be three numbers in quotes, e.g. "18/16/13"')
+        raise InvalidValue(
+            f'{shown} must be three numbers in quotes, e.g. "18/16/13"', code=Mistake.SHAPE
+        )
     parts = [part.strip() for part in re.sub(r"^\s*ISO(\s*4406)?[\s:]*", "", code).split("/")]
     if len(parts) == 2 and all(re.fullmatch(r"\d{1,2}", part) for part in parts):
         raise InvalidValue(
             f"{shown} has two numbers; they count from 6 and 14 µm(c), so write "
-            f'"-/{parts[0]}/{parts[1]}"'
+            f'"-/{parts[0]}/{parts[1]}"',
+            code=Mistake.SHAPE,
         )
     if len(parts) != 3:
         raise InvalidValue(
             f'{shown} must be three numbers parted by slashes, e.g. "18/16/13", for the particles '
-            "from 4, 6 and 14 µm(c)"
+            "from 4, 6 and 14 µm(c)",
+            code=Mistake.SHAPE,
         )
     numbers: list[int | None] = []
     for place, (part, size) in enumerate(zip(parts, (4, 6, 14), strict=True)):
@@ -203,16 +213,21 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
                 )
             elif part == "*":
                 cause = "there were too many to count; write the number you take for it"
-            raise InvalidValue(f"{shown} has {say(part)} at {size} µm(c): {cause}")
+            raise InvalidValue(
+                f"{shown} has {say(part)} at {size} µm(c): {cause}", code=Mistake.FORM
+            )
         if int(part) > most:
-            raise InvalidValue(f"{shown} has {part} at {size} µm(c); the scale ends at {most}")
+            raise InvalidValue(
+                f"{shown} has {part} at {size} µm(c); the scale ends at {most}", code=Mistake.BEYOND
+            )
         numbers.append(int(part))
     counted = [number for number in numbers if number is not None]
     if any(later > earlier for earlier, later in zip(counted, counted[1:], strict=False)):
         raise InvalidValue(
             f"{shown} is impossible: the numbers must fall or stay from ≥4 to ≥6 to ≥14 µm(c), "
             "because every larger particle is counted at the smaller sizes too; are they in the "
-            "right order?"
+            "right order?",
+            code=Mistake.ORDER,
         )
     return tuple(numbers)
 
@@ -429,7 +444,8 @@ def suspension_of_class(
     if not isinstance(name, str) or name not in limits:
         raise InvalidValue(
             f"{_TITLES[kind]} class {say(name)} must be one of {', '.join(map(say, limits))}, "
-            "in quotes"
+            "in quotes",
+            code=Mistake.OPTION,
         )
     sizes = [1e-6 * size for size in scale["sizes"]]
     largest = LARGEST[kind] if largest is None else largest
@@ -501,7 +517,7 @@ def dust_table(name: str) -> dict[str, Any]:
     dusts = _table("test_dust")
     if not isinstance(name, str) or name not in dusts:
         known = ", ".join(f"{say(key)} ({dust['name']})" for key, dust in dusts.items())
-        raise InvalidValue(f"test dust {say(name)} must be one of {known}")
+        raise InvalidValue(f"test dust {say(name)} must be one of {known}", code=Mistake.OPTION)
     return dusts[name]
 
 
@@ -561,7 +577,9 @@ def dust_sizes(
     if not 0 < smallest < x[0]:
         rule = f"must be above 0 and below {x[0]:g} [m], the first size of the table"
         hint = "um are 1e-6 or '0.5 um'"
-        raise InvalidValue(Problem("smallest", rule, f"{smallest:g}", hint=hint))
+        raise InvalidValue(
+            Problem("smallest", rule, f"{smallest:g}", hint=hint, code=Mistake.ORDER)
+        )
     edges = np.concatenate([[smallest], x])
     volume = np.diff(np.concatenate([[0.0], Q]))
     low, high = edges[:-1] / smallest, edges[1:] / smallest

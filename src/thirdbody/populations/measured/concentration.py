@@ -6,7 +6,7 @@ import math
 import re
 from typing import Literal, NamedTuple, get_args
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.units import not_among, say, to_si
 from ..distributions import Distribution
@@ -79,11 +79,14 @@ def concentration(value: float | str, by: Amount = "number") -> Concentration:
     else:
         amount = to_si(value, "1")
     if not (math.isfinite(amount) and amount >= 0):
-        raise InvalidValue(f"{say(value)} must be a finite amount of particles, 0 or more")
+        raise InvalidValue(
+            f"{say(value)} must be a finite amount of particles, 0 or more", code=Mistake.RANGE
+        )
     if by in ("mass", "volume") and amount >= 1:
         raise InvalidValue(
             f"{say(value)} is {amount:g} of the whole {by}; a fraction must stay below 1 "
-            "(100 %), e.g. 0.1 wt% is 0.001"
+            "(100 %), e.g. 0.1 wt% is 0.001",
+            code=Mistake.RANGE,
         )
     return Concentration(amount, by)
 
@@ -92,19 +95,25 @@ def _read(text: str) -> tuple[float, Amount]:
     number = re.match(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*$", text)
     if not number or not number[2]:
         cause = "" if number is None else " has no unit:"
-        raise InvalidValue(f"{say(text)}{cause} must be a concentration, {_SAID}")
+        raise InvalidValue(
+            f"{say(text)}{cause} must be a concentration, {_SAID}", code=Mistake.RANGE
+        )
     amount, unit = float(number[1]), number[2]
     for kind, whole, pattern in _PARTS:
         if re.fullmatch(pattern, unit, re.IGNORECASE):
             return amount / whole, kind
     if unit == "%":
-        raise InvalidValue(f'{say(text)} is of mass or of volume? write "wt%" or "vol%"')
+        raise InvalidValue(
+            f'{say(text)} is of mass or of volume? write "wt%" or "vol%"', code=Mistake.UNIT
+        )
     for kind, si in _DENSITIES:
         try:
             return to_si(text, si), kind
         except InvalidValue:
             continue
-    raise InvalidValue(f"{say(text)} is not a concentration; it must be written {_SAID}")
+    raise InvalidValue(
+        f"{say(text)} is not a concentration; it must be written {_SAID}", code=Mistake.RANGE
+    )
 
 
 @takes_units
@@ -147,7 +156,11 @@ def particles_in(
     """
     for name, density in (("particle_density", particle_density), ("oil_density", oil_density)):
         if density is not None and not (math.isfinite(density) and density > 0):
-            raise InvalidValue(Problem(name, "must be > 0 [kg/m^3]; water is 1000", repr(density)))
+            raise InvalidValue(
+                Problem(
+                    name, "must be > 0 [kg/m^3]; water is 1000", repr(density), code=Mistake.RANGE
+                )
+            )
     amount, by = found
     if by == "number":
         return amount
@@ -157,12 +170,14 @@ def particles_in(
                 "is missing: a concentration by mass needs the density of the particles or of "
                 "their material [kg/m^3], e.g. 2650 or '2.65 g/cm^3' for quartz"
             )
-            raise InvalidValue(Problem("particle_density", rule))
+            raise InvalidValue(Problem("particle_density", rule, code=Mistake.MISSING))
         if by == "mass":
             solid = amount / particle_density
             amount = solid / (solid + (1 - amount) / oil_density)
         else:
             amount /= particle_density
     if amount >= 1:
-        raise InvalidValue(f"the particles would fill {amount:.3g} of the volume of the fluid")
+        raise InvalidValue(
+            f"the particles would fill {amount:.3g} of the volume of the fluid", code=Mistake.FULL
+        )
     return amount / (math.pi / 6 * diameter.moment(3))

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.say import value_of
 from ...quantities.units import to_si
 
@@ -68,12 +68,14 @@ def read(
     except (TypeError, ValueError):
         raise InvalidValue(
             f"{type(source).__name__} is no topography; give a file, an array of heights with "
-            "spacing, or an object of SurfaceTopography or surfalize"
+            "spacing, or an object of SurfaceTopography or surfalize",
+            code=Mistake.UNREADABLE,
         ) from None
     if steps is None:
         raise InvalidValue(
             "an array of heights needs spacing, the distance of neighbouring points [m], "
-            "e.g. spacing=1e-7"
+            "e.g. spacing=1e-7",
+            code=Mistake.MISSING,
         )
     return Raw("the array", heights * (scale or 1.0), _per_axis(steps, heights.ndim))
 
@@ -83,9 +85,13 @@ def _told_already(
 ) -> None:
     """Refuse options that the file states itself."""
     if unit is not None and scale is not None:
-        raise InvalidValue(f"{name} tells its unit, {unit}, itself; leave unit out")
+        raise InvalidValue(
+            f"{name} tells its unit, {unit}, itself; leave unit out", code=Mistake.CLASH
+        )
     if unit is not None and steps is not None:
-        raise InvalidValue(f"{name} tells its lateral size itself; leave spacing out")
+        raise InvalidValue(
+            f"{name} tells its lateral size itself; leave spacing out", code=Mistake.CLASH
+        )
 
 
 def _per_axis(steps: tuple[float, ...], dim: int) -> tuple[float, ...]:
@@ -108,31 +114,39 @@ def _from_file(
     try:
         about = path.stat()
         if path.is_dir():
-            raise InvalidValue(f"cannot read {path}: it is a folder, not a topography")
+            raise InvalidValue(
+                f"cannot read {path}: it is a folder, not a topography", code=Mistake.UNREADABLE
+            )
         if not path.is_file():
-            raise InvalidValue(f"cannot read {path}: it is not a regular file")
+            raise InvalidValue(
+                f"cannot read {path}: it is not a regular file", code=Mistake.UNREADABLE
+            )
         with path.open("rb"):
             pass
     except FileNotFoundError:
-        raise InvalidValue(f"cannot read {path}: there is no such file") from None
+        raise InvalidValue(
+            f"cannot read {path}: there is no such file", code=Mistake.UNREADABLE
+        ) from None
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         if isinstance(error, InvalidValue):
             raise
-        raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
+        raise InvalidValue(f"cannot read {path}: {why.lower()}", code=Mistake.UNREADABLE) from None
     if about.st_size == 0:
-        raise InvalidValue(f"cannot read {path}: the file is empty")
+        raise InvalidValue(f"cannot read {path}: the file is empty", code=Mistake.EMPTY)
     if about.st_size > MOST_BYTES:
         raise InvalidValue(
             f"cannot read {path}: {about.st_size / 1e9:.3g} GB are more than the "
-            f"{MOST_BYTES / 1e9:.0f} GB that fit; cut out a part in the instrument's program"
+            f"{MOST_BYTES / 1e9:.0f} GB that fit; cut out a part in the instrument's program",
+            code=Mistake.TOO_LARGE,
         )
     try:
         from SurfaceTopography import open_topography
     except ImportError:
         raise InvalidValue(
             f"cannot read {path}: files of instruments need SurfaceTopography; "
-            "pip install 'thirdbody[surfaces]'"
+            "pip install 'thirdbody[surfaces]'",
+            code=Mistake.ABSENT,
         ) from None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -151,7 +165,8 @@ def _from_file(
                 shown = " x ".join(map(str, points))
                 raise InvalidValue(
                     f"{path} has {shown} points, more than the {MOST_POINTS:,} that fit; cut out "
-                    "a part or take every second point in the instrument's program"
+                    "a part or take every second point in the instrument's program",
+                    code=Mistake.TOO_LARGE,
                 )
             try:
                 made = chosen.topography(**_lacking(chosen, scale, steps, path))
@@ -166,20 +181,25 @@ def _refuse_file(path: Path, error: Exception | None, form: str = "") -> NoRetur
     text = str(error).strip().splitlines() if error is not None else []
     many = len(text) > 1 or not text
     if isinstance(error, MemoryError):
-        raise InvalidValue(f"cannot read {path}: it does not fit into memory") from None
+        raise InvalidValue(
+            f"cannot read {path}: it does not fit into memory", code=Mistake.TOO_LARGE
+        ) from None
     if form or (text and not many):
         kind = f" as {form}" if form else ""
         why = " ".join(text)[:160] or type(error).__name__
-        raise InvalidValue(f"cannot read {path}{kind}: the file is damaged ({why})") from None
+        raise InvalidValue(
+            f"cannot read {path}{kind}: the file is damaged ({why})", code=Mistake.DAMAGED
+        ) from None
     raise InvalidValue(
-        f"cannot read {path}: it is in none of the formats of SurfaceTopography, or damaged"
+        f"cannot read {path}: it is in none of the formats of SurfaceTopography, or damaged",
+        code=Mistake.DAMAGED,
     ) from None
 
 
 def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
     channels = list(reader.channels)
     if not channels:
-        raise InvalidValue(f"{path} holds no heights")
+        raise InvalidValue(f"{path} holds no heights", code=Mistake.EMPTY)
     if channel is None:
         try:
             return reader.default_channel
@@ -191,7 +211,9 @@ def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
     if str(channel).isdigit() and int(channel) < len(channels):
         return channels[int(channel)]
     shown = ", ".join(f"{i} ({name})" for i, name in enumerate(names))
-    raise InvalidValue(Problem("channel", f"is not in {path}; it has {shown}", repr(channel)))
+    raise InvalidValue(
+        Problem("channel", f"is not in {path}; it has {shown}", repr(channel), code=Mistake.UNKNOWN)
+    )
 
 
 def _lacking(
@@ -205,13 +227,23 @@ def _lacking(
     problems = []
     if unit is None and scale is None:
         problems.append(
-            f'{path} does not state its unit; give it, e.g. unit = "um" (heights, and sides too '
-            "unless spacing is given)"
+            Problem(
+                "",
+                f'{path} does not state its unit; give it, e.g. unit = "um" (heights, and sides '
+                "too "
+                "unless spacing is given)",
+                code=Mistake.UNIT,
+            )
         )
     if sizes is None and steps is None:
         problems.append(
-            f"{path} does not state its lateral size; give spacing, the distance of neighbouring "
-            'points, e.g. spacing = "0.5 um"'
+            Problem(
+                "",
+                f"{path} does not state its lateral size; give spacing, the distance of "
+                "neighbouring "
+                'points, e.g. spacing = "0.5 um"',
+                code=Mistake.UNIT,
+            )
         )
     if problems:
         raise InvalidValue(*problems)
@@ -226,7 +258,9 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
     """An object of SurfaceTopography, in its own unit."""
     unit = made.unit
     if unit is None and scale is None:
-        raise InvalidValue(f'{name} does not state its unit; give it, e.g. unit = "um"')
+        raise InvalidValue(
+            f'{name} does not state its unit; give it, e.g. unit = "um"', code=Mistake.UNIT
+        )
     if unit is not None and name == type(made).__name__:
         known = getattr(made, "physical_sizes", None) is not None
         _told_already(name, unit, scale, steps if known else None)
@@ -234,14 +268,17 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
         factor = to_si(f"1 {unit}", "m") if unit is not None else float(scale or 1.0)
     except InvalidValue:
         raise InvalidValue(
-            f"{name} has heights in {unit!r}, which is not a length; choose another channel"
+            f"{name} has heights in {unit!r}, which is not a length; choose another channel",
+            code=Mistake.UNIT,
         ) from None
     notes: list[str] = []
     if getattr(made, "is_uniform", True):
         heights = made.heights()
         sizes = made.physical_sizes
         if sizes is None and steps is None:
-            raise InvalidValue(f"{name} does not state its lateral size; give spacing")
+            raise InvalidValue(
+                f"{name} does not state its lateral size; give spacing", code=Mistake.UNIT
+            )
         if steps is not None:
             spacing = _per_axis(steps, np.ndim(heights))
         else:
@@ -251,12 +288,14 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
     else:
         x, z = (np.asarray(part, dtype=float) for part in made.positions_and_heights())
         if len(x) < 2 or not np.all(np.diff(x) > 0):
-            raise InvalidValue(f"{name}: the positions of the profile do not increase")
+            raise InvalidValue(
+                f"{name}: the positions of the profile do not increase", code=Mistake.ORDER
+            )
         grid = np.linspace(x[0], x[-1], len(x))
         heights, spacing = np.interp(grid, x, z), (float(factor * (grid[1] - grid[0])),)
         notes.append("the points of the profile are not evenly spaced: interpolated linearly")
     if not all(math.isfinite(d) and d > 0 for d in spacing):
-        raise InvalidValue(f"{name} tells a lateral size that is not above 0")
+        raise InvalidValue(f"{name} tells a lateral size that is not above 0", code=Mistake.UNIT)
     limit, reason = _limit(made, factor)
     return Raw(name, factor * heights, spacing, made.is_periodic, limit, reason, tuple(notes))
 

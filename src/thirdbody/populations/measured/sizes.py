@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import exprel
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...numerics.quadrature import gauss_legendre
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
@@ -103,7 +103,9 @@ def by_number(
     power = WEIGHTINGS[weighting]
     if smallest is not None and not (0 < smallest < sizes.support[1]):
         rule = f"must be above 0 and below the largest size {sizes.support[1]:.4g} [m]"
-        raise InvalidValue(Problem("smallest", rule, f"{smallest:g}", hint=MICRONS))
+        raise InvalidValue(
+            Problem("smallest", rule, f"{smallest:g}", hint=MICRONS, code=Mistake.RANGE)
+        )
     if power == 0 and smallest is None:
         return sizes
     match sizes:
@@ -138,7 +140,8 @@ def _reweight(
     if lo <= 0:
         raise InvalidValue(
             f"sizes by {weighting} that reach down to 0 stand for a number of particles without "
-            "bound; give smallest, the diameter below which nothing is counted, e.g. '0.5 um'"
+            "bound; give smallest, the diameter below which nothing is counted, e.g. '0.5 um'",
+            code=Mistake.MISSING,
         )
     if isinstance(sizes, (Histogram, Uniform, PowerLaw)):
         inner = [x for x in sizes.kinks if lo < x < hi]
@@ -192,7 +195,7 @@ class MeasuredSizes(Value):
     def _problems(self) -> list[str]:
         if isinstance(self.sizes, Histogram):
             return []
-        return [Problem("sizes", "must be a Histogram", repr(self.sizes))]
+        return [Problem("sizes", "must be a Histogram", repr(self.sizes), code=Mistake.KIND)]
 
     def by_number(self, smallest: float | None = None) -> Distribution:
         """The number distribution φ_a; see `by_number`."""
@@ -231,7 +234,8 @@ class MeasuredSizes(Value):
         if len(self.sizes.counts) < 3:
             raise InvalidValue(
                 f"{len(self.sizes.counts)} bins do not test a fit with two parameters; "
-                "give at least 3 bins, or use the histogram itself"
+                "give at least 3 bins, or use the histogram itself",
+                code=Mistake.BEYOND,
             )
         edges = np.array(self.sizes.edges)
         below = self.cumulative
@@ -392,23 +396,27 @@ def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> Me
         raise InvalidValue(
             f"{path}, line {head}: {len(names)} column{'s' * (len(names) != 1)} where 2 (size, "
             "below) or 3 (low, high, amount) are needed; columns are parted by comma, semicolon "
-            "or tab"
+            "or tab",
+            code=Mistake.FORM,
         )
     unit = _unit(path, head, names)
     if len(lines) == 1:
-        raise InvalidValue(f"{path} has a first line but no sizes below it")
+        raise InvalidValue(f"{path} has a first line but no sizes below it", code=Mistake.EMPTY)
     rows = []
     for number, cells in lines[1:]:
         if len(cells) != len(names):
             raise InvalidValue(
                 f"{path}, line {number}: {len(cells)} values where the first line names "
-                f"{len(names)} columns"
+                f"{len(names)} columns",
+                code=Mistake.FORM,
             )
         rows.append([_number(path, number, cell) for cell in cells])
     numbers = [number for number, _ in lines[1:]]
     edges, amounts = (_bins if len(names) == 3 else _below)(path, numbers, np.array(rows), names)
     if not amounts.any():
-        raise InvalidValue(f"{path}: every amount is 0, so there are no particles")
+        raise InvalidValue(
+            f"{path}: every amount is 0, so there are no particles", code=Mistake.EMPTY
+        )
     scaled = [to_si(f"{edge!r} {unit}", "m") for edge in edges.tolist()]
     return MeasuredSizes(
         sizes=Histogram(edges=tuple(scaled), counts=tuple(amounts)), weighting=weighting
@@ -428,15 +436,20 @@ def _unit(path: object, line: int, names: list[str]) -> str:
             )
             raise InvalidValue(
                 f"{path}, line {line}: column {say(name)} has no unit; write it in brackets, "
-                f'e.g. "{"low" if len(names) == 3 else "size"} [um]"{cause}'
+                f'e.g. "{"low" if len(names) == 3 else "size"} [um]"{cause}',
+                code=Mistake.FORM,
             )
         try:
             to_si(f"1 {found[1]}", "m")
         except InvalidValue as error:
-            raise InvalidValue(f"{path}, line {line}, column {say(name)}: {error}") from None
+            raise InvalidValue(
+                f"{path}, line {line}, column {say(name)}: {error}", code=Mistake.FORM
+            ) from None
         units.append(found[1])
     if len(set(units)) > 1:
-        raise InvalidValue(f"{path}, line {line}: both sizes must have one unit, not {units}")
+        raise InvalidValue(
+            f"{path}, line {line}: both sizes must have one unit, not {units}", code=Mistake.FORM
+        )
     return units[0]
 
 
@@ -445,9 +458,11 @@ def _number(path: object, line: int, cell: str) -> float:
         value = float(cell)
     except ValueError:
         what = f"{say(cell)} is not a number" if cell else "a value is missing"
-        raise InvalidValue(f"{path}, line {line}: {what}") from None
+        raise InvalidValue(f"{path}, line {line}: {what}", code=Mistake.FORM) from None
     if not math.isfinite(value) or value < 0:
-        raise InvalidValue(f"{path}, line {line}: {cell} must be finite and not negative")
+        raise InvalidValue(
+            f"{path}, line {line}: {cell} must be finite and not negative", code=Mistake.FORM
+        )
     return value
 
 
@@ -456,12 +471,15 @@ def _bins(path: object, lines: list[int], rows: Array, names: list[str]) -> tupl
     for i, (low, high, _) in enumerate(rows.tolist()):
         if high <= low:
             raise InvalidValue(
-                f"{path}, line {lines[i]}: the upper edge {high:g} must be above the lower {low:g}"
+                f"{path}, line {lines[i]}: the upper edge {high:g} must be above the lower {low:g}",
+                code=Mistake.FORM,
             )
         if i and not math.isclose(low, rows[i - 1, 1], rel_tol=1e-6):
             raise InvalidValue(
                 f"{path}, line {lines[i]}: the bin begins at {low:g}, but the one before ends at "
-                f"{rows[i - 1, 1]:g}; bins must increase and adjoin (an empty bin has the amount 0)"
+                f"{rows[i - 1, 1]:g}; bins must increase and adjoin (an empty bin has the amount "
+                "0)",
+                code=Mistake.FORM,
             )
     return np.append(rows[:, 0], rows[-1, 1]), rows[:, 2]
 
@@ -474,18 +492,23 @@ def _below(path: object, lines: list[int], rows: Array, names: list[str]) -> tup
             what = "sizes must increase" if sizes[i] <= sizes[i - 1] else "amounts must not fall"
             raise InvalidValue(
                 f"{path}, line {lines[i]}: {what} from line to line; the second column is the "
-                "amount below each size"
+                "amount below each size",
+                code=Mistake.FORM,
             )
     if len(rows) < 2:
-        raise InvalidValue(f"{path} has one size; a histogram needs at least two")
+        raise InvalidValue(
+            f"{path} has one size; a histogram needs at least two", code=Mistake.SHAPE
+        )
     if below[0] > 0:
         raise InvalidValue(
             f"{path}, line {lines[0]}: {below[0]:g} lies below the first size {sizes[0]:g}, and "
-            "nothing says how it is spread; add a line with the size below which there is 0"
+            "nothing says how it is spread; add a line with the size below which there is 0",
+            code=Mistake.FORM,
         )
     if "%" in names[1] and not 99.5 <= below[-1] <= 100.5:
         raise InvalidValue(
             f"{path}, line {lines[-1]}: the last amount is {below[-1]:g} %; add a line with the "
-            "size below which there is 100 %"
+            "size below which there is 100 %",
+            code=Mistake.FORM,
         )
     return sizes, np.diff(below)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.say import value_of
 from ...quantities.value import Value, quantity
 from ..heights import GaussianHeights, Heights, HistogramHeights
@@ -151,7 +151,8 @@ class SpectralMoments(Value):
             raise InvalidValue(
                 f"the bandwidth m0 m4/m2² = {self.alpha:.4g} must be > 1.5, as it is of every "
                 "isotropic random surface; the heights are a single wave, or hold a form that "
-                'detrend = "curvature" would remove'
+                'detrend = "curvature" would remove',
+                code=Mistake.RANGE,
             )
         return Roughness(
             sigma=self.sigma,
@@ -242,13 +243,15 @@ class Summits:
         if self.dim == 1:
             raise InvalidValue(
                 "peaks of a profile are not summits of a surface: they lie lower and are more "
-                "curved; use Gaussian heights, or measure a map"
+                "curved; use Gaussian heights, or measure a map",
+                code=Mistake.BEYOND,
             )
         if self.count < FEW_SUMMITS:
             raise InvalidValue(
                 f"{self.count} summits at a cut-off of {value_of(self.cutoff, 'm')} are too few "
                 f"for a distribution of heights; it takes {FEW_SUMMITS}: use Gaussian heights, a "
-                "shorter cut-off or a larger map"
+                "shorter cut-off or a larger map",
+                code=Mistake.BEYOND,
             )
         counts, edges = np.histogram(self.heights, bins="fd")
         return HistogramHeights(edges=tuple(edges), counts=tuple(counts))

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, signed, value_of
@@ -216,7 +216,10 @@ class Topography:
         else:
             m0, m2, m4 = self._state(cutoff)[:3]
         if not (m2 > 0 and m4 > 0 and m0 > 0):
-            raise InvalidValue(f"{self.source} is smooth at a cut-off of {value_of(cutoff, 'm')}")
+            raise InvalidValue(
+                f"{self.source} is smooth at a cut-off of {value_of(cutoff, 'm')}",
+                code=Mistake.BEYOND,
+            )
         return SpectralMoments(m0=m0, m2=m2, m4=m4)
 
     def _state(self, cutoff: float) -> tuple[float, float, float, Summits, Array]:
@@ -252,6 +255,7 @@ class Topography:
                 f"({LEAST_CUTOFF} points) and {value_of(most, 'm')} (half of the shorter side) of "
                 f"{self.source}, or 0 for the heights as sampled",
                 value_of(cutoff, "m"),
+                code=Mistake.RANGE,
             )
         )
 
@@ -341,7 +345,10 @@ class Topography:
             if ellipticity != "measured":
                 raise InvalidValue(
                     Problem(
-                        "ellipticity", 'must be "measured" or an Ellipticity', repr(ellipticity)
+                        "ellipticity",
+                        'must be "measured" or an Ellipticity',
+                        repr(ellipticity),
+                        code=Mistake.OPTION,
                     )
                 )
             rough = self.roughness(cutoff=cutoff, heights=heights)
@@ -353,7 +360,12 @@ class Topography:
         if heights != "measured":
             if isinstance(heights, str):
                 raise InvalidValue(
-                    Problem("heights", 'must be "measured" or a distribution', repr(heights))
+                    Problem(
+                        "heights",
+                        'must be "measured" or a distribution',
+                        repr(heights),
+                        code=Mistake.OPTION,
+                    )
                 )
             return moments.roughness(heights=heights)
         summits = self.summits_at(cutoff)
@@ -363,7 +375,8 @@ class Topography:
             raise InvalidValue(
                 f"the summits of {self.source} at a cut-off of {value_of(summits.cutoff, 'm')} "
                 f"have σ_s = {ratio:.3g} σ, and a Roughness has from 0.634 to 1; "
-                "use Gaussian heights or another cut-off"
+                "use Gaussian heights or another cut-off",
+                code=Mistake.BEYOND,
             )
         return Roughness(
             sigma=moments.sigma,
@@ -402,6 +415,7 @@ class Topography:
                     "points_per_octave",
                     "must be a whole number from 1 to 100",
                     repr(points_per_octave),
+                    code=Mistake.KIND,
                 )
             )
         low, high = LEAST_CUTOFF * max(self.spacing), min(self.size) / LONGEST

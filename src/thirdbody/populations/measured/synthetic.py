@@ -14,7 +14,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import (
+    InvalidValue,
+    Mistake,
+    Problem,
+)
 from ...quantities.carried import takes_units
 from ...quantities.say import value_of
 from .spectra import SpectralMoments
@@ -79,11 +83,15 @@ def self_affine(
     _check_arguments(points, seed, spacing=spacing, sigma=sigma, shortest=shortest, longest=longest)
     problems = []
     if not 0 <= hurst <= 1:
-        problems.append(f"hurst = {hurst!r} must be from 0 to 1")
+        problems.append(Problem("", f"hurst = {hurst!r} must be from 0 to 1", code=Mistake.RANGE))
     if not 2 * spacing < shortest <= longest <= points * spacing:
         problems.append(
-            f"shortest = {shortest:g} and longest = {longest:g} must be in order between two "
-            f"spacings, {2 * spacing:g}, and the side, {points * spacing:g} [m]"
+            Problem(
+                "",
+                f"shortest = {shortest:g} and longest = {longest:g} must be in order between two "
+                f"spacings, {2 * spacing:g}, and the side, {points * spacing:g} [m]",
+                code=Mistake.RANGE,
+            )
         )
     if problems:
         raise InvalidValue(*problems)
@@ -141,7 +149,7 @@ def from_moments(
     """
     _check_arguments(points, seed, spacing=spacing)
     if not 0 <= hurst <= 1:
-        raise InvalidValue(f"hurst = {hurst!r} must be from 0 to 1")
+        raise InvalidValue(f"hurst = {hurst!r} must be from 0 to 1", code=Mistake.RANGE)
     shape = _RolledOff(points, spacing, hurst)
     found = _matching(shape, 2 * moments.m2 / moments.m0, moments.alpha)
     if found is None:
@@ -149,7 +157,8 @@ def from_moments(
             f"no spectrum on {points} x {points} points {value_of(spacing, 'm')} apart has α = "
             f"{moments.alpha:.4g} and an RMS gradient of {moments.rms_gradient:.4g} with σ = "
             f"{value_of(moments.sigma, 'm')}; α must be above 2, and a larger α takes more points "
-            "or another spacing"
+            "or another spacing",
+            code=Mistake.BEYOND,
         )
     grid = _wavenumbers(points, spacing)
     spectrum = np.where(grid > 0, shape.density(grid, *found), 0.0)
@@ -220,9 +229,15 @@ def _check_arguments(points: int, seed: int, **lengths: float) -> None:
         if not (isinstance(value, (int, float)) and 0 < value < math.inf)
     ]
     if not (isinstance(points, int) and 16 <= points <= 4096):
-        problems.append(f"points = {points!r} must be a whole number from 16 to 4096")
+        problems.append(
+            Problem(
+                "", f"points = {points!r} must be a whole number from 16 to 4096", code=Mistake.KIND
+            )
+        )
     if not (isinstance(seed, int) and seed >= 0):
-        problems.append(f"seed = {seed!r} must be a whole number, at least 0")
+        problems.append(
+            Problem("", f"seed = {seed!r} must be a whole number, at least 0", code=Mistake.KIND)
+        )
     if problems:
         raise InvalidValue(*problems)
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, value_of
 from ...quantities.units import to_si
@@ -139,13 +139,21 @@ def _options(
     """The unit [m] and the spacing [m] given, or None, when every option has a meaning."""
     problems: list[str] = []
     if detrend is not None and detrend not in FORMS:
-        problems.append(Problem("detrend", f"must be one of {', '.join(FORMS)}", repr(detrend)))
+        problems.append(
+            Problem(
+                "detrend", f"must be one of {', '.join(FORMS)}", repr(detrend), code=Mistake.OPTION
+            )
+        )
     for name, value in (("cutoff", cutoff), ("resolution", resolution)):
         lowest = "at least 0" if name == "cutoff" else "above 0"
         if value is not None and not (
             is_number(value) and (value > 0 or (value == 0 and name == "cutoff"))
         ):
-            problems.append(Problem(name, f"must be a finite length {lowest} [m]", repr(value)))
+            problems.append(
+                Problem(
+                    name, f"must be a finite length {lowest} [m]", repr(value), code=Mistake.RANGE
+                )
+            )
     steps = None
     if spacing is not None:
         given = spacing if isinstance(spacing, (tuple, list)) else (spacing,)
@@ -153,7 +161,12 @@ def _options(
             steps = tuple(float(d) for d in given)
         else:
             problems.append(
-                Problem("spacing", "must be one length above 0 [m], or two of them", repr(spacing))
+                Problem(
+                    "spacing",
+                    "must be one length above 0 [m], or two of them",
+                    repr(spacing),
+                    code=Mistake.RANGE,
+                )
             )
     scale = None
     if unit is not None:
@@ -170,33 +183,42 @@ def _check_size(surface: Topography, detrend: str) -> None:
     """Refuse what is flat, or higher than wide."""
     if not surface.rms_height > 1e-15:
         raise InvalidValue(
-            f"{surface.source} is flat: without its form (detrend = {detrend!r}) nothing is left"
+            f"{surface.source} is flat: without its form (detrend = {detrend!r}) nothing is left",
+            code=Mistake.BEYOND,
         )
     if surface.rms_height > max(surface.size):
         raise InvalidValue(
             f"{surface.source}: an RMS height of {value_of(surface.rms_height, 'm')} on a side of "
             f"{value_of(max(surface.size), 'm')} is no surface; check the units of heights and "
-            "sides"
+            "sides",
+            code=Mistake.BEYOND,
         )
 
 
 def _check(heights: Array, name: str) -> None:
     if heights.ndim not in (1, 2):
-        raise InvalidValue(f"{name} has {heights.ndim} axes; a map has two and a profile one")
+        raise InvalidValue(
+            f"{name} has {heights.ndim} axes; a map has two and a profile one", code=Mistake.SHAPE
+        )
     least = FEWEST_POINTS[heights.ndim]
     shown = " x ".join(map(str, heights.shape))
     if min(heights.shape) < least:
         raise InvalidValue(
             f"{name} has {shown} points; moments take at least {least}"
-            + (" along each side" if heights.ndim == 2 else "")
+            + (" along each side" if heights.ndim == 2 else ""),
+            code=Mistake.BEYOND,
         )
     if heights.size > MOST_POINTS:
-        raise InvalidValue(f"{name} has {shown} points, more than the {MOST_POINTS:,} that fit")
+        raise InvalidValue(
+            f"{name} has {shown} points, more than the {MOST_POINTS:,} that fit",
+            code=Mistake.TOO_LARGE,
+        )
     known = np.isfinite(heights).mean()
     if known < 0.5:
         raise InvalidValue(
             f"{name} has no datum at {percent(1 - known, digits=2)} of its points; cut out a part "
-            "that was measured"
+            "that was measured",
+            code=Mistake.BEYOND,
         )
 
 

@@ -32,7 +32,7 @@ from matplotlib.ticker import PercentFormatter
 from ...equilibrium.columns import Equilibrium
 from ...equilibrium.transitions import Transitions
 from ...equilibrium.words import MODES
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.arguments import names_arguments
 from ...quantities.say import number
 from .style import (
@@ -63,7 +63,8 @@ def _single(data: xarray.Dataset | Equilibrium, function: str) -> Curve:
     if len(curves) != 1:
         raise InvalidValue(
             f"plot.{function} draws one load curve and the Dataset holds {len(curves)}; select "
-            "one, e.g. data.isel({'particles.diameter.mean': 0})"
+            "one, e.g. data.isel({'particles.diameter.mean': 0})",
+            code=Mistake.BEYOND,
         )
     return curves[0]
 
@@ -183,7 +184,9 @@ def shares(
     'Particle area share $A_{sa}/A_t$ [%]'
     """
     if basis not in ("load", "area"):
-        raise InvalidValue(f"plot.shares: basis = {basis!r} must be 'load' or 'area'")
+        raise InvalidValue(
+            f"plot.shares: basis = {basis!r} must be 'load' or 'area'", code=Mistake.OPTION
+        )
     ax = _lines(data, ax, against, f"particle_{basis}_share", ylog=False)
     _share_axis(ax)
     return ax
@@ -358,7 +361,9 @@ def modes(
     'log'
     """
     if transitions is not None and against != "F_star":
-        raise InvalidValue("plot.modes: transitions are loads F*; leave against = 'F_star'")
+        raise InvalidValue(
+            "plot.modes: transitions are loads F*; leave against = 'F_star'", code=Mistake.BEYOND
+        )
     curves = _curves(data)
     if len(curves) > 1:
         return _mode_chart(curves, _axes(ax), against)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.arguments import names_arguments
 from ...quantities.say import percent, value_of
 from .style import OKABE_ITO, _dress, _tint
@@ -64,7 +64,8 @@ def explicit(state: ExplicitState) -> Figure:
     """
     if not hasattr(state, "maps") or not hasattr(state, "particles"):
         raise InvalidValue(
-            f"plot.explicit: {type(state).__name__} is no state of thirdbody.explicit.solve"
+            f"plot.explicit: {type(state).__name__} is no state of thirdbody.explicit.solve",
+            code=Mistake.BEYOND,
         )
     maps, bodies = state.maps, state.particles
     if "state" in maps.dims:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from .style import OKABE_ITO
 
 if TYPE_CHECKING:
@@ -95,7 +95,8 @@ def stribeck(
     if len(u) < 2:
         raise InvalidValue(
             "a curve needs several speeds, e.g. "
-            'speed = { from = "5 mm/s", to = "20 m/s", points = 60, spacing = "log" }'
+            'speed = { from = "5 mm/s", to = "20 m/s", points = 60, spacing = "log" }',
+            code=Mistake.SHAPE,
         )
     columns = {name: np.asarray(curve[name], float) for panel in LINES.values() for name in panel}
     panels = [name for name in LINES if name != "friction" or np.isfinite(columns["mu"]).any()]

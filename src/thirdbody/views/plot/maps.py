@@ -13,7 +13,7 @@ from matplotlib.ticker import NullFormatter
 
 from ...equilibrium.solve import solve
 from ...equilibrium.words import MODES
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...populations.particles import Particles
 from ...quantities.carried import takes_units
 from .style import MODE_COLOURS, _axes, _dress, _legend_above
@@ -83,14 +83,16 @@ def mode_map(
     """
     if contact.two_body or not isinstance(contact.particles, Particles):
         raise InvalidValue(
-            "plot.mode_map: the contact has no particles, or several kinds; give one kind"
+            "plot.mode_map: the contact has no particles, or several kinds; give one kind",
+            code=Mistake.BEYOND,
         )
     sizes = np.geomspace(0.1, 10, 200) if ratio is None else np.asarray(ratio, dtype=float)
     loads = np.geomspace(1e-7, 1e-3, 200) if F_star is None else np.asarray(F_star, dtype=float)
     for name, values in (("ratio", sizes), ("F_star", loads)):
         if values.ndim != 1 or len(values) < 2 or not np.all(np.diff(values) > 0) or values[0] <= 0:
             raise InvalidValue(
-                f"plot.mode_map: {name} must be two or more increasing positive numbers [1]"
+                f"plot.mode_map: {name} must be two or more increasing positive numbers [1]",
+                code=Mistake.ORDER,
             )
     index, share = _solved_map(contact, sizes, loads)
 

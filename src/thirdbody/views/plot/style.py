@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, PercentFormatter
 
 from ...equilibrium.columns import Equilibrium
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.say import SUPERSCRIPTS, value_of
 
 if TYPE_CHECKING:
@@ -120,14 +120,16 @@ def _curves(data: xarray.Dataset | Equilibrium) -> list[Curve]:
     if not hasattr(data, "dims") or not hasattr(data, "data_vars"):
         raise InvalidValue(
             f"plot: {type(data).__name__} cannot be drawn; give a Dataset from sweep(...) or an "
-            "Equilibrium from solve(...) with several loads"
+            "Equilibrium from solve(...) with several loads",
+            code=Mistake.BEYOND,
         )
     load = next((name for name in LOADS if name in data.dims), None)
     if load is None:
         raise InvalidValue(
             f"plot: the Dataset has dimensions {tuple(data.dims)} and none of them is a load "
             f"({', '.join(LOADS)}); select values of the others only, e.g. "
-            "data.sel({'particles.diameter.mean': 3e-7})"
+            "data.sel({'particles.diameter.mean': 3e-7})",
+            code=Mistake.CLASH,
         )
     others = [str(name) for name in data.dims if name != load]
     out = []
@@ -217,6 +219,7 @@ def _styles(curves: Sequence[Curve]) -> list[dict[str, Any]]:
 def _column(curve: Curve, name: str) -> NDArray[np.float64]:
     if name not in curve.columns:
         raise InvalidValue(
-            f"plot: {name!r} is not in the data; it holds {', '.join(sorted(curve.columns))}"
+            f"plot: {name!r} is not in the data; it holds {', '.join(sorted(curve.columns))}",
+            code=Mistake.UNKNOWN,
         )
     return np.asarray(curve.columns[name], dtype=float)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 from matplotlib.ticker import EngFormatter, PercentFormatter
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, value_of
 from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
@@ -65,11 +65,13 @@ def bands(
     """
     if of not in data.bands:
         raise InvalidValue(
-            f"plot.bands: {of!r} has no band in the data; it holds {', '.join(data.bands)}"
+            f"plot.bands: {of!r} has no band in the data; it holds {', '.join(data.bands)}",
+            code=Mistake.BEYOND,
         )
     if np.ndim(data.bands[of]) != 2:
         raise InvalidValue(
-            f"plot.bands: {of!r} has one band, not one for each load; propagate with several loads"
+            f"plot.bands: {of!r} has one band, not one for each load; propagate with several loads",
+            code=Mistake.BEYOND,
         )
     ax = _axes(ax)
     x, band = np.asarray(data.loads), np.asarray(data.bands[of])
@@ -147,14 +149,17 @@ def tornado(
     """
     if of not in data.nominal:
         raise InvalidValue(
-            f"plot.tornado: {of!r} is not in the data; it holds {', '.join(data.nominal)}"
+            f"plot.tornado: {of!r} is not in the data; it holds {', '.join(data.nominal)}",
+            code=Mistake.UNKNOWN,
         )
     rows = data.tornado(of, at=at)[of] if values is None else dict(values)
     middle = float(np.atleast_1d(data.nominal[of])[at if np.ndim(data.nominal[of]) else 0])
     ends = np.array([*rows.values(), (middle, middle)], dtype=float)
     known = ends[np.isfinite(ends)]
     if not np.isfinite(middle):
-        raise InvalidValue(f"plot.tornado: {of!r} does not exist for the contact itself")
+        raise InvalidValue(
+            f"plot.tornado: {of!r} does not exist for the contact itself", code=Mistake.BEYOND
+        )
     log = bool(known.min() > 0 and known.max() > 3 * known.min())
     ax = _axes(ax, (5.4, 1.3 + 0.36 * len(rows)))
     for row, (label, changed) in enumerate(rows.items()):

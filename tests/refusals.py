@@ -1,0 +1,44 @@
+"""What the library refuses and warns of, held by the fields of its records and not by its words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+
+import thirdbody as tb
+from thirdbody.errors import Mistake
+
+__all__ = ["Mistake", "refuses", "warns_of"]
+
+
+@contextmanager
+def refuses(
+    code: Mistake, place: str, *, value: str | None = None, meant: str | None = None
+) -> Iterator[None]:
+    """Context whose end refuses an input: the kind of mistake, its dotted place, its value."""
+    with pytest.raises(tb.InvalidValue) as refusal:
+        yield
+    wanted = (code, place)
+    told = [(each.code, each.place) for each in refusal.value.problems]
+    assert wanted in told, f"{wanted} is not among {told}"
+    same = [each for each in refusal.value.problems if (each.code, each.place) == wanted]
+    if value is not None:
+        assert value in [each.value for each in same]
+    if meant is not None:
+        assert meant in [each.meant for each in same]
+
+
+@contextmanager
+def warns_of(code: str, *, effect: float | None = None) -> Iterator[None]:
+    """Context in which a note with this code is told, with this effect on the answer."""
+    with pytest.warns(tb.RangeWarning) as told:
+        yield
+    notes = [each.message.args[0] for each in told if isinstance(each.message, tb.RangeWarning)]
+    codes = [getattr(note, "code", "") for note in notes]
+    assert code in codes, f"{code} is not among {codes}"
+    if effect is not None:
+        effects = [note.effect for note in notes if getattr(note, "code", "") == code]
+        assert any(math.isclose(each, effect, rel_tol=1e-3) for each in effects), effects
