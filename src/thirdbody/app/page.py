@@ -26,7 +26,7 @@ from .solver import Died, note_waits, solver
 from .soon import Soon
 from .state import State, files_of
 from .tabs import GROUPS, LINES, TABS
-from .text import from_link, with_micro
+from .text import as_shown, from_link
 from .verdict import Verdict
 from .widgets import set_attributes, skeleton
 from .work import when_left
@@ -305,7 +305,7 @@ class Page:
 
     def _say(self, text: str) -> None:
         """What is told above the answer, where processes answer again."""
-        self.banner.set_text(with_micro(text))
+        self.banner.set_text(as_shown(text))
         self.retry.set_visibility(False)
 
     def _wrong(self) -> str:

@@ -67,7 +67,7 @@ WAITS: ContextVar[deque[Span] | None] = ContextVar("waits", default=None)
 
 
 def note_waits(waits: deque[Span]) -> None:
-    """Note from now on in this context when calls wait for a process; `Solver.prepared` reads it."""
+    """Note from now on, in this context, when calls wait for a process."""
     WAITS.set(waits)
 
 

@@ -15,7 +15,7 @@ from ..errors import InvalidValue
 from .jobs import MOST, RUNNING, Job, Stopped
 from .solver import apart, note_waits, solver
 from .state import State, measured
-from .text import with_micro
+from .text import as_shown
 from .widgets import set_attributes
 from .worker import in_little
 
@@ -175,7 +175,7 @@ class Work(Generic[Found]):
 
     def fail(self, text: str, key: object = None) -> None:
         """Say what went wrong with the study, or with that of a key, until there is another."""
-        self.said.set_text(with_micro(text))
+        self.said.set_text(as_shown(text))
         self.failed = (self.key() if key is None else key,)
 
     def _fit(self) -> None:
