@@ -259,7 +259,11 @@ def _wrap_line(line: str) -> str:
 
 
 def fill(line: str, width: int, *, indent: str = "") -> str:
-    """A line as lines of so many characters, in which numbers stay beside their units."""
+    """A line as lines of so many characters, in which numbers stay beside their units.
+
+    >>> fill("pressed by 1.2 MPa", 14)
+    'pressed by\\n1.2 MPa'
+    """
     filled = textwrap.fill(
         unbroken(line),
         width,
