@@ -135,7 +135,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--against", type=Path, help="another checkout, measured in the same run")
     parser.add_argument("--every", action="store_true", help="every slider on every tab")
-    parser.add_argument("--tab", action="append", default=[], help="of every slider on this tab")
+    parser.add_argument("--tab", action="append", default=[], help="of this tab alone")
     asked = parser.parse_args()
     other = asked.against
     from playwright.sync_api import sync_playwright
@@ -156,6 +156,8 @@ def main() -> None:
         servers = {name: served(source=source) for name, source in sources.items()}
         try:
             for name, slider in CASES:
+                if asked.tab and name not in asked.tab:
+                    continue
                 for which, (_, address) in servers.items():
                     times = measured(browser, address, name, slider)
                     row = [which, name, slider, f"{statistics.median(times):.0f}"]

@@ -7,7 +7,9 @@ import re
 import signal
 import time
 import tomllib
+from collections import deque
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
@@ -24,7 +26,7 @@ from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.jobs import Job
 from thirdbody.app.page import Page, _took
 from thirdbody.app.python_text import to_python
-from thirdbody.app.solver import TRIES, Died, Solver, ended_by
+from thirdbody.app.solver import TRIES, Died, Solver, ended_by, note_waits
 from thirdbody.app.state import State
 from thirdbody.app.tabs import curves, interface, mode_map, outputs
 from thirdbody.equilibrium.words import meets
@@ -230,6 +232,53 @@ def test_ctrl_c_does_not_reach_a_process_that_is_being_started():
     assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
+class Free:
+    """A process that is there."""
+
+    exitcode = None
+
+    def is_alive(self):
+        return True
+
+
+def test_a_call_takes_the_process_that_is_free_before_its_own_has_started(monkeypatch):
+    solver = Solver()
+    monkeypatch.setattr(solver, "_get_ready", lambda *_: None)  # this start takes for ever
+    try:
+        with ThreadPoolExecutor(1) as threads:
+            call = threads.submit(solver._free)
+            while not solver.all and not call.done():
+                time.sleep(0.001)
+            one = (Free(), object())
+            solver.idle.put(one)
+            assert call.result(timeout=20) is one
+        assert len(solver.all) == 1
+        assert solver.waiting == 0
+    finally:
+        solver.close()
+
+
+def test_the_next_process_is_there_before_it_is_asked_for(monkeypatch):
+    solver = Solver(most=2)
+    monkeypatch.setattr(solver, "_get_ready", lambda *_: None)
+    try:
+        solver.idle.put((Free(), object()))
+        solver._start_missing(spare=1)
+        assert not solver.all  # one is idle
+        solver.idle.get()
+        for _ in range(3):
+            solver._start_missing(spare=1)
+            assert len(solver.all) == 1  # which is being started
+        solver.starting.clear()
+        solver._start_missing(spare=1)
+        assert len(solver.all) == 2
+        solver.starting.clear()
+        solver._start_missing(spare=1)
+        assert len(solver.all) == 2  # and no more
+    finally:
+        solver.close()
+
+
 def test_a_study_is_read_again_after_nobody_could(tmp_path, monkeypatch):
     from thirdbody.app import state as states
 
@@ -278,8 +327,18 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
 
     solver = Solver()
     solver.starts += [(10.0, 12.0), (11.0, 14.0), (1.0, 2.0)]
-    assert solver.prepared(11.5) == pytest.approx(2.5)
-    assert solver.prepared(20.0) == 0.0
+    assert solver.prepared(0.0) == 0.0  # nobody waited for any of them
+
+    def prepared(since, *waits):
+        note_waits(deque(waits))
+        return solver.prepared(since)
+
+    for since, told in ((11.5, 2.5), (0.0, 4.0), (20.0, 0.0)):
+        here = copy_context()
+        waits = (9.0, 14.0), (10.0, 14.5), (15.0, 16.0)
+        assert here.run(prepared, since, *waits) == pytest.approx(told)
+    # another page, whose call took what became free
+    assert copy_context().run(prepared, 0.0, (12.5, 13.0)) == pytest.approx(0.5)
     solver.starting.add(time.perf_counter())
     assert solver.preparing
     solver.close()
@@ -289,6 +348,7 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
             return 18.0
 
     monkeypatch.setattr(page, "solver", Ready)
+    assert _took(17.9, 0.0).startswith("answered in 1 ms, ")
     said = _took(18.4, 0.0)
     assert said == "answered in 400 ms, after 18 s in which the page was getting ready"
 

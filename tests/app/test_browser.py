@@ -139,7 +139,7 @@ def tab(page, name):
 
 
 def fact(page, name):
-    return page.locator(f'[data-fact="{name}"]').first.inner_text()
+    return page.locator(f'[data-fact="{name}"]').first.inner_text().replace("\u00a0", " ")
 
 
 def until(page, name, other_than):
@@ -147,7 +147,7 @@ def until(page, name, other_than):
     when(
         page,
         "([name, old]) => { const e = document.querySelector(`[data-fact='${name}']`);"
-        " return e && e.innerText !== old; }",
+        " return e && e.innerText.replaceAll('\u00a0', ' ') !== old; }",
         arg=[name, other_than],
     )
     return fact(page, name)
@@ -293,7 +293,9 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     shares = {trace["name"]: trace["y"] for trace in drawn(page, "shares")}
     assert shares["of the load"] == (100 * curves.particle_load_share).tolist()
     critical = tb.transitions(check(STUDY).contact)
-    row = page.locator('[data-figure="critical"] tbody tr').first.inner_text()
+    row = (
+        page.locator('[data-figure="critical"] tbody tr').first.inner_text().replace("\u00a0", " ")
+    )
     assert say.number(critical.F_cr1.value) in row
     looked_at(page, "curves")
     for slider in ("roughness.sigma", "particles.size", "particles.areal_density"):

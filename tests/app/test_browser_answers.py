@@ -93,7 +93,7 @@ def shot(page, name):
 
 
 def fact(page, name):
-    return page.locator(f'[data-fact="{name}"]').first.inner_text()
+    return page.locator(f'[data-fact="{name}"]').first.inner_text().replace("\u00a0", " ")
 
 
 def drawn(page, name):

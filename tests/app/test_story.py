@@ -38,7 +38,7 @@ DROP = """([place, name, text]) => {
 }"""
 FACTS = """() => Object.fromEntries([...document.querySelectorAll(
   "[data-fact]:not([data-fact=time])")].filter(e => e.offsetParent)
-  .map(e => [e.dataset.fact, e.innerText]))"""
+  .map(e => [e.dataset.fact, e.innerText.replaceAll("\u00a0", " ")]))"""
 
 
 @pytest.fixture

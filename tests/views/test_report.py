@@ -320,6 +320,34 @@ def test_laws_say_who_chose_them(dusty):
         assert line in page.whole
 
 
+@pytest.mark.parametrize(
+    ("kind", "command"), [("connector", "probability"), ("wafer-chuck", "plate")]
+)
+def test_a_report_answers_first_what_the_study_asks(
+    kind, command, tmp_path, monkeypatch, no_figures
+):
+    """In the words of the command that the question has, with its table and its warnings."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "400")
+    for part in ("_assess", "_slopes"):  # a minute, and no part of the question
+        monkeypatch.setattr(f"thirdbody.views.report.make.{part}", lambda *_: None)
+    assert run("new", kind).exit_code == 0
+    done = run(command, f"{kind}.toml")
+    found = report(load_study(f"{kind}.toml"))
+    lines = done.stdout.splitlines()
+    assert " ".join(found.lead[0].split()) in lines
+    for sentence in found.lead:
+        assert sentence in done.stdout
+    page = Page(found.html())
+    cells = [re.split(r"\s{2,}", line.strip()) for line in lines]
+    (title,) = {"How often dust keeps it open", "How high the plate stands"} & {*page.tables}
+    rows = page.tables[title]
+    assert len(rows) > 4
+    assert all(row in cells for row in rows)
+    for warning in (line for line in done.stderr.splitlines() if line.startswith("warning: ")):
+        assert warning.removeprefix("warning: ") in page.whole
+
+
 # ---------------------------------------------------------------- several populations, other laws
 @pytest.mark.slow
 def test_several_populations(tmp_path, no_figures):

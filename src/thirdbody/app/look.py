@@ -127,7 +127,15 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 }
 .figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
 .figures { align-items: start; }
-@media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
+.pair { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); align-items: start; }
+.pair > * { min-width: 0; }
+@media (min-width: 1100px) {
+  .figures, .alone .pair { grid-template-columns: repeat(2, minmax(0, 1fr)); }
+  /* without entries beside it, an answer takes the whole width */
+  .figures.alone { grid-template-columns: minmax(0, 1fr); }
+  .figures.alone > .entries { order: -1; }
+  .figures.alone > .entries > .narrow { max-width: none; }
+}
 .figures > * { min-width: 0; }
 .js-plotly-plot { position: relative; }
 .here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import shutil
 import time
+from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from importlib import import_module
 from pathlib import Path
@@ -21,11 +22,11 @@ from .look import LOOK, RESIZE
 from .new_study import NewStudy
 from .side import Side
 from .sliders import Sliders
-from .solver import Died, solver
+from .solver import Died, note_waits, solver
 from .soon import Soon
 from .state import State, files_of
 from .tabs import GROUPS, LINES, TABS
-from .text import from_link, with_micro
+from .text import as_shown, from_link
 from .verdict import Verdict
 from .widgets import set_attributes, skeleton
 from .work import when_left
@@ -45,6 +46,8 @@ TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
 GETTING = "Getting ready: the page loads and compiles what it needs, once after its start."
 LEAST = 0.5
 """Seconds of starting that are told of."""
+MOST_WAITS = 40
+"""Calls of a page of which it is known how long they waited."""
 LOOKS = 0.02
 """Seconds after which it is looked whether a tab that is drawn is still in sight."""
 WITHOUT_ANSWER = ("surface", "dust", "take_away")
@@ -131,10 +134,21 @@ def _plain_names(study: object) -> Any:
 def _took(seconds: float, since: float) -> str:
     """How long the answer took, and how long before it a process was being started."""
     starting = solver().prepared(since)
-    text = f"answered in {1e3 * (seconds - starting):.0f} ms"
+    text = f"answered in {_time(max(seconds - starting, 0.0))}"
     if starting < LEAST:
         return text
     return f"{text}, after {starting:.0f} s in which the page was getting ready"
+
+
+def _time(seconds: float) -> str:
+    """A time as it is told.
+
+    >>> _time(0.084), _time(1.2345), _time(31.2)
+    ('84 ms', '1.2 s', '31 s')
+    """
+    if seconds < 1:
+        return f"{max(1e3 * seconds, 1):.0f} ms"
+    return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
 
 
 def page(state: State, told: str, start: Start) -> None:
@@ -157,6 +171,8 @@ class Page:
 
     def __init__(self, state: State, told: str, start: Start) -> None:
         self.state, self.told, self.start = state, told, start
+        self.waits: deque[tuple[float, float]] = deque(maxlen=MOST_WAITS)
+        """When calls of this page waited for a process."""
         self.waiting: dict[str, ui.element] = {}
         """What stands in the place of each tab until it is drawn."""
         self.draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
@@ -210,7 +226,9 @@ class Page:
                 list(EXAMPLES), label="open an example", on_change=lambda e: self._opened(e.value)
             )
             self.names.props('dense dark options-dense standout data-path="example"')
-            self.names.classes("w-56")
+            self.names.classes("w-56 examples")
+            with self.names.add_slot("prepend"):
+                ui.icon("menu_book").classes("when-narrow")
             shade = ui.button(icon="contrast").on("click", js_handler=TURN)
             shade.props('flat dense color=white aria-label="light or dark"')
         return skip
@@ -238,6 +256,7 @@ class Page:
     # ------------------------------------------------------------------ what is shown
     async def _refresh(self) -> None:
         """Show the study as it is now; where no process lives to say what it is, say that."""
+        note_waits(self.waits)
         self.getting.set_visibility(solver().preparing)
         try:
             await self._shown()
@@ -286,7 +305,7 @@ class Page:
 
     def _say(self, text: str) -> None:
         """What is told above the answer, where processes answer again."""
-        self.banner.set_text(with_micro(text))
+        self.banner.set_text(as_shown(text))
         self.retry.set_visibility(False)
 
     def _wrong(self) -> str:
@@ -382,5 +401,6 @@ class Page:
     def _turned(self) -> None:
         self.state.tab = str(self.tabs.value or TABS[0])
         self.verdict.turn()
+        self.verdict.clock.set_text("")
         self.state.began = time.perf_counter()
         self.soon()

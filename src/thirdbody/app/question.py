@@ -11,7 +11,7 @@ from .fields import Field, fields_of
 from .figures import Figure
 from .inputs import Inputs
 from .state import Answer, State
-from .text import with_micro
+from .text import as_shown
 from .widgets import Facts, Plot, set_attributes, table
 
 __all__ = ["Question", "QuestionTab", "Shown"]
@@ -75,14 +75,15 @@ class QuestionTab:
         self.words = ui.column().classes("w-full gap-1 headline-place")
         self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
         ui.label(question.about).classes("hint")
-        with ui.element("div").classes("figures w-full"):
+        with ui.element("div").classes("figures w-full") as self.grid:
             self.beside = ui.column().classes("w-full gap-1")
             with self.beside:
                 self.facts = Facts(kind=f"{name}: ")
-                self.plot = Plot(name)
-                self.rows = ui.column().classes("w-full")
+                with ui.element("div").classes("pair w-full"):
+                    self.plot = Plot(name)
+                    self.rows = ui.column().classes("w-full")
                 self.notes = ui.column().classes("w-full gap-0")
-            with ui.column().classes("w-full"):
+            with ui.column().classes("w-full entries"):
                 self._form()
 
     def _renewed(self) -> None:
@@ -95,7 +96,7 @@ class QuestionTab:
         with ui.column().classes("w-full gap-2 narrow"):
             if not isinstance(self.state.get(name), dict):
                 values = ", ".join(f"{key} {value}" for key, value in question.start.items())
-                ui.label(with_micro(f"Shown for {values}.")).classes("hint")
+                ui.label(as_shown(f"Shown for {values}.")).classes("hint")
                 change = ui.button("Change these", icon="edit", on_click=self._begun)
                 set_attributes(change.props("no-caps"), {"data-path": f"{name}.add"})
                 return
@@ -117,6 +118,7 @@ class QuestionTab:
         there = isinstance(self.state.get(self.question.table), dict)
         if there != self.there:
             self.there = there
+            self.grid.classes(**{"remove" if there else "add": "alone"})
             self._renewed()
         self.inputs.show_mistakes()
         answer = self.state.answer
@@ -135,7 +137,7 @@ class QuestionTab:
         self.words.clear()
         with self.words:
             for i, text in enumerate(shown.answer):
-                said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
+                said = ui.label(as_shown(text)).classes("whole-contact" if i == 0 else "")
                 set_attributes(said, {"data-fact": f"{name}: answer {i}"})
         self.facts.show(shown.facts)
         self.rows.clear()
@@ -146,7 +148,7 @@ class QuestionTab:
         with self.notes:
             for text in shown.notes:
                 if not text.startswith(NOTE):
-                    ui.label(with_micro(text)).classes("hint")
+                    ui.label(as_shown(text)).classes("hint")
         noted = [text.removeprefix(NOTE) for text in shown.notes if text.startswith(NOTE)]
         self.state.note(self.tab, noted)
         await self.plot.show(shown.figure)

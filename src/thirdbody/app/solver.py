@@ -16,8 +16,9 @@ import time
 import traceback
 import warnings
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import ContextVar
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
@@ -28,12 +29,25 @@ from nicegui import ui
 from ..errors import InvalidValue, ThirdBodyError
 from .worker import MEMORY
 
-__all__ = ["MOST", "SECONDS", "TRIES", "Died", "Solver", "apart", "ended", "ended_by", "solver"]
+__all__ = [
+    "MOST",
+    "SECONDS",
+    "TRIES",
+    "Died",
+    "Solver",
+    "apart",
+    "ended",
+    "ended_by",
+    "note_waits",
+    "solver",
+]
 
 MOST = 3
 """Processes, started as they are needed."""
 STARTS = 120.0
 """Seconds that a process may take until it is ready."""
+AGAIN = 0.5
+"""Seconds after which a call that waits looks whether a process is to be started for it."""
 SECONDS = 60.0
 """An answer that takes longer is refused."""
 
@@ -44,6 +58,32 @@ TRIES = 3
 
 Found = TypeVar("Found")
 Args = TypeVarTuple("Args")
+
+
+Span = tuple[float, float]
+"""When something began and when it ended."""
+WAITS: ContextVar[deque[Span] | None] = ContextVar("waits", default=None)
+"""When the calls of what runs here waited for a process."""
+
+
+def note_waits(waits: deque[Span]) -> None:
+    """Note from now on, in this context, when calls wait for a process."""
+    WAITS.set(waits)
+
+
+def merged(spans: Iterable[Span]) -> list[Span]:
+    """Spans of time in order, those that meet as one.
+
+    >>> merged([(3.0, 4.0), (0.0, 2.0), (1.0, 2.5)])
+    [(0.0, 2.5), (3.0, 4.0)]
+    """
+    out: list[Span] = []
+    for began, ended in sorted(spans):
+        if out and began <= out[-1][1]:
+            out[-1] = (out[-1][0], max(ended, out[-1][1]))
+        else:
+            out.append((began, ended))
+    return out
 
 
 class Died(InvalidValue):
@@ -153,13 +193,16 @@ class Solver:
         seconds: float = SECONDS,
         warm: Callable[[], None] | None = None,
     ) -> None:
-        self.seconds, self.warm = seconds, warm
-        self.starts: deque[tuple[float, float]] = deque(maxlen=10 * most)
+        self.most, self.seconds, self.warm = most, seconds, warm
+        self.starts: deque[Span] = deque(maxlen=10 * most)
         """When processes were started, and when they were ready."""
         self.starting: set[float] = set()
         """When those were started that are not ready yet."""
         self.threads = ThreadPoolExecutor(most, "thirdbody-wait")
-        self.idle: queue.LifoQueue[tuple[BaseProcess, Connection]] = queue.LifoQueue()
+        self.idle: queue.LifoQueue[tuple[BaseProcess, Connection] | None] = queue.LifoQueue()
+        """Processes that wait for a call; None for one that did not get ready."""
+        self.waiting = 0
+        """Calls that wait for a process."""
         self.all: set[BaseProcess] = set()
         self.lock = threading.Lock()
         self.closed = False
@@ -182,19 +225,26 @@ class Solver:
             Nobody wants the answer any more.
         """
         loop = asyncio.get_running_loop()
-        return await loop.run_in_executor(self.threads, self._ask, call, args, wanted)
+        waits = WAITS.get()
+        return await loop.run_in_executor(self.threads, self._ask, call, args, wanted, waits)
 
     def _ask(
         self,
         call: Callable[[*Args], Found],
         args: tuple[*Args],
         wanted: Callable[[], bool],
+        waits: deque[Span] | None,
     ) -> Found:
         if self.closed or not wanted():
             raise asyncio.CancelledError
         ends: list[str] = []
         while len(ends) < TRIES:
+            began = time.perf_counter()
             process, pipe = self._free()
+            if waits is not None:
+                waits.append((began, time.perf_counter()))
+            with contextlib.suppress(OSError):  # the next call need not wait until this one ends
+                self._start_missing(spare=1)
             try:
                 pipe.send((call, args))
                 known = pipe.poll(self.seconds)
@@ -220,51 +270,76 @@ class Solver:
         return cast(Found, found)
 
     def _free(self) -> tuple[BaseProcess, Connection]:
+        """An idle process: one that is there, that is started, or that becomes free meanwhile."""
         with contextlib.suppress(queue.Empty):
-            process, pipe = self.idle.get_nowait()
-            if process.is_alive():
-                return process, pipe
-            self._kill(process, pipe)
-        context = multiprocessing.get_context("spawn")
-        ours, theirs = context.Pipe()
-        process = context.Process(target=_serve, args=(theirs, self.warm), daemon=True)
-        began = time.perf_counter()
+            while True:
+                known = self.idle.get_nowait()
+                if known is not None and known[0].is_alive():
+                    return known
+                if known is not None:
+                    self._kill(*known)
+        with self.lock:
+            self.waiting += 1
+        try:
+            while True:
+                self._start_missing()
+                with contextlib.suppress(queue.Empty):
+                    found = self.idle.get(timeout=AGAIN)
+                    break
+        finally:
+            with self.lock:
+                self.waiting -= 1
+        if found is None:
+            raise Died(f"No answer: a process that computes was not ready after {STARTS:g} s")
+        return found
+
+    def _start_missing(self, *, spare: int = 0) -> None:
+        """Start a process where more calls wait, and are to be expected, than some are for."""
         with self.lock:
             if self.closed:
                 raise asyncio.CancelledError
+            if self.waiting + spare <= len(self.starting) + (self.idle.qsize() if spare else 0):
+                return
+            if spare and len(self.all) >= self.most:
+                return
+            context = multiprocessing.get_context("spawn")
+            ours, theirs = context.Pipe()
+            process = context.Process(target=_serve, args=(theirs, self.warm), daemon=True)
+            began = time.perf_counter()
             with interrupts_blocked():
                 process.start()
             self.all.add(process)
             self.starting.add(began)
         theirs.close()
+        threading.Thread(target=self._get_ready, args=(process, ours, began), daemon=True).start()
+
+    def _get_ready(self, process: BaseProcess, ours: Connection, began: float) -> None:
+        """Give a process to the calls that wait once it is ready."""
         try:
             ready = ours.poll(STARTS) and ours.recv() == READY
         except (EOFError, OSError):
-            ready = True  # the call that it is for finds it dead, and counts it
-        finally:
-            with self.lock:
-                self.starting.discard(began)
-                self.starts.append((began, time.perf_counter()))
+            ready = True  # the call that gets it finds it dead, and counts it
         if not ready:
             self._kill(process, ours)
-            raise Died(f"No answer: a process that computes was not ready after {STARTS:g} s")
-        return process, ours
+        with self.lock:
+            self.starts.append((began, time.perf_counter()))
+        # what is ready is there before it no longer counts as being started
+        self.idle.put((process, ours) if ready else None)
+        with self.lock:
+            self.starting.discard(began)
 
     def prepared(self, since: float) -> float:
-        """Seconds since then in which a process was being started."""
+        """Seconds since then in which calls of this context waited while a process was started."""
         now = time.perf_counter()
         with self.lock:
-            every = [*self.starts, *((began, now) for began in self.starting)]
-        total, reached = 0.0, since
-        for began, ready in sorted(every):
-            total += max(ready - max(began, reached), 0.0)
-            reached = max(reached, ready)
-        return total
+            starts = merged([*self.starts, *((began, now) for began in self.starting)])
+        waits = merged((max(began, since), end) for began, end in WAITS.get() or () if end > since)
+        return sum(max(min(b, d) - max(a, c), 0.0) for a, b in waits for c, d in starts)
 
     @property
     def preparing(self) -> bool:
-        """Whether a process is being started, so that an answer may wait for it."""
-        return bool(self.starting)
+        """Whether an answer has to wait until a process has started, as none is ready."""
+        return bool(self.starting) and len(self.starting) >= len(self.all)
 
     def _kill(self, process: BaseProcess, pipe: Connection) -> None:
         pipe.close()

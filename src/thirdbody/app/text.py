@@ -11,11 +11,13 @@ import zlib
 from urllib.parse import quote
 
 from ..errors import InvalidValue
+from ..quantities.say import unbroken
 from .bounds import refuse_large, refuse_long_names
 
 __all__ = [
     "LONGEST_LINK",
     "LONGEST_STUDY",
+    "as_shown",
     "from_link",
     "from_toml",
     "in_ascii",
@@ -39,6 +41,15 @@ def with_micro(text: str) -> str:
     '1 µm, 2 µm, sum'
     """
     return re.sub(r"\bum\b", "µm", text)
+
+
+def as_shown(text: str) -> str:
+    """A sentence as it is shown: µm, and numbers beside their units where lines break.
+
+    >>> as_shown("1 um")
+    '1\\xa0µm'
+    """
+    return unbroken(with_micro(text))
 
 
 def in_ascii(text: str) -> str:

@@ -12,7 +12,7 @@ from ..errors import Note, ranked
 from ..quantities.say import percent
 from .state import Answer, State
 from .tabs.interface import headline
-from .text import with_micro, without_paths
+from .text import as_shown, without_paths
 from .widgets import set_attributes
 
 __all__ = ["Badge", "Verdict", "badge_of"]
@@ -107,7 +107,7 @@ class Verdict:
             return
         if self.shown == (answer, at := self.state.operating_load):
             return
-        self.sentence.set_text(await self.state.ask(sentence_of, at))
+        self.sentence.set_text(as_shown(await self.state.ask(sentence_of, at)))
         self.shown = (answer, at)
 
     def note(self, remark: str) -> None:
@@ -135,4 +135,4 @@ class Verdict:
                 ui.label("Every law is used inside the range for which it was derived or tested.")
             for text in known:
                 with ui.element("div").classes("limit"):
-                    ui.label(with_micro(without_paths(str(text))))
+                    ui.label(as_shown(without_paths(str(text))))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import operator
 import time
+from collections import deque
 from collections.abc import Awaitable, Callable
 from typing import Generic, TypeVar, cast
 
@@ -12,9 +13,9 @@ from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue
 from .jobs import MOST, RUNNING, Job, Stopped
-from .solver import apart, solver
+from .solver import apart, note_waits, solver
 from .state import State, measured
-from .text import with_micro
+from .text import as_shown
 from .widgets import set_attributes
 from .worker import in_little
 
@@ -26,6 +27,8 @@ SLOW = 8.0
 """Seconds of a preview from which on the rest is left to the button."""
 LEFT = 3.0
 """Seconds after which a page that is not seen any more counts as closed."""
+MOST_WAITS = 8
+"""Calls of a preview of which it is known how long they waited."""
 FOLLOWS = "A preview; all of it follows."
 STALE = "What is shown belongs to the study as it was before the last changes: do it again."
 
@@ -128,6 +131,7 @@ class Work(Generic[Found]):
 
     async def _try(self, state: State) -> None:
         """One preview; another one where the study moved on before there was one."""
+        note_waits(deque(maxlen=MOST_WAITS))  # the page does not wait for these calls
         began, asked_for = time.perf_counter(), self.tried
         try:
             shown = await self._by_itself(self.little)
@@ -171,7 +175,7 @@ class Work(Generic[Found]):
 
     def fail(self, text: str, key: object = None) -> None:
         """Say what went wrong with the study, or with that of a key, until there is another."""
-        self.said.set_text(with_micro(text))
+        self.said.set_text(as_shown(text))
         self.failed = (self.key() if key is None else key,)
 
     def _fit(self) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..quantities.say import value_of
 from ..quantities.units import say
-from .streams import LEAST
+from .streams import LEAST, fill
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -32,7 +32,21 @@ def terminal() -> Console:
     width = max(int(asked), LEAST) if asked.isdecimal() and int(asked) > 0 else None
     if width is None and not sys.stdout.isatty():
         width = PIPE
-    return Console(file=sys.stdout, width=width, highlight=False, markup=False, emoji=False)
+
+    class Terminal(Console):
+        def print(self, *objects: Any, **how: Any) -> None:
+            """Print as rich does, but for sentences: their numbers stay beside their units."""
+            lines = [
+                _filled(each, self.width) if isinstance(each, str) else each for each in objects
+            ]
+            super().print(*lines, **how)
+
+    return Terminal(file=sys.stdout, width=width, highlight=False, markup=False, emoji=False)
+
+
+def _filled(text: str, width: int) -> str:
+    """A text whose longer lines are broken into lines of so many characters."""
+    return "\n".join(fill(line, width) if len(line) > width else line for line in text.split("\n"))
 
 
 def some(total: int) -> list[int]:

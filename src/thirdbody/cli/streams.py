@@ -36,7 +36,7 @@ from ..errors import (
     note_of,
     ranked,
 )
-from ..quantities.say import plural
+from ..quantities.say import plural, unbroken
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
 if TYPE_CHECKING:
@@ -53,6 +53,7 @@ __all__ = [
     "at_once",
     "complain",
     "figure_format",
+    "fill",
     "open_closed_streams",
     "print_json",
     "refuse_full_output",
@@ -263,9 +264,23 @@ def _wrap_line(line: str) -> str:
         width = max(shutil.get_terminal_size().columns, LEAST)
     else:
         return line
-    return textwrap.fill(
-        line, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    return fill(line, width, indent="  ")
+
+
+def fill(line: str, width: int, *, indent: str = "") -> str:
+    """A line as lines of so many characters, in which numbers stay beside their units.
+
+    >>> fill("pressed by 1.2 MPa", 14)
+    'pressed by\\n1.2 MPa'
+    """
+    filled = textwrap.fill(
+        unbroken(line),
+        width,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
     )
+    return filled.replace("\u00a0", " ")
 
 
 def remark(sentence: str, *, counts: bool = False) -> None:

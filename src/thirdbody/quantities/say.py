@@ -22,6 +22,7 @@ __all__ = [
     "signed",
     "span",
     "times",
+    "unbroken",
     "unit_of",
     "value_of",
 ]
@@ -63,6 +64,22 @@ UNITS = {
     "ohm*m^2": "Ω m²",
 }
 """Units that people read otherwise than a file writes them."""
+
+
+UNIT = re.compile(
+    r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?:%|σ|deg|rpm|ppm|wt%|min|h|°C|"
+    r"[fpnµumckMGT]?(?:m|g|s|N|Pa|J|W|A|V|Hz|Ω|L|K))[²³⁻⁰¹⁴-⁹]*(?![\w%]))"
+)
+"""The space between a number and its unit."""
+
+
+def unbroken(text: str) -> str:
+    """A text whose numbers stay beside their units where its lines break.
+
+    >>> unbroken("5.2 % at 1.2 MPa, 2 of 13 in 0.5 Pa s, 1×10¹¹ m⁻²").replace("\u00a0", "~")
+    '5.2~% at 1.2~MPa, 2 of 13 in 0.5~Pa~s, 1×10¹¹~m⁻²'
+    """
+    return UNIT.sub("\u00a0", text).replace("Pa s", "Pa\u00a0s")
 
 
 def powers(text: str) -> str:

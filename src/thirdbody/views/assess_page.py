@@ -14,6 +14,8 @@ __all__ = ["page", "pictures"]
 
 LOADS_SHOWN, SAMPLES_SHOWN = 25, 1024
 """Loads and samples of the figure."""
+MOST_BARS = 8
+"""Inputs that have a bar."""
 
 
 def page(assessment: Assessment | Assessments) -> str:
@@ -64,6 +66,9 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
         out.append(("Only the load is uncertain.", svg_of(Figure(figsize=(1, 1)))))
     if not assessment.moved:
         return out
-    ax = plot.tornado(found, assessment.decisive, values=assessment.tornado[assessment.decisive])
-    words = f"{assessment.decisive} with one input at each end of its 5 % to 95 % range."
+    values = assessment.tornado[assessment.decisive]
+    strongest = dict([*values.items()][:MOST_BARS])
+    ax = plot.tornado(found, assessment.decisive, values=strongest)
+    words = f"{assessment.decisive} with one input at each end of its 5 % to 95 % range"
+    words += f", the {MOST_BARS} strongest." if len(values) > MOST_BARS else "."
     return [*out, (words, svg_of(ax.figure))]

@@ -6,13 +6,21 @@ from typing import TYPE_CHECKING
 
 from ..effects.friction import Friction
 from ..equilibrium.words import meets
-from ..quantities.say import number, percent, value_of
+from ..quantities.say import NOT_KNOWN, number, percent, value_of
 from ..systems.mixed_film import FULL
 
 if TYPE_CHECKING:
     from ..study import FilmResult
 
 __all__ = ["answer", "bodies", "point", "share", "summary"]
+
+FRICTION = {
+    "mu": "friction coefficient",
+    "mu_film": "of it the film",
+    "mu_ss": "of it asperities",
+    "mu_sa": "of it particles",
+}
+"""Columns of the friction, and what they are called."""
 
 
 def point(result: FilmResult, i: int) -> dict[str, str]:
@@ -27,15 +35,15 @@ def point(result: FilmResult, i: int) -> dict[str, str]:
         "load on asperities": share(at["ss_share"]),
         "load on particles": share(at["sa_share"]),
         "real contact area": share(at["A_t"]),
-        "friction coefficient": _coefficient(at["mu"]),
-        "of it the film": _coefficient(at["mu_film"]),
-        "of it asperities": _coefficient(at["mu_ss"]),
-        "of it particles": _coefficient(at["mu_sa"]),
+        **{words: _coefficient(at[name]) for name, words in FRICTION.items()},
         "viscosity in the film": value_of(at["viscosity"], "Pa s"),
         "regime": at["regime"],
     }
     if not result.passing:
         del rows["load on particles"], rows["of it particles"]
+    for name in FRICTION:  # the summary says what is lacking
+        if {_coefficient(value) for value in result.states[name]} <= {NOT_KNOWN}:
+            rows.pop(FRICTION[name], None)
     for part in result.passing:
         if part.share[i] > 0:
             rows[f"{part.name}: particles narrower than h"] = share(part.share[i])

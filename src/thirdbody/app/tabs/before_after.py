@@ -20,7 +20,7 @@ from ..figures import AXES, GREY, SCALES, Figure, figure, fix, line
 from ..sliders import CODES, shifted
 from ..solver import apart
 from ..state import Answer, State, look, measured
-from ..text import with_micro
+from ..text import as_shown
 from ..widgets import Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 from .interface import facts_of
@@ -266,7 +266,7 @@ class BeforeAfter:
             return
         found = await apart(beside, old, now, state.operating_load)
         self.shown = (old, now, state.operating_load)
-        self.said.set_text(found.sentence)
+        self.said.set_text(as_shown(found.sentence))
         start = (
             "" if old is not now and before != state.study else SAME if old is not now else ALONE
         )
@@ -284,13 +284,13 @@ class BeforeAfter:
             state, key = self.state, measured(before, self.state.folder)
             surface = state.surfaces.get(key)
             found, problems, _ = await apart(look, before, state.folder, surface)
-            self.wrong.set_text(with_micro("; ".join(problems)))
+            self.wrong.set_text(as_shown("; ".join(problems)))
             self.read = (before, found)
         return self.read[1]
 
     def _show_changes(self, before: dict[str, object]) -> None:
         """What has changed, entry by entry."""
-        every = [with_micro(text) for text in changes(before, self.state.study)]
+        every = [as_shown(text) for text in changes(before, self.state.study)]
         more = len(every) - MOST_CHANGES
         self.changed.clear()
         with self.changed:

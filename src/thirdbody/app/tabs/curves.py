@@ -40,13 +40,14 @@ TITLE = "Curves"
 TAB = "curves"
 RESTS = 0.4
 """Seconds after which the slider counts as at rest."""
-BETWEEN = 0.08
+BETWEEN = 0.2
 """Seconds in which the next move of a slider comes, if it moves."""
 TICK = 0.01
 """Seconds by which a timer may be early, and between two looks."""
 LOOKS = 0.05
 """Seconds after which it is looked whether the tab is still in sight."""
-FIGURES = ("area", "shares", "regimes", "separation")
+ABOVE, BELOW = ("area", "shares"), ("regimes", "separation")
+FIGURES = (*ABOVE, *BELOW)
 Draw = Callable[..., Figure]
 CRITICAL = {
     "F_cr1": "F<sub>cr1</sub>",
@@ -230,9 +231,10 @@ class Curves:
         two_body = answer.contact.two_body
         self.plots["shares"].widget.set_visibility(not two_body)
         self.key.set_visibility(not two_body)
-        for names in (FIGURES[:2], FIGURES[2:]):  # those on top first, the others as it rests
-            below = names != FIGURES[:2]
-            if below and await self._moves_on(BETWEEN):
+        # those on top first, the others one by one as it rests: a move waits for one at most
+        for names in (ABOVE, *((name,) for name in BELOW)):
+            below = names != ABOVE
+            if below and await self._moves_on(BETWEEN if names == BELOW[:1] else 0.0):
                 self.shown = None
                 return
             every = [(self.plots[name], found[name]) for name in names if name in found]

@@ -15,7 +15,7 @@ from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, text_of, value_from
 from ..figures import GREY, Figure, Part, band, figure, line, plain, symbol
 from ..state import State, loads_as
-from ..text import with_micro
+from ..text import as_shown
 from ..widgets import plot_place
 from ..work import Asked, Work
 from ..worker import Designed
@@ -25,6 +25,8 @@ __all__ = ["TITLE", "build", "design_figure"]
 TITLE = "Design"
 LOADS, FEW = 16, 4
 METRICS = ("particle_load_share", "A_t", "plastic_share", "d", "h", "A_p")
+WITH_SPREAD = ", and its spread in proportion"
+"""What is said of a size that is searched."""
 WRITTEN = "as the table [design] says"
 SIZE = "particles.mean+particles.std"
 LIKELY = (SIZE, "roughness.sigma", "roughness.Ra", "roughness.first.Ra")
@@ -117,7 +119,7 @@ class Search:
     def __init__(self, state: State) -> None:
         self.state = state
         names = _names(state)
-        first = next((name for name in (WRITTEN, *LIKELY) if name in names), names[0])
+        first = next((name for name in (WRITTEN, *LIKELY) if name in names), next(iter(names)))
         self.said = ui.label().props('data-fact="design"').classes("break-any headline second")
         self.which = ui.select(names, value=first, label="what may change").classes("w-full")
         self.which.props('dense data-path="design.which"')
@@ -150,7 +152,9 @@ class Search:
         )
         self.of.props("dense").classes("grow")
         self.aim = ui.select(AIMS, value="largest", label="aim").props("dense")
-        self.over = ui.select(OVER, value="mean").props("dense")
+        self.over = (
+            ui.select(OVER, value="mean", label="over the loads").props("dense").classes("w-36")
+        )
 
     def _limit(self) -> None:
         """What must hold."""
@@ -212,13 +216,15 @@ class Search:
         unit = units.get(variable.split("+")[0], "1")
         names = in_words(self.state.study, list(result["values"]))
         self.plot.update_figure(design_figure(result, variable, objective, unit, names))
-        self.said.set_text(with_micro(" ".join(design_sentences(result, units, names))))
+        self.said.set_text(as_shown(" ".join(design_sentences(result, units, names))))
 
     async def draw(self) -> None:
         await self.work.update_preview(self.state)
         names, which = _names(self.state), self.which
         if names != which.options:
-            which.set_options(names, value=which.value if which.value in names else names[0])
+            which.set_options(
+                names, value=which.value if which.value in names else next(iter(names))
+            )
         for menu, blank in ((self.of, {}), (self.limit, NO_LIMIT)):
             options = blank | metrics_of(self.state)
             if options != menu.options:
@@ -297,6 +303,14 @@ def _value(entry: ui.input) -> object:
     return value_from(str(entry.value or ""))
 
 
-def _names(state: State) -> list[str]:
-    """What may change: an input, or what the study says."""
-    return [*([WRITTEN] if state.get("design") else []), *variables_of(state)]
+def _names(state: State) -> dict[str, str]:
+    """What may change, an input or what the study says, and how the menu calls it."""
+    known = {e.name: e.quantity for e in inputs_of(state.study) if e.quantity}
+    said = {name: f"{each['meaning']} {each['symbol']}" for name, each in known.items()}
+    told = {}
+    for name in variables_of(state):
+        first = name.partition("+")[0]
+        several = list(said.values()).count(said[first]) > 1
+        told[name] = said[first] + (f" ({first})" if several else "")
+        told[name] += WITH_SPREAD if name == SIZE else ""
+    return ({WRITTEN: WRITTEN} if state.get("design") else {}) | told

@@ -19,7 +19,7 @@ from ..figures import Figure, figure, line, plain
 from ..inputs import Inputs
 from ..solver import apart
 from ..state import Answer, State
-from ..text import with_micro, without_paths
+from ..text import as_shown, without_paths
 from ..uploads import take
 from ..widgets import facts, plot_place, upload
 from ..worker import counted
@@ -137,7 +137,7 @@ class Dust:
             name = await take(self.state, event)
             found = await apart(counted, str(self.state.folder / name))
         except InvalidValue as error:
-            self.wrong.set_text(with_micro(without_paths("; ".join(error.problems))))
+            self.wrong.set_text(as_shown(without_paths("; ".join(error.problems))))
             return
         kept = {k: v for k, v in self._particles().items() if k in (*KEPT, "areal_density")}
         kept.setdefault("areal_density", "1e9 / m^2")
@@ -151,7 +151,7 @@ class Dust:
         known = given.get("test_dust")
         self.test.set_value(known if isinstance(known, str) and known in DUSTS else None)
         mine = [text for text in self.state.problems if about_of(text).startswith("particles")]
-        self.wrong.set_text(with_micro(" ".join(mine)))
+        self.wrong.set_text(as_shown(" ".join(mine)))
         answer = self.state.answer
         none = answer is None or answer.contact.two_body
         self.plot.set_visibility(not none)

@@ -32,6 +32,7 @@ from ..figures import (
 )
 from ..inputs import Inputs
 from ..state import State
+from ..text import as_shown
 from ..widgets import plot_place, set_attributes
 from ..work import Asked, Work
 from ..worker import Bands
@@ -316,14 +317,17 @@ class ErrorBars:
         self.plots["bands"].update_figure(bands)
         self.plots["tornado"].update_figure(tornado_figure(result))
         low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
-        start = result["of"] if critical else "At the operating load"
+        meaning = about_result(result["of"]).meaning
+        at = f"{meaning[0].upper()}{meaning[1:]} at the operating load"
+        start = result["of"] if critical else at
         unit = about_result(result["of"]).unit
-        self.said.set_text(
+        said = (
             f"{start}: {value_of(middle, unit)}, in nine of ten cases between "
             f"{value_of(low, unit)} and {value_of(high, unit)} ({result['samples']} samples)."
             if None not in (low, middle, high)
             else f"{result['of']} is not known at every end of the inputs."
         )
+        self.said.set_text(as_shown(said))
         self.box.set_visibility(True)
         self.said.set_visibility(True)
 
@@ -336,7 +340,7 @@ class ErrorBars:
         if options != of.options:
             of.set_options(options, value=of.value if of.value in options else PLAIN[0])
         names = words_of_inputs(self.state, assumed(self.state))
-        self.assumed.set_text(ASSUMED.format(", ".join(names)) if names else "")
+        self.assumed.set_text(as_shown(ASSUMED.format(", ".join(names))) if names else "")
         self.assumed.set_visibility(bool(names))
         await self.work.update_preview(self.state)
         shown = self.work.done is not None or self.work.trying

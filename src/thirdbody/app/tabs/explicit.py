@@ -12,6 +12,7 @@ from ...quantities.say import percent, prefixed, value_of
 from ...study.one_surface import POINTS
 from ..figures import INKS, Figure, Part, figure, line
 from ..state import Answer, State
+from ..text import as_shown
 from ..widgets import facts, plot_place, set_attributes
 from ..work import Asked, Work
 from ..worker import Pressing
@@ -24,6 +25,8 @@ FEW = 64
 """Points along each side of a preview."""
 MOST_CIRCLES = 400
 """Particles that are drawn, those that carry most."""
+FEW_CARRY = 12
+"""Particles up to which every whole number of them has a tick."""
 CORNERS = 24
 """Of a circle."""
 NAMES = ("pressure", "section", "forces")
@@ -94,7 +97,8 @@ def section_figure(found: Pressing) -> Figure:
     if section["size"]:
         size = 1e9 * section["size"]
         x, y = _circles([0.0], [1e9 * section["seat"] + size / 2], [size])
-        name = f"x = {value_of(section['size'], 'm', 3)}, {percent(section['share'])} of their load"
+        name = f"particle of {value_of(section['size'], 'm', 3)}, with {percent(section['share'])} "
+        name += "of the load on particles"
         traces.append(line(x, y, name, 1, fill="toself", line={"dash": "solid"}))
         title = "The particle that carries most"
     else:
@@ -120,6 +124,8 @@ def force_figure(found: Pressing) -> Figure:
         [trace], x="part of the load on one [%]", y="particles", title=title, xlog=False
     )  # fmt: skip
     made["layout"]["showlegend"] = False
+    if len(found["carrying"]["share"]) <= FEW_CARRY:  # numbers of particles are whole
+        made["layout"]["yaxis"]["dtick"] = 1
     return made
 
 
@@ -176,7 +182,7 @@ class Explicit:
         return asked | {"points": POINTS}
 
     def _show(self, found: Pressing) -> None:
-        self.words.set_text(found["headline"].replace("`", ""))
+        self.words.set_text(as_shown(found["headline"].replace("`", "")))
         self.table.clear()
         with self.table:
             each = found["compared"].items()

@@ -27,7 +27,7 @@ from ..sliders import Slider
 from ..solver import apart
 from ..soon import Soon
 from ..state import Answer, State, look, measured
-from ..text import with_micro
+from ..text import as_shown
 from ..widgets import Facts, Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 
@@ -191,10 +191,10 @@ class Film:
             self.fine = ui.input("a filter: its β ratio at sizes").classes("w-full narrow")
             set_attributes(self.fine, {"data-path": "film.filter", "hint": FILTER})
             self.fine.props("dense debounce=400").on_value_change(self._filtered)
-        with ui.element("div").classes("figures w-full"):
+        with ui.element("div").classes("figures w-full") as self.grid:
             with ui.column().classes("w-full gap-1") as self.beside:
                 self._results()
-            with ui.column().classes("w-full"):
+            with ui.column().classes("w-full entries"):
                 self._form()
 
     def _renewed(self) -> None:
@@ -213,7 +213,8 @@ class Film:
         self.slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
         self.slider.on_value_change(self._moved)
         self.facts = Facts(kind="film: ")
-        self.plots = {name: Plot(name) for name in CURVES}
+        with ui.element("div").classes("pair w-full"):
+            self.plots = {name: Plot(name) for name in CURVES}
         with ui.expansion("More about the film").classes("w-full").props("dense"):
             self.more = ui.column().classes("w-full gap-1")
 
@@ -243,6 +244,8 @@ class Film:
         if shape != self.there:
             self.there = shape
             self._renewed()
+        has_entries = isinstance(self.state.get("film"), dict)
+        self.grid.classes(**{"remove" if has_entries else "add": "alone"})
         self.inputs.show_mistakes()
         answer = await self._with_film()
         for part in (self.words, self.beside):
@@ -278,7 +281,7 @@ class Film:
             known = surface.get(measured(study, state.folder))
             found, problems, _ = await apart(look, study, state.folder, known)
             self.start = (answer, found)
-            self.wrong.set_text(with_micro("; ".join(problems)))
+            self.wrong.set_text(as_shown("; ".join(problems)))
         return self.start[1]
 
     async def _show_answer(self, answer: Answer, found: FilmResult) -> None:
@@ -315,12 +318,12 @@ class Film:
             for i, text in enumerate(said):
                 style = "whole-contact" if i == 0 else ""
                 set_attributes(
-                    ui.label(with_micro(text)).classes(style), {"data-fact": f"film: answer {i}"}
+                    ui.label(as_shown(text)).classes(style), {"data-fact": f"film: answer {i}"}
                 )
         self.more.clear()
         with self.more:
             for text in more:
-                ui.label(with_micro(text)).classes("hint")
+                ui.label(as_shown(text)).classes("hint")
 
     async def _filtered(self) -> None:
         if self.answer is not None and self.found is not None:

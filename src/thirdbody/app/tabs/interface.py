@@ -29,6 +29,7 @@ from ...study.load import force_sentences, told_forces
 from ...systems.bodies import Pressed, press
 from ..cross_section import section, to_svg
 from ..state import Answer, State
+from ..text import as_shown
 from ..widgets import Facts, set_attributes
 
 __all__ = ["TITLE", "abouts", "build", "drawing_of", "facts_of", "headline", "swatch"]
@@ -158,9 +159,9 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if bad:
             return
         svg, says, names, pairs, sentence = found
-        answer.set_text(sentence)
+        answer.set_text(as_shown(sentence))
         picture.set_content(svg)
-        caption.set_text(says)
+        caption.set_text(as_shown(says))
         if names != shown["names"]:
             shown["names"] = names
             legend.clear()
@@ -210,8 +211,8 @@ class Force:
             return
         follows = not whole and found[0].kind != "flat"
         first, rest = first_and_rest(force_sentences(found))
-        self.said.set_text(first)
-        self.rest.set_text(rest)
+        self.said.set_text(as_shown(first))
+        self.rest.set_text(as_shown(rest))
         self.fold.set_visibility(bool(rest) or found[0].kind != "flat")
         self.first.set_visibility(follows)
         warned = [text for each in found for text in each.warnings]

@@ -22,7 +22,7 @@ from ...views.life_words import events, facts
 from ..figures import CLEAR, CONFIG, GREY, INKS, Figure, figure, line
 from ..sliders import Slider
 from ..state import Answer, State
-from ..text import with_micro
+from ..text import as_shown
 from ..widgets import Facts, Plot, set_attributes
 
 __all__ = ["START", "TITLE", "LifeShown", "build", "contents_of", "words_of_oil"]
@@ -245,18 +245,18 @@ class LifeTab:
         self.words.clear()
         with self.words:
             for i, text in enumerate(shown.answer):
-                said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
+                said = ui.label(as_shown(text)).classes("whole-contact" if i == 0 else "")
                 set_attributes(said, {"data-fact": f"life: answer {i}"})
         self.facts.show(shown.facts)
         for name, text in shown.labels.items():
-            self.texts[name].set_text(with_micro(text))
+            self.texts[name].set_text(as_shown(text))
             self.sliders[name].speak(text)
         await self.course.show(shown.history)
         await self.flows.show(shown.flows)
         self.notes.clear()
         with self.notes:
             for text in shown.notes:
-                ui.label(with_micro(text)).classes("hint")
+                ui.label(as_shown(text)).classes("hint")
 
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:

@@ -32,6 +32,8 @@ LITTLE = 3
 ABOUT = "Sizes are scaled as a whole, everything else stays. Every point is a solved state."
 
 
+ON = {"p-s": "on particles", "hybrid": "on both", "s-s": "on asperities"}
+"""What the real contact is on, beside the names of the modes."""
 HALF = 7
 """Radius of the point that is the study, in pixels."""
 NM, MPA = 1e9, 1e-6
@@ -68,7 +70,7 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
             "colorscale": scale,
             "colorbar": {
                 "tickvals": [0, 1, 2],
-                "ticktext": list(MODES),
+                "ticktext": [f"{mode}<br>{ON[mode]}" for mode in MODES],
                 "thickness": 14,
                 "len": 0.6,
             },

@@ -18,7 +18,7 @@ from ..figures import Figure, Part, figure, line, mark
 from ..guard import LARGEST_UPLOAD
 from ..solver import apart
 from ..state import State, missing
-from ..text import with_micro
+from ..text import as_shown
 from ..uploads import take
 from ..widgets import facts, plot_place, set_attributes, upload
 from ..work import Asked, Work
@@ -230,7 +230,7 @@ class Surface:
         self.notes.clear()
         with self.notes:
             for text in result["warnings"]:
-                ui.label(with_micro(text)).classes("hint")
+                ui.label(as_shown(text)).classes("hint")
         self.box.set_visibility(True)
 
     def _take(self, what: str) -> None:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 
 FEW = 12
+MOST_PRESSURES = 4
+"""Ticks of the pressure above a figure, between its ends."""
 """Loads that are marked one by one."""
 DRAWING = (4.6, 3.4)
 """Width and height of a figure [in]."""
@@ -72,7 +74,7 @@ def _area_figure(report: Found) -> tuple[Axes, str]:
 
 def _mark_loads(report: Found, ax: Axes) -> Axes:
     """Loads of the study and critical loads, and the pressure above."""
-    from matplotlib.ticker import EngFormatter, NullLocator
+    from matplotlib.ticker import EngFormatter, LogLocator, NullLocator
 
     E = report.contact.E_ss
     _mark_loads_of_study(report, ax)
@@ -90,6 +92,8 @@ def _mark_loads(report: Found, ax: Axes) -> Axes:
     ax.tick_params(which="both", top=False)
     above = ax.secondary_xaxis("top", functions=(scaled(E), scaled(1 / E)))
     above.set_xlabel("Nominal pressure")
+    if ax.get_xscale() == "log":
+        above.xaxis.set_major_locator(LogLocator(numticks=MOST_PRESSURES))
     above.xaxis.set_major_formatter(EngFormatter("Pa"))
     above.xaxis.set_minor_locator(NullLocator())
     above.tick_params(which="both", direction="in")

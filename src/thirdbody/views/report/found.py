@@ -15,8 +15,10 @@ from ...populations.materials import Material
 from ...study import FilmResult, Study, StudyResult
 from ...study.dirty_oil import DirtyOil
 from ...study.one_surface import OneSurface
+from ...study.run_connector import ConnectorResult
 from ...study.run_dry import DryResult
 from ...study.run_life import LifeResult
+from ...study.run_plate import PlateResult
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +37,8 @@ class Found:
     oil: DirtyOil | None = field(repr=False, default=None)
     oil_filtered: DirtyOil | None = field(repr=False, default=None)
     life: LifeResult | DryResult | None = field(repr=False, default=None)
+    connector: ConnectorResult | None = field(repr=False, default=None)
+    plate: PlateResult | None = field(repr=False, default=None)
 
     @property
     def contact(self) -> Contact:

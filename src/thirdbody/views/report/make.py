@@ -26,7 +26,9 @@ from ...study import Study, run_film, run_study
 from ...study.dirty_oil import dirty_oil
 from ...study.life import AskedDry
 from ...study.one_surface import OneSurface, one_surface
+from ...study.run_connector import run_connector
 from ...study.run_life import run_life
+from ...study.run_plate import run_plate
 from ...systems.oil_filter import Filter
 from .found import some_of
 from .page import MOST_SAMPLES, Report, most_samples
@@ -135,6 +137,8 @@ def report(
             pressed=pressed,
             oil=dirty_oil(study),
             life=None if study.life is None else run_life(study.life),
+            connector=None if study.connector is None else run_connector(study.connector),
+            plate=None if study.plate is None else run_plate(study.plate),
             oil_filtered=None if filter is None else dirty_oil(study, filter=filter),
         )
 

@@ -18,7 +18,7 @@ from ...equilibrium.words import unsolved
 from ...quantities.say import join_words, signed, value_of
 from ...study.oil_what_ifs import what_ifs_of_oil
 from ...version import __version__
-from .. import nature_words, oil_words, state_words
+from .. import connector_words, nature_words, oil_words, plate_words, state_words
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
 from .figures import figures_of
@@ -32,6 +32,7 @@ from .tables import (
     life_section,
     oil_section,
     outputs_section,
+    question_sections,
     states_table,
 )
 
@@ -89,6 +90,10 @@ class Report(Found):
         What the particles of the oil do, before and after a filter.
     life : LifeResult, DryResult or None
         The oil, or the dry contact, over time.
+    connector : ConnectorResult or None
+        How often dust keeps a connector open, where the study asks.
+    plate : PlateResult or None
+        How high a plate stands over particles on its chuck, where the study asks.
     """
 
     def sentences(self) -> tuple[str, ...]:
@@ -109,6 +114,7 @@ class Report(Found):
             section(
                 "The answer", [f"<p>{words(each)}</p>" for each in self.lead], name="answer"
             ).replace("<section", "<section class=lead", 1),
+            *question_sections(self),
             *oil_section(self),
             *life_section(self),
             section("In full", _in_full(self), name="in-full"),
@@ -134,6 +140,14 @@ class Report(Found):
 
 def _lead(report: Found) -> list[str]:
     """What the study asks, in a few sentences, and what moves it most."""
+    asked = []
+    if report.connector is not None:
+        asked += connector_words.answer(report.connector)
+        asked += connector_words.uncertainty(report.connector)
+    if report.plate is not None:
+        asked += [*plate_words.answer(report.plate), *plate_words.uncertainty(report.plate)]
+    if asked:
+        return asked
     if report.oil is None:
         return [*state_words.answer(report.result), *state_words.uncertainty(report.result)]
     before_after = []
@@ -150,7 +164,8 @@ def _in_full(report: Found) -> list[str]:
 
 
 def _warnings(report: Found) -> list[str]:
-    texts = [*report.result.warnings, *(() if report.film is None else report.film.run_warnings)]
+    others = [each for each in (report.connector, report.plate, report.film) if each is not None]
+    texts = [*(text for each in others for text in each.run_warnings), *report.result.warnings]
     texts = [*dict.fromkeys(texts), *unsolved(report.result.states.status)]
     if not texts:
         return []

@@ -120,6 +120,23 @@ def outputs_section(report: Found) -> list[str]:
     return [section("What else the contact does", out, name="outputs")]
 
 
+def question_sections(report: Found) -> list[str]:
+    """Sections on what a connector or a plate on its chuck was asked."""
+    from .. import connector_words, plate_words
+
+    out = []
+    if (plug := report.connector) is not None:
+        rows, means = connector_words.rows(plug), connector_words.MEANS
+        table_of = _with_legend(connector_words.HEADS, rows, means)
+        out.append(section("How often dust keeps it open", table_of, name="connector"))
+    if (plate := report.plate) is not None:
+        table_of = _with_legend(
+            plate_words.heads(plate), plate_words.rows(plate), plate_words.MEANS
+        )
+        out.append(section("How high the plate stands", table_of, name="plate"))
+    return out
+
+
 def oil_section(report: Found) -> list[str]:
     """Section on the populations of the oil, before and after a filter."""
     from .. import bearing_words, oil_words
