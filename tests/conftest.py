@@ -201,6 +201,7 @@ def blank_pictures(monkeypatch):
         return save(figure, *args, **options)
 
     monkeypatch.setattr(Figure, "savefig", save_blank)
+    monkeypatch.setattr("thirdbody.views.figure_files.lay_out", lambda *_, **__: None)
 
 
 @pytest.fixture

@@ -1,5 +1,6 @@
 """The computation of one squeezed particle gives answers known without it; so does its table."""
 
+import functools
 import importlib
 import itertools
 import json
@@ -163,24 +164,31 @@ def room(monkeypatch):
     return lambda name: importlib.import_module(f"squeeze.{name}")
 
 
+@pytest.fixture(scope="module")
+def flat_punch():
+    """Pressures under a punch, from below and from above; each is computed once."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(ROOT / "benchmarks"))
+        yield functools.cache(importlib.import_module("squeeze.checks").flat_punch)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("rough", "low", "high"), [(True, 6.05, 6.05), (False, 5.69, 5.69)])
-def test_a_flat_punch_lies_between_the_bounds_of_tresca(room, rough, low, high):
+def test_a_flat_punch_lies_between_the_bounds_of_tresca(flat_punch, rough, low, high):
     """Circular punch: 6.05 k rough (Eason, Shield 1960), 5.69 k smooth (Shield 1955).
 
     Von Mises lies between Tresca with k = Y/2 and with k = Y/√3.
     """
-    below, above = room("checks").flat_punch(rough)
+    below, above = flat_punch(rough)
     assert low / 2 < below < high / math.sqrt(3)
     assert above == pytest.approx(below, rel=1e-3)
 
 
 @pytest.mark.slow
-def test_a_flat_punch_converges_with_triangles_and_domain(room):
-    checks = room("checks")
-    known = checks.flat_punch(True)[0]
-    assert checks.flat_punch(True, size=0.05)[0] == pytest.approx(known, rel=0.02)
-    assert checks.flat_punch(True, domain=9.0)[0] == pytest.approx(known, rel=0.02)
+def test_a_flat_punch_converges_with_triangles_and_domain(flat_punch):
+    known = flat_punch(True)[0]
+    assert flat_punch(True, size=0.05)[0] == pytest.approx(known, rel=0.02)
+    assert flat_punch(True, domain=9.0)[0] == pytest.approx(known, rel=0.02)
 
 
 @pytest.mark.slow

@@ -427,11 +427,12 @@ def write_figure(figure: Path, drawing: Figure) -> None:
 
     from ..quantities.files import whole
     from ..version import __version__
+    from ..views.figure_files import save_figure
 
     kind = figure_format(figure)
     # by which the next run knows it for one of ours
     made = {"Software" if kind == "png" else "Creator": f"thirdbody {__version__}"}
     made |= {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})  # type: ignore[arg-type]
     with whole(figure) as part, rc_context({"svg.hashsalt": "thirdbody"}):
-        drawing.savefig(part, format=kind, metadata=made)
+        save_figure(drawing, part, kind, metadata=made)
     tell_written(figure)

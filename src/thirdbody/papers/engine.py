@@ -40,11 +40,13 @@ class Picture:
         """Write its files; their names. Names inside the SVG come from the stem."""
         from matplotlib import rc_context
 
+        from ..views.figure_files import save_figure
+
         png, svg, csv = names = tuple(f"{self.stem}.{end}" for end in ("png", "svg", "csv"))
         with whole(folder / png) as draft:
-            self.drawn.savefig(draft, format="png", dpi=180, metadata={"Software": None})
+            save_figure(self.drawn, draft, "png", dpi=180, metadata={"Software": None})
         with rc_context({"svg.hashsalt": self.stem}), whole(folder / svg) as draft:
-            self.drawn.savefig(draft, format="svg", metadata={"Date": None, "Creator": None})
+            save_figure(self.drawn, draft, "svg", metadata={"Date": None, "Creator": None})
         write_text(folder / csv, self.csv)
         return names
 

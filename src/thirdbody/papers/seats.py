@@ -257,9 +257,11 @@ def main(arguments: list[str] | None = None) -> int:
     if len(arguments) != 1 or arguments[0].startswith("-"):
         print("usage: python -m thirdbody.papers.seats OUT.png", file=sys.stderr)
         return 2
+    from ..views.figure_files import save_figure
+
     target = Path(arguments[0])
     with whole(target) as draft:
-        figure().savefig(draft, dpi=150, format=target.suffix.lstrip(".") or "png")
+        save_figure(figure(), draft, target.suffix.lstrip(".") or "png", dpi=150)
     print(target)
     return 0
 

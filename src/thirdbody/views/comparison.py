@@ -11,6 +11,7 @@ import numpy as np
 from ..analysis.compare import csv_text
 from ..errors import InvalidValue, Mistake
 from ..quantities.say import number
+from .figure_files import save_figure
 
 if TYPE_CHECKING:
     import os
@@ -203,7 +204,7 @@ def save(
     with ExitStack() as stack:
         table_file, png, svg = (stack.enter_context(whole(path)) for path in out)
         table_file.write_text(text, encoding="utf-8", newline="")
-        drawing.savefig(png, dpi=200)
+        save_figure(drawing, png, "png", dpi=200)
         with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
-            drawing.savefig(svg, metadata={"Date": None})
+            save_figure(drawing, svg, "svg", metadata={"Date": None})
     return out

@@ -116,9 +116,11 @@ def svg_of(drawing: Any) -> bytes:
     """A matplotlib figure as SVG, the same bytes every time."""
     from matplotlib import rc_context
 
+    from .figure_files import save_figure
+
     out = io.BytesIO()
     with rc_context({"svg.hashsalt": "thirdbody", "svg.fonttype": "path"}):
-        drawing.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+        save_figure(drawing, out, "svg", metadata={"Date": None, "Creator": None})
     return out.getvalue()
 
 

@@ -23,6 +23,7 @@ from ..study.load import FORCE
 from ..study.vocabulary import LOADS
 from ..version import __version__
 from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
+from .figure_files import save_figure
 from .film_words import point
 from .report.figures import first_figure
 from .report.found import Found, some_of
@@ -175,7 +176,7 @@ def _figure_of_states(result: StudyResult) -> Figure:
 
 def _png(drawing: Figure) -> bytes:
     out = io.BytesIO()
-    drawing.savefig(out, format="png", dpi=CHART_DPI, metadata={"Software": "thirdbody"})
+    save_figure(drawing, out, "png", dpi=CHART_DPI, metadata={"Software": "thirdbody"})
     return out.getvalue()
 
 

@@ -150,6 +150,7 @@ def _write_surface(folder: Path, found: Any, result: dict[str, object], force: b
 
     from ...quantities.files import make_folder, whole, write_text
     from ...quantities.run_files import refuse_replaced
+    from ...views.figure_files import save_figure
     from ...views.plot.topography import surface as draw
 
     text = json.dumps(plain_data(result), indent=1, allow_nan=False) + "\n"
@@ -159,9 +160,9 @@ def _write_surface(folder: Path, found: Any, result: dict[str, object], force: b
     out = _of_folder(folder)
     drawing = draw(found)
     with whole(out[0]) as png, whole(out[1]) as svg:
-        drawing.savefig(png, dpi=200)
+        save_figure(drawing, png, "png", dpi=200)
         with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
-            drawing.savefig(svg, metadata={"Date": None})
+            save_figure(drawing, svg, "svg", metadata={"Date": None})
         write_text(out[2], text)
     return out
 
