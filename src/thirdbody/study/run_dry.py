@@ -108,7 +108,15 @@ def life_of_asked(asked: Any, **arguments: Any) -> Any:
     """The history that a study asks for; its warnings stand in it, and are not told twice."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        return life(duration=asked.duration, until=asked.until, **arguments)
+        try:
+            return life(duration=asked.duration, until=asked.until, **arguments)
+        except InvalidValue as error:
+            raise InvalidValue(
+                *(
+                    each.under("life") if each.place == "duration" else each
+                    for each in error.problems
+                )
+            ) from None
 
 
 def bands_of_dry(
