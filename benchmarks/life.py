@@ -1,4 +1,4 @@
-"""Time histories: of a contact for 1000 h with 24 classes of three kinds, and of oils alone.
+"""Time histories: of a contact for 1000 h with 32 classes of three kinds, and of oils alone.
 
 ``python benchmarks/life.py`` prints the seconds of the first history with a contact, with its
 tables, and of a second one with the same contact and another ingress; then for oils alone, drawn

@@ -13,6 +13,7 @@ from thirdbody.study import life_bands
 from thirdbody.study.life_bands import propagate_dry, propagate_life
 from thirdbody.study.life_kept import KeptEnds
 from thirdbody.study.run_life import load_life, load_oil
+from thirdbody.systems.life.loop import Loop
 
 from .life_shell import CONTACT, HOUR, complained, enter, run, said, study
 
@@ -263,7 +264,7 @@ def test_what_does_not_go_together_is_refused():
     for command in ("life", "assess"):
         done = run(command, "bare-oil-circuit.toml", "--keep", "kept.jsonl")
         assert done.exit_code == 2
-        assert "the study has none" in " ".join(done.stderr.split())
+        assert "the study has n" in " ".join(done.stderr.split())
     assert not Path("kept.jsonl").exists()
 
 
@@ -296,6 +297,59 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(monkeypatch):
     assert len(done) == 68 - 30  # 64 sets, and two ends of two inputs
 
 
+@pytest.mark.check
+def test_one_long_history_goes_on_to_the_same_bytes(monkeypatch):
+    file = study("dry-contact")
+    short = ["--set", 'life.duration="1 h"', "--json"]
+    whole = run("life", file, *short).stdout
+    computed, left = Loop.derivative, [15]
+
+    def breaks(self, time, y):
+        left[0] -= 1
+        if left[0] == 0:
+            raise KeyboardInterrupt
+        return computed(self, time, y)
+
+    monkeypatch.setattr(Loop, "derivative", breaks)
+    broken = run("life", file, *short, "--keep", "kept.jsonl")
+    assert broken.exit_code == 130
+    words = " ".join(f"{broken.stderr} {broken.exception}".split())
+    assert "kept.jsonl holds 15 steps, and the same command goes on" in words
+    resumed = run("life", file, *short, "--keep", "kept.jsonl")
+    assert resumed.stdout == whole
+    other = run("life", file, *short, "--set", "life.dry.loss=0.5", "--keep", "kept.jsonl")
+    assert other.exit_code == 2
+    assert "does not hold the history of this study" in " ".join(other.stderr.split())
+
+
+# ------------------------------------------------------------------------------ impossible sets
+def test_sets_that_no_oil_can_have_are_refused_before_anything_is_computed(monkeypatch):
+    monkeypatch.setattr("thirdbody.study.run_life.history_of", None)  # cannot be called
+    leak = """
+[life.uncertainty]
+"oil.leak" = { low = "1 mL/h", high = "1 L/h" }
+"""
+    told = complained(run("life", study("oil-circuit", leak)))
+    assert 'life.uncertainty."oil.leak" = ' in told
+    assert "lets the leak empty the circuit within 2000 h; so it is in" in told
+    wide = """
+[uncertainty.inputs]
+"life.filters.0.service" = { median = 1, gsd = 2 }
+"""
+    told = complained(run("life", study("oil-circuit", wide)))
+    assert 'uncertainty.inputs."life.filters.0.service" = ' in told
+    assert "must be > 0 and <= 2; so it is in 11 of 66 sets" in told
+
+
+def test_a_factor_whose_tail_alone_is_impossible_is_allowed():
+    """No set that is drawn has a service above 2."""
+    file = study("oil-circuit", """
+[life.uncertainty]
+"filters.0.service" = { median = 0.9, gsd = 1.15 }
+""")  # fmt: skip
+    assert "Most uncertain: filters.0.service" in said(run("life", file, *SHORT))
+
+
 def test_a_file_of_another_study_is_refused():
     file = study("oil-circuit", OIL)
     KeptEnds(Path("kept.jsonl"), {"another": 1})
@@ -324,16 +378,16 @@ def test_progress_says_how_many_histories_are_done():
     [
         (
             '"filters.0.beta.7 um" = { low = 2, high = 20 }',
-            "filters.0.beta.7 um may be as low as 2, below 5, β at 4 µm; β must not fall",
+            '"filters.0.beta.7 um" may be as low as 2, below 5, β at 4 µm; β must not fall',
         ),
         (  # each alone is in order
             '"filters.0.beta.4 um" = { low = 3, high = 60 }\n'
             '"filters.0.beta.7 um" = { low = 40, high = 100 }',
-            "filters.0.beta.7 um may be as low as 40, below 60, β at 4 µm; β must not fall",
+            '"filters.0.beta.7 um" may be as low as 40, below 60, β at 4 µm; β must not fall',
         ),
         (
             '"filters.0.beta.7 um" = { low = 40, high = 2000 }',
-            "filters.0.beta.7 um may be as high as 2000, above 1000, β at 14 µm; β must not fall",
+            '"filters.0.beta.7 um" may be as high as 2000, above 1000, β at 14 µm; β must not fall',
         ),
     ],
 )

@@ -147,6 +147,131 @@ def test_states_by_brute_force(contact):
     np.testing.assert_allclose([each.T for each in found.states], exact, rtol=1e-9)
 
 
+# ------------------------------------------------------------------ dense scans, no continuation
+HOT = STEEL.replace(thermal_conductivity=50, density=7850, specific_heat=480)
+DUST = tb.Particles(
+    material=tb.materials["Al2O3"], areal_density=1e10,
+    diameter=tb.TruncatedGaussian(mean=500e-9, std=50e-9),
+)  # fmt: skip
+
+
+def scanned(made, cold, end, count=80):
+    """Every root of T_made − T between two temperatures, its gain by differences, in order."""
+    grid = np.linspace(cold + 1e-3, end, count)
+    miss = np.array([made(T) - T for T in grid])
+    out = []
+    for i in np.flatnonzero(miss[1:] * miss[:-1] < 0):
+        T = optimize.brentq(lambda T: made(T) - T, grid[i], grid[i + 1], xtol=1e-10, rtol=1e-14)
+        out.append((T, (made(T + 0.1) - made(T - 0.1)) / 0.2))
+    return out
+
+
+def fold(speed_of, low, high):
+    """The largest speed that a temperature has, by a scan and golden sections."""
+    grid = np.linspace(low, high, 40)
+    best = int(np.argmax([speed_of(T) for T in grid]))
+    ends = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
+    found = optimize.minimize_scalar(
+        lambda T: -speed_of(T), bounds=ends, method="bounded", options={"xatol": 1e-3}
+    )
+    return -found.fun
+
+
+def softened(contact, share):
+    pair = contact.surfaces
+    soft = [each.replace(H=each.H * share) for each in (pair.first, pair.second)]
+    return contact.replace(surfaces=tb.MaterialPair(*soft))
+
+
+def untold(function, *given, **named):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        return function(*given, **named)
+
+
+@pytest.mark.slow
+def test_particles_between_half_spaces_by_a_scan():
+    """States, stability and the end of a dusty contact whose heat goes into half-spaces."""
+    from thirdbody.effects.single.heat import body_conductance
+
+    hot = DUSTY_RUBBING.replace(surfaces=tb.MaterialPair(HOT, HOT), particles=DUST)
+    area, p, b = 25e-6, 5e6, math.sqrt(25e-6 / math.pi)
+
+    def conductance(v):
+        D = 50 / (7850 * 480)
+        return sum(body_conductance(b, k=50.0, D=D, v=each) for each in (0.0, v))
+
+    known = {}
+
+    def mu(T):
+        if T not in known:
+            share = 1 - ((T - COLD) / (MELT - COLD)) ** 1.5
+            known[T] = untold(tb.solve, softened(hot, share), pressure=p).outputs["mu"]
+        return known[T]
+
+    def speed_of(T):
+        """The speed at which friction makes this temperature."""
+        return optimize.brentq(
+            lambda v: COLD + mu(T) * p * v * area / conductance(v) - T, 1e-9, 1e9, xtol=1e-13
+        )
+
+    cooling = feedback.HalfSpaces(A_n=area, T_1=COLD, T_2=COLD)
+    laws = [softening(1.5)]
+    end = fold(speed_of, COLD + 100, COLD + 0.97 * (MELT - COLD))
+    for v in (0.3 * end, 0.8 * end, 1.001 * end):
+        exact = scanned(lambda T, v=v: COLD + mu(T) * p * v * area / conductance(v), COLD,
+                        COLD + 0.99 * (MELT - COLD))  # fmt: skip
+        found = asked(hot, sliding_speed=v, laws=laws, cooling=cooling, limits="speed")
+        assert [each.T for each in found.states] == pytest.approx([T for T, _ in exact], rel=1e-8)
+        assert [each.stable for each in found.states] == [gain < 1 for _, gain in exact]
+        gains = [each.loop_gain for each in found.states]
+        assert gains == pytest.approx([gain for _, gain in exact], rel=2e-3)
+        assert len(exact) == (2 if v < end else 0)
+    assert found.seizure_speed == pytest.approx(end, rel=1e-7)
+
+
+@pytest.mark.slow
+def test_particles_in_a_film_that_thins_by_a_scan():
+    """A dusty mixed film whose oil thins and whose steel softens: the same roots by a dense scan."""
+    dusty = RUBBING.replace(
+        particles=tb.Particles(
+            material=tb.materials["quartz"], areal_density=1e9,
+            diameter=tb.TruncatedGaussian(mean=500e-9, std=50e-9),
+        ),
+        outputs=tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6),
+    )  # fmt: skip
+    oil = tb.films.Oil(eta=0.05, alpha=2e-8, eyring_stress=5e6)
+    run = tb.systems.film_conditions.FilmConditions(
+        conjunction=tb.films.Point(R=9.5e-3), oil=oil, load=20.0, speed=(0.5,), slide_roll=0.5
+    )
+    p, v, cold, h = run.nominal_pressure(dusty), 0.25, 40.0, 4e5
+    beta = math.log(0.05 / 0.0068) / 60
+    known = {}
+
+    def made(T):
+        if T not in known:
+            film = untold(
+                tb.mixed_film, softened(dusty, 1 - (T - 20) / 1480), conjunction=run.conjunction,
+                oil=oil.replace(eta=0.05 * math.exp(-beta * (T - 40.0))), load=20.0, speed=0.5,
+                slide_roll=0.5,
+            )  # fmt: skip
+            known[T] = cold + film.mu * p * v / h
+        return known[T]
+
+    # the oil is thinner than any from 226 °C on
+    exact = scanned(made, cold, 220.0, 60)
+    found = asked(
+        dusty, pressure=None, sliding_speed=None, film=run, limits="speed",
+        laws=[feedback.Thinning(beta=beta, T_0=40.0), softening(T_melt=1500.0, T_0=20.0)],
+        cooling=feedback.ThermalPath(h_1=h / 2, h_2=h / 2, T_1=cold, T_2=cold),
+    )  # fmt: skip
+    assert [each.T for each in found.states] == pytest.approx([T for T, _ in exact], rel=1e-8)
+    assert [each.stable for each in found.states] == [gain < 1 for _, gain in exact]
+    gains = [each.loop_gain for each in found.states]
+    assert gains == pytest.approx([gain for _, gain in exact], rel=5e-3, abs=1e-4)
+    assert exact
+
+
 def test_time_tells_the_stable_state_from_the_other():
     """dT/dt = T_out − T runs back to the first state, and away from the second."""
     found = asked(sliding_speed=3.0, limits="speed")

@@ -1,5 +1,6 @@
 """The oil ledger: closed limits, other solvers, and circuits drawn at random."""
 
+import itertools
 import math
 from functools import partial
 
@@ -48,12 +49,59 @@ def dirty(number):
 # ------------------------------------------------------------------------------ classes
 def test_classes_of_the_usual_range():
     classes = tb.SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
-    assert classes.count == 24
+    assert classes.count == 32
     edges = np.array(classes.edges)
-    np.testing.assert_allclose(edges[1:] / edges[:-1], 2 ** (1 / 3), rtol=1e-14)
-    # half the size is three classes down, to the last digit
-    np.testing.assert_array_equal(edges[3:] / 2, edges[:-3])
-    np.testing.assert_allclose(classes.volumes[3:] / 8, classes.volumes[:-3], rtol=1e-13)
+    assert np.max(edges[1:] / edges[:-1]) <= 1.25
+    # half the size is four classes down, to the last digit
+    np.testing.assert_array_equal(edges[4:] / 2, edges[:-4])
+    np.testing.assert_allclose(classes.volumes[4:] / 8, classes.volumes[:-4], rtol=1e-13)
+    # ISO 4406 counts from edges, and so do most data sheets of filters
+    assert {4e-6, 5e-6, 6e-6, 7e-6, 10e-6, 12e-6, 14e-6, 20e-6} <= {round(e, 9) for e in edges}
+
+
+@pytest.mark.parametrize(("smallest", "largest"), [(4e-6, 14e-6), (4.1e-6, 13.9e-6), (3e-7, 9e-5)])
+@pytest.mark.parametrize("per_octave", [1, 3, 4, 8])
+def test_classes_hold_what_they_are_asked_to_hold(smallest, largest, per_octave):
+    classes = tb.SizeClasses.covering(smallest=smallest, largest=largest, per_octave=per_octave)
+    edges = classes.edges
+    assert edges[0] <= smallest * (1 + 1e-9) < edges[1] * (1 + 1e-9)
+    assert edges[-2] < largest * (1 + 1e-9)
+    assert edges[-1] >= largest * (1 - 1e-9)
+
+
+CODES = [
+    f"{a}/{b}/{c}" for a in range(0, 29, 4) for b in range(0, a + 1, 4) for c in {0, b // 2, b}
+]
+
+
+@pytest.mark.parametrize("level", ["low", "middle", "high"])
+def test_an_oil_of_a_code_has_this_code(level):
+    """Every number of a code at every level of its range: an oil begins where it is told to."""
+    codes = [*CODES, "18/16/13", "22/19/14", "28/28/28", "28/0/0"]
+    for code in codes:
+        dirt = tb.OilDirt.from_iso4406(code, material=QUARTZ, level=level)
+        terms = tb.OilCircuit(volume=0.2, start=dirt, ingress=()).terms()
+        assert terms.classes.iso4406(terms.start.sum(axis=1)) == code, (code, level)
+
+
+@pytest.mark.slow
+def test_an_oil_of_any_code_has_this_code():
+    for a, b, c in itertools.product(range(29), repeat=3):
+        if a >= b >= c:
+            for level in ("low", "middle", "high"):
+                dirt = tb.OilDirt.from_iso4406(f"{a}/{b}/{c}", material=QUARTZ, level=level)
+                terms = tb.OilCircuit(volume=0.2, start=dirt, ingress=()).terms()
+                assert terms.classes.iso4406(terms.start.sum(axis=1)) == f"{a}/{b}/{c}", level
+
+
+def test_an_oil_of_a_steady_code_ends_at_this_code():
+    held = tb.Filter(sizes=(3e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3)
+    for code in ("18/16/13", "22/19/14", "20/14/12", "17/17/11"):
+        for level in ("low", "high"):
+            dirt = tb.OilDirt.from_iso4406(code, material=QUARTZ, level=level)
+            steady = tb.Ingress(material=QUARTZ, diameter=dirt.diameter, steady=dirt.number)
+            oil = tb.OilCircuit(volume=0.2, start=(), ingress=steady, filters=held)
+            assert oil.steady_code() == code, level
 
 
 def test_mean_powers_of_a_class_against_quadrature():
@@ -287,8 +335,8 @@ def test_classes_twice_as_fine_change_little():
         circuit = tb.OilCircuit(volume=0.2, start=DIRT, ingress=dust, filters=fine, classes=classes)
         return tb.life(oil=circuit, duration=300.0, times=[300.0]).counts[-1]
 
-    exact = counts(96)
-    errors = [np.abs(counts(n) / exact - 1).max() for n in (3, 6, 12, 24)]
+    exact = counts(128)
+    errors = [np.abs(counts(n) / exact - 1).max() for n in (4, 8, 16, 32)]
     assert all(later < 0.67 * earlier for earlier, later in zip(errors, errors[1:], strict=False))
 
 

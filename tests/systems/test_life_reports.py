@@ -103,6 +103,25 @@ def test_the_band_of_codes_holds_what_is_true():
     assert 1.6 < np.median(widths) < 2.1
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("betas", [(2.0, 75.0), (1.02, 1.5)])
+def test_bands_hold_what_is_true_where_a_filter_lets_nearly_all_pass(betas, monkeypatch):
+    """300 oils with classes of the default width: each size is in its band nine times of ten."""
+    monkeypatch.setattr("thirdbody.systems.life.reports.DRAWS", 80)
+    weak = tb.Filter(sizes=(5e-6, 10e-6), betas=betas, flow=2e-5)
+    usual = tb.SizeClasses.covering(smallest=4e-6, largest=90e-6)
+    oil = circuit(filters=weak, classes=usual)
+    times = np.array([0, 24, 48, 72]) * HOUR
+    exact = reported(times, filters=weak, classes=usual)
+    inside, rng = [], np.random.default_rng(11)
+    for _ in range(300):
+        factor = math.exp(rng.uniform(-1, 1))
+        found = oil_reports(times, reports=coded(exact * factor), circuit=oil)
+        inside.append((found.low < RATES * factor) & (found.high > RATES * factor))
+    # three standard deviations of 300 draws below nine of ten
+    assert np.all(np.mean(inside, axis=0) > 0.9 - 3 * math.sqrt(0.09 / 300))
+
+
 def test_more_reports_make_the_band_narrower_where_they_differ():
     def width(count):
         times = np.linspace(0, 10, count) * HOUR

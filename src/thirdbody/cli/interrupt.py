@@ -75,8 +75,8 @@ def interruptible() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def resumable(what: str, keep: Path | None) -> Iterator[None]:
-    """Ctrl-C inside says how many histories are kept in a file, with which the command goes on."""
+def resumable(what: str, keep: Path | None, *, of: str = "histories") -> Iterator[None]:
+    """Ctrl-C inside says how much is kept in a file, with which the command goes on."""
     try:
         yield
     except KeyboardInterrupt:
@@ -84,7 +84,7 @@ def resumable(what: str, keep: Path | None) -> Iterator[None]:
             raise
         done = keep.read_bytes().count(b"\n") - 1
         raise Interrupted(
-            f"{what}: interrupted; {keep} holds {done} histories, and the same command goes on"
+            f"{what}: interrupted; {keep} holds {done} {of}, and the same command goes on"
         ) from None
 
 

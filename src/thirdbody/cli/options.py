@@ -82,7 +82,8 @@ KeepFile = Annotated[
     typer.Option(
         "--keep",
         metavar="FILE",
-        help="Keep the histories of [life.uncertainty] there: the same command goes on with them.",
+        help="Keep what was computed there (the histories of [life.uncertainty], or the steps of "
+        "one with a contact): the same command goes on with it.",
     ),
 ]
 FilterText = Annotated[

@@ -250,8 +250,8 @@ def _uncertainty(
     if contact is not None and contact.debris is not None:
         more[BANDS_HARDNESS] = HARDNESS
     some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
-    if circuit.filters:
-        some += f', "filters.0.beta.{value_of(circuit.filters[0].sizes[0], "m")}"'
+    for i, each in enumerate(circuit.filters):
+        some += "".join(f', "filters.{i}.beta.{value_of(x, "m")}"' for x in each.sizes)
     some += "".join(f', "{name}"' for name in more)
 
     def about(label: str) -> tuple[str, Quantity | None]:

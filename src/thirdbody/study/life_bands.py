@@ -25,11 +25,12 @@ from ..systems.life.contact_history import DryHistory
 from ..systems.life.debris import Debris
 from ..systems.life.history import LifeHistory
 from ..systems.life.ingress import Ingress
-from ..systems.life.oil_history import run_oil_history
+from ..systems.life.kept_rates import plain_inputs
+from ..systems.life.oil_history import need_oil_left, run_oil_history
 from ..systems.life.run import life
 from ..systems.life.until import Until
 from .life_kept import KeptEnds
-from .life_uncertainty import place_of_beta
+from .life_uncertainty import about_circuit, place_of_beta
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = [
-    *("End", "LifeBands", "Swing", "is_of_contact"),
+    *("End", "LifeBands", "Swing", "check_dry", "check_oil", "is_of_contact"),
     *("propagate_dry", "propagate_life"),
 ]
 
@@ -64,6 +65,9 @@ PARTS = ("surfaces", "roughness", "asperity_law", "outputs")
 PROBABILITIES = (0.05, 0.5, 0.95)
 SAMPLES, SAMPLES_OF_CONTACT = 256, 64
 """Histories, of an oil alone and with a contact, where nobody says how many."""
+EMPTYING = ("leak", "volume", "make_up")
+"""Numbers of a circuit with which a leak may empty it."""
+HOUR = 3600.0
 JAM = "jam"
 COUNT, WEAR = "count from 6 µm", "wear depth"
 """What the swings are of."""
@@ -210,13 +214,97 @@ def _check(
                 continue
             if place_of_beta(circuit, name) is not None:
                 continue
-            for end in (0.0, 1.0):
-                _changed(circuit, {name: known.quantile(end)})
         except InvalidValue as error:
             problems += list(error.problems)
     problems += _problems_of_betas(circuit, vary)
     if problems:
         raise InvalidValue(*problems)
+
+
+def check_oil(
+    circuit: OilCircuit,
+    *,
+    vary: Mapping[str, Uncertain],
+    duration: float,
+    contact: Mapping[str, Any] | None = None,
+    samples: int | None = None,
+    seed: int = 0,
+    probabilities: Sequence[float] = PROBABILITIES,
+) -> None:
+    """Refuse what is no number of an oil, and sets drawn of them that no oil can have.
+
+    Parameters
+    ----------
+    circuit, vary, duration, contact, samples, seed, probabilities
+        As in `propagate_life`.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    _check(circuit, vary, contact)
+    count = samples or (SAMPLES if contact is None else SAMPLES_OF_CONTACT)
+    own = {name: each for name, each in vary.items() if _is_of_circuit(name)}
+    if not own:
+        return
+    sets = [
+        {name: value for name, value in each.items() if name in own}
+        for each in _sets(vary, count, seed, probabilities)
+    ]
+    wrong: dict[str, tuple[int, Problem]] = {}
+    for values in filter(None, sets):
+        for name, problem in _problem_of_set(circuit, values, duration):
+            before = wrong.get(name, (0, problem))
+            wrong[name] = (before[0] + 1, before[1])
+    if wrong:
+        raise InvalidValue(
+            *(
+                Problem(
+                    name,
+                    problem.rule,
+                    problem.value,
+                    hint=f"so it is in {times} of {len(sets)} sets that are drawn",
+                )
+                for name, (times, problem) in wrong.items()
+            )
+        )
+
+
+def _is_of_circuit(name: str) -> bool:
+    return name not in (*OF_CONTACT, HARDNESS) and not is_of_contact(name)
+
+
+def _problem_of_set(
+    circuit: OilCircuit, values: Mapping[str, float], duration: float
+) -> list[tuple[str, Problem]]:
+    """What is wrong with a set: the name of an input, and why; one at most."""
+    whole = _problem_of(circuit, values, duration)
+    if whole is None:
+        return []
+    for name, value in values.items():
+        if (problem := _problem_of(circuit, {name: value}, duration)) is not None:
+            return [(name, problem)]
+    name = next((each for each in values if each in EMPTYING), next(iter(values)))
+    return [(name, whole)]
+
+
+def _problem_of(
+    circuit: OilCircuit, values: Mapping[str, float], duration: float
+) -> Problem | None:
+    """Why a circuit cannot be with some values."""
+    name = next((each for each in values if each in EMPTYING), next(iter(values)))
+    about = about_circuit(circuit, name)
+    value = value_of(values[name], "1" if about is None else about["unit"], 3)
+    try:
+        changed = _changed(circuit, values)
+    except InvalidValue as error:
+        return error.problems[0].changed(value=value)
+    try:
+        need_oil_left(changed, duration)
+    except InvalidValue:
+        rule = f"lets the leak empty the circuit within {number(duration / HOUR, 5)} h"
+        return Problem(name, rule, value)
+    return None
 
 
 def _problems_of_betas(circuit: OilCircuit, vary: Mapping[str, Any]) -> Iterator[Problem]:
@@ -370,7 +458,11 @@ def propagate_life(
     >>> [code.split("/")[0] for code in found.codes]
     ['16', '17', '19']
     """
-    _check(circuit, vary, contact)
+    count = samples or (SAMPLES if contact is None else SAMPLES_OF_CONTACT)
+    check_oil(
+        circuit, vary=vary, duration=duration, contact=contact, samples=count, seed=seed,
+        probabilities=probabilities,
+    )  # fmt: skip
     waits = tuple(each.replace(stops=False) for each in until)
     shared: dict[str, Any] = {"duration": duration, "until": waits, "times": [0.0, duration]}
 
@@ -385,10 +477,36 @@ def propagate_life(
 
     return _bands(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
-        samples=samples or (SAMPLES if contact is None else SAMPLES_OF_CONTACT),
-        swings_of=COUNT, progress=progress, keep=keep,
-        inputs={"oil": circuit.to_dict(), "contact": _numbers_of(contact or {})},
+        samples=count, swings_of=COUNT, progress=progress, keep=keep,
+        inputs={"oil": circuit.to_dict(), "contact": plain_inputs(contact or {})},
     )  # fmt: skip
+
+
+def check_dry(
+    contact: Contact, *, vary: Mapping[str, Uncertain], conditions: Mapping[str, Any]
+) -> None:
+    """Refuse what is no number of a dry contact, or a range beyond what it may be.
+
+    Parameters
+    ----------
+    contact, vary, conditions
+        As in `propagate_dry`.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    known = (ARRIVALS, *OF_DRY, HARDNESS)
+    problems = [] if vary else [Problem("vary", "must name a number that is uncertain")]
+    for name, each in vary.items():
+        if is_of_contact(name):
+            problems += _problems_of_part(name, each, contact)
+        elif name not in known:
+            problems.append(Problem(name, f"must be one of {', '.join(known)}"))
+        else:
+            problems += _problems_of_condition(name, each, conditions)
+    if problems:
+        raise InvalidValue(*problems)
 
 
 @takes_units
@@ -429,17 +547,7 @@ def propagate_dry(
     InvalidValue
         What is no number of the contact, or a range beyond what it may be.
     """
-    known = (ARRIVALS, *OF_DRY, HARDNESS)
-    problems = [] if vary else [Problem("vary", "must name a number that is uncertain")]
-    for name, each in vary.items():
-        if is_of_contact(name):
-            problems += _problems_of_part(name, each, contact)
-        elif name not in known:
-            problems.append(Problem(name, f"must be one of {', '.join(known)}"))
-        else:
-            problems += _problems_of_condition(name, each, conditions)
-    if problems:
-        raise InvalidValue(*problems)
+    check_dry(contact, vary=vary, conditions=conditions)
     waits = tuple(each.replace(stops=False) for each in until)
 
     def end(values: Mapping[str, float]) -> End:
@@ -456,13 +564,21 @@ def propagate_dry(
     return _bands(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
         samples=samples or SAMPLES_OF_CONTACT, swings_of=WEAR, progress=progress, keep=keep,
-        inputs={"contact": contact.to_dict(), "conditions": _numbers_of(conditions)},
+        inputs={"contact": contact.to_dict(), "conditions": plain_inputs(conditions)},
     )  # fmt: skip
 
 
-def _numbers_of(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Arguments as what tells one set of them from another."""
-    return {k: v.to_dict() if hasattr(v, "to_dict") else repr(v) for k, v in given.items()}
+def _sets(
+    vary: Mapping[str, Uncertain], samples: int, seed: int, probabilities: Sequence[float]
+) -> list[dict[str, float]]:
+    """All sets of inputs: those drawn, and each input alone at its ends."""
+    names, ends = list(vary), (min(probabilities), max(probabilities))
+    points = sobol(samples, len(names), seed, 0, samples)
+    sets = [
+        {name: float(vary[name].quantile(float(u))) for name, u in zip(names, point, strict=True)}
+        for point in points
+    ]
+    return sets + [{name: float(vary[name].quantile(p))} for name in names for p in ends]
 
 
 def _bands(
@@ -480,14 +596,7 @@ def _bands(
     inputs: Mapping[str, Any],
 ) -> LifeBands:
     """Ends of all sets of inputs, and of each input alone at its ends."""
-    names = list(vary)
-    low, high = min(probabilities), max(probabilities)
-    points = sobol(samples, len(names), seed, 0, samples)
-    sets = [
-        {name: float(vary[name].quantile(float(u))) for name, u in zip(names, point, strict=True)}
-        for point in points
-    ]
-    sets += [{name: float(vary[name].quantile(p))} for name in names for p in (low, high)]
+    names, sets = list(vary), _sets(vary, samples, seed, probabilities)
     asked = dict(inputs) | {
         "vary": {name: repr(each) for name, each in vary.items()},
         "until": [each.to_dict() for each in waits],

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ..quantities.record import Record
 from ..systems.life.circuit import OilCircuit, OilTerms
 from ..systems.life.history import LifeHistory
 from ..systems.life.oil_history import run_oil_history
+from ..systems.life.run import life
 from ..systems.life.size_classes import FALL
 from ..systems.oil_filter import Filter
 from ..systems.oil_particles import FilmDents
@@ -110,7 +111,11 @@ class LifeDents(Record):
 
 
 def dents_of_life(
-    asked: AskedLife, history: LifeHistory, *, filter: Filter | None = None
+    asked: AskedLife,
+    history: LifeHistory,
+    *,
+    filter: Filter | None = None,
+    contact: Mapping[str, Any] | None = None,
 ) -> LifeDents | None:
     """Dents in the tracks of a study with [life] and [film], now and with other filters.
 
@@ -121,6 +126,8 @@ def dents_of_life(
         Of its oil.
     filter : Filter, optional
         One more that is tried in the place of the first filter.
+    contact : mapping, optional
+        Arguments of `thirdbody.life` for the contacts of the study, whose debris dents too.
 
     Returns
     -------
@@ -131,7 +138,7 @@ def dents_of_life(
     -----
     Particles from 4 µm(c) on, which the code counts, are taken as they end where they end in the
     time of the history and no full filter lets the oil past, else as they are after it; smaller
-    ones as they are after it. The debris of contacts is left out.
+    ones as they are after it.
     """
     rolling = asked.rolling
     if rolling is None:
@@ -151,7 +158,8 @@ def dents_of_life(
     circuit = asked.circuit
     oils = [_dents("as it begins", 0.0, history.terms, tracks, (history.terms.start,) * 2)]
     for name, each in _circuits(circuit, asked, filter):
-        oils.append(_after(name, each, tracks, float(asked.duration)))
+        own = history if each is circuit else None
+        oils.append(_after(name, each, tracks, asked, own, contact))
     said = []
     if assumed:
         what = "the entry ratio of particles is not given and taken as 1: dents are upper bounds"
@@ -196,14 +204,32 @@ def _circuits(
     ]
 
 
-def _after(name: str, circuit: OilCircuit, tracks: Sequence[Track], duration: float) -> OilDents:
+def _after(
+    name: str,
+    circuit: OilCircuit,
+    tracks: Sequence[Track],
+    asked: AskedLife,
+    own: LifeHistory | None,
+    contact: Mapping[str, Any] | None,
+) -> OilDents:
     """Dents by the oil of a circuit as it ends, or after the duration."""
-    history = run_oil_history(circuit, duration=duration, times=[0.0, duration])
+    duration = float(asked.duration)
+    times: dict[str, Any] = {"duration": duration, "times": [0.0, duration]}
+    history: LifeHistory
+    if contact is None:
+        history = run_oil_history(circuit, **times)
+    elif own is not None and own.times[-1] >= duration * (1 - 1e-12):
+        history = own
+    else:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RangeWarning)
+            history = life(**contact, oil=circuit, **times)
     last = history.numbers[-1]
     soon = max(history.code_times)  # NaN for a count that grows for ever
     ends = all(math.isfinite(each) for each in history.code_times) and soon <= duration
     ends = ends and not history.bypassed  # the code times are those of filters in work
-    counted = np.nan_to_num(history.terms.steady) if ends else last
+    steady = history.steady()
+    counted = np.nan_to_num(steady[0].numbers) if ends and steady else last
     return _dents(name, math.inf if ends else duration, history.terms, tracks, (counted, last))
 
 

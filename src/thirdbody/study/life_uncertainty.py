@@ -45,11 +45,31 @@ class KnownOfLife:
         Sets that are drawn, of [uncertainty] where that says it.
     seed : int
         Of the drawing.
+    places : dict of str to str
+        Where each stands in the file.
     """
 
     vary: Mapping[str, Uncertain] = field(default_factory=dict)
     samples: int | None = None
     seed: int = 0
+    places: Mapping[str, str] = field(default_factory=dict)
+
+    def placed(self, error: InvalidValue) -> InvalidValue:
+        """The same mistakes where their numbers stand in the file.
+
+        Parameters
+        ----------
+        error : InvalidValue
+            Its places are names of ``vary``.
+        """
+        return InvalidValue(
+            *(
+                each.changed(path=self.places.get(each.place, each.path), owner="")
+                if each.place in self.places
+                else each
+                for each in error.problems
+            )
+        )
 
 
 def place_of_beta(circuit: OilCircuit, name: str) -> tuple[int, int] | None:
@@ -130,6 +150,8 @@ def known_of_life(
             raise InvalidValue(Problem(where, names))
         return name, read_uncertain(reader, where, quantity_of, entry)
 
+    places: dict[str, str] = {}
+
     def all_of(pairs: Mapping[str, tuple[str, Any]]) -> dict[str, Uncertain]:
         found = reader.read_each(pairs, one)
         first: dict[str, str] = {}
@@ -139,6 +161,7 @@ def known_of_life(
                 twice.append(Problem(where, f"is the same number as {before}; keep one of them"))
         if twice:
             raise InvalidValue(*twice)
+        places.update(first)
         return dict(found)
 
     def pairs_of(path: str, entries: Mapping[str, Any]) -> dict[str, tuple[str, Any]]:
@@ -150,7 +173,7 @@ def known_of_life(
     pairs = pairs_of("life.uncertainty", given)
     table = reader.whole.get("uncertainty")
     if not names_life({"uncertainty": table}):
-        return KnownOfLife(vary=all_of(pairs))
+        return KnownOfLife(vary=all_of(pairs), places=places)
     entries = ranges_of(get(table, "inputs"))
     mine = {k: v for k, v in entries.items() if k.startswith(LIFE) or k in parts}
     dry = {k: v for k, v in entries.items() if k not in mine and about(k)[1] is not None}
@@ -161,6 +184,7 @@ def known_of_life(
         vary=all_of(pairs),
         samples=get(table, "samples"),
         seed=get(table, "seed") or 0,
+        places=places,
     )
 
 

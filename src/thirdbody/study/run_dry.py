@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from ..contact.citations import cite
-from ..errors import RangeWarning
+from ..errors import InvalidValue, RangeWarning
 from ..quantities.plain_data import plain_data
 from ..systems.life.contact_history import DryHistory
 from ..systems.life.run import life
 from .asked_result import QuestionResult
-from .life_bands import LifeBands, propagate_dry
+from .life_bands import LifeBands, check_dry, propagate_dry
 from .life_dry import AskedDry
 
 __all__ = ["DryResult", "bands_of_dry", "life_of_asked", "run_dry"]
@@ -108,7 +108,15 @@ def life_of_asked(asked: Any, **arguments: Any) -> Any:
     """The history that a study asks for; its warnings stand in it, and are not told twice."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        return life(duration=asked.duration, until=asked.until, **arguments)
+        try:
+            return life(duration=asked.duration, until=asked.until, **arguments)
+        except InvalidValue as error:
+            raise InvalidValue(
+                *(
+                    each.under("life") if each.place == "duration" else each
+                    for each in error.problems
+                )
+            ) from None
 
 
 def bands_of_dry(
@@ -124,17 +132,20 @@ def bands_of_dry(
     """
     if not asked.uncertainty:
         return None
-    return propagate_dry(
-        asked.contact,
-        vary=asked.uncertainty,
-        duration=asked.duration,
-        until=asked.until,
-        samples=asked.drawn.samples,
-        seed=asked.drawn.seed,
-        conditions=_arguments(asked),
-        progress=progress,
-        keep=keep,
-    )
+    try:
+        return propagate_dry(
+            asked.contact,
+            vary=asked.uncertainty,
+            duration=asked.duration,
+            until=asked.until,
+            samples=asked.drawn.samples,
+            seed=asked.drawn.seed,
+            conditions=_arguments(asked),
+            progress=progress,
+            keep=keep,
+        )
+    except InvalidValue as error:
+        raise asked.drawn.placed(error) from None
 
 
 def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None) -> DryResult:
@@ -144,10 +155,18 @@ def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None
     ----------
     asked : AskedDry
         As `thirdbody.study.run_life.load_life` reads it.
-    progress, keep
-        As in `thirdbody.study.life_bands.propagate_life`.
+    progress : bool, optional
+        As in `thirdbody.study.life_bands.propagate_dry`.
+    keep : Path, optional
+        As in `thirdbody.study.run_life.run_life`.
     """
-    history = life_of_asked(asked, contact=asked.contact, **_arguments(asked))
+    if asked.uncertainty:
+        try:
+            check_dry(asked.contact, vary=asked.uncertainty, conditions=_arguments(asked))
+        except InvalidValue as error:
+            raise asked.drawn.placed(error) from None
+    one: dict[str, Any] = {} if keep is None or asked.uncertainty else {"keep": keep}
+    history = life_of_asked(asked, contact=asked.contact, **_arguments(asked), **one)
     assert isinstance(history, DryHistory)
     bands = bands_of_dry(asked, progress=progress, keep=keep)
     return DryResult(asked=asked, history=history, bands=bands)

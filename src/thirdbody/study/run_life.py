@@ -10,13 +10,14 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
+from ..errors import InvalidValue
 from ..quantities.plain_data import plain_data
 from ..systems.life.history import LifeHistory
 from ..systems.life.reports import OilReports, oil_reports, read_reports
 from ..systems.oil_filter import Filter
 from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife, life_of, oil_of
-from .life_bands import LifeBands, propagate_life
+from .life_bands import LifeBands, check_oil, propagate_life
 from .life_dents import LifeDents, dents_of_life
 from .life_dirt import CLEAN
 from .run_dry import DryResult, bands_of_dry, life_of_asked, run_dry
@@ -231,9 +232,19 @@ class LifeResult(QuestionResult):
         )
 
 
-def history_of(asked: AskedLife) -> LifeHistory:
-    """The history of the oil, with the contacts that it goes through where there are some."""
-    found: LifeHistory = life_of_asked(asked, oil=asked.circuit, **(_arguments(asked) or {}))
+def history_of(asked: AskedLife, *, keep: Path | None = None) -> LifeHistory:
+    """The history of the oil, with the contacts that it goes through where there are some.
+
+    Parameters
+    ----------
+    asked : AskedLife
+    keep : Path, optional
+        As of `thirdbody.life`.
+    """
+    more: dict[str, Any] = {} if keep is None else {"keep": keep}
+    found: LifeHistory = life_of_asked(
+        asked, oil=asked.circuit, **(_arguments(asked) or {}), **more
+    )
     return found
 
 
@@ -263,17 +274,46 @@ def bands_of(
         return bands_of_dry(asked, progress=progress, keep=keep)
     if not asked.uncertainty:
         return None
-    return propagate_life(
-        asked.circuit,
-        vary=asked.uncertainty,
-        duration=asked.duration,
-        until=asked.until,
-        samples=asked.drawn.samples,
-        seed=asked.drawn.seed,
-        contact=_arguments(asked),
-        progress=progress,
-        keep=keep,
-    )
+    try:
+        return propagate_life(
+            asked.circuit,
+            vary=asked.uncertainty,
+            duration=asked.duration,
+            until=asked.until,
+            samples=asked.drawn.samples,
+            seed=asked.drawn.seed,
+            contact=_arguments(asked),
+            progress=progress,
+            keep=keep,
+        )
+    except InvalidValue as error:
+        raise asked.drawn.placed(error) from None
+
+
+def need_bands(asked: AskedLife) -> None:
+    """Refuse what is said to be uncertain and cannot be so, before anything is computed.
+
+    Parameters
+    ----------
+    asked : AskedLife
+
+    Raises
+    ------
+    InvalidValue
+    """
+    if not asked.uncertainty:
+        return
+    try:
+        check_oil(
+            asked.circuit,
+            vary=asked.uncertainty,
+            duration=asked.duration,
+            contact=_arguments(asked),
+            samples=asked.drawn.samples,
+            seed=asked.drawn.seed,
+        )
+    except InvalidValue as error:
+        raise asked.drawn.placed(error) from None
 
 
 @overload
@@ -297,8 +337,11 @@ def run_life(
     ----------
     asked : AskedLife or AskedDry
         As `load_life` reads it.
-    progress, keep
+    progress : bool, optional
         As in `bands_of`.
+    keep : Path, optional
+        A file that keeps what was computed: the ends of all histories where bands are asked for,
+        else the rates of the one with a contact. The same call goes on with it.
     filter : Filter, optional
         Of which the dents are asked too, in the place of the first filter.
 
@@ -312,10 +355,11 @@ def run_life(
     """
     if isinstance(asked, AskedDry):
         return run_dry(asked, progress=progress, keep=keep)
-    history = history_of(asked)
+    need_bands(asked)
+    history = history_of(asked, keep=None if asked.uncertainty else keep)
     return LifeResult(
         asked=asked,
         history=history,
         bands=bands_of(asked, progress=progress, keep=keep),
-        dents=dents_of_life(asked, history, filter=filter),
+        dents=dents_of_life(asked, history, filter=filter, contact=_arguments(asked)),
     )

@@ -135,6 +135,20 @@ def height_of(gap: ArrayLike, *, sigma: float) -> Array:
     return sigma * t
 
 
+def height_of_one(gap: float, sigma: float) -> float:
+    """As `height_of`, of one gap, in numbers of Python."""
+    y = gap / sigma
+    t = y if y > 1 else min(y, 0.0)
+    for _ in range(60):
+        below = 0.5 * math.erfc(-t / math.sqrt(2))
+        value = math.exp(-0.5 * t * t) / math.sqrt(2 * math.pi) + t * below
+        step = math.log(value / y) * value / below
+        t -= step
+        if abs(step) <= 1e-15 * (1 + abs(t)):
+            break
+    return sigma * t
+
+
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class MixedFilm(StateRecord):
     r"""A lubricated contact with particles: floats for one speed and load, arrays (N,) for several.

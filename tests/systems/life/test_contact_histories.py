@@ -9,6 +9,7 @@ from scipy.linalg import expm
 
 import thirdbody as tb
 from thirdbody.systems.life.debris import Debris
+from thirdbody.systems.life.loop import Loop
 from thirdbody.systems.life.surfaces import RunningIn
 from thirdbody.systems.life.until import particle_share, roughness_below, wear_depth
 
@@ -194,7 +195,67 @@ def test_debris_as_soft_as_the_surfaces_breeds_less():
     assert own.R0 < hard.R0
 
 
+# ------------------------------------------------------------------ kept and resumed
+class Enough(Exception):
+    """An interruption."""
+
+
+@pytest.mark.check
+@pytest.mark.parametrize("conditions", [dict(oil=oil(), **FILM), DRY], ids=["film", "dry"])
+def test_an_interrupted_history_goes_on_to_the_same_numbers(tmp_path, monkeypatch, conditions):
+    asked = dict(duration=3.6e4, debris=DEBRIS, running_in=RunningIn(sigma_end=80e-9), **conditions)
+    whole, file = run(contact(STEEL, SOFT), **asked), tmp_path / "kept.jsonl"
+    computed = Loop.derivative
+    left = [20]
+
+    def counting(self, time, y):
+        left[0] -= 1
+        if left[0] == 0:
+            raise Enough
+        return computed(self, time, y)
+
+    monkeypatch.setattr(Loop, "derivative", counting)
+    with pytest.raises(Enough):
+        run(contact(STEEL, SOFT), keep=file, **asked)
+    assert len(file.read_text().splitlines()) >= 20
+    with file.open("a") as out:
+        out.write('{"of": 3, "warm')  # a line that was being written
+    left[0] = -1  # counts on below 0
+    resumed = run(contact(STEEL, SOFT), keep=file, **asked)
+    assert resumed.to_dict() == whole.to_dict()
+    done, before = -left[0], file.read_bytes()
+    again = run(contact(STEEL, SOFT), keep=file, **asked)
+    assert again.to_dict() == whole.to_dict()
+    assert file.read_bytes() == before
+    assert -left[0] < done + 5  # no step is computed a second time
+    with pytest.raises(tb.InvalidValue, match="does not hold the history of this study"):
+        run(contact(), keep=file, **asked)
+
+
+def test_an_oil_alone_needs_no_file():
+    with pytest.raises(tb.InvalidValue, match="keep needs a contact"):
+        run(oil=oil(), duration=10.0, keep="kept.jsonl")
+
+
 # ------------------------------------------------------------------ events and refusals
+def test_a_leak_that_empties_the_oil_of_a_contact_is_refused():
+    leaking = oil(leak=1e-6)
+    with pytest.raises(tb.InvalidValue, match="the leak has emptied the circuit"):
+        run(contact(), oil=leaking, duration=3.6e6, debris=DEBRIS, **FILM)
+
+
+def test_a_filter_past_which_the_oil_goes_takes_nothing_out_in_the_end():
+    full = oil(filters=oil().filters[0].replace(capacity=1e-6, when_full="bypass"),
+               settling_area=0.0)  # fmt: skip
+    found = run(oil=full, duration=3.6e4)
+    assert found.bypassed == ("filter",)
+    scales = found.time_scales
+    assert "oil through the filters once" not in scales
+    assert np.isnan(scales["removal of particles of 14 µm"])
+    assert found.slow_sizes.below == pytest.approx(16e-6)
+    assert found.slow_sizes.time == np.inf
+
+
 def test_a_history_waits_for_wear_and_roughness():
     law = RunningIn(sigma_end=60e-9, length=1e-7)
     found = run(contact(), oil=oil(), duration=7.2e6, debris=DEBRIS, running_in=law, **FILM,

@@ -13,28 +13,28 @@ from thirdbody.systems.life.pieces import break_up, daughters
 from thirdbody.systems.life.size_classes import SizeClasses
 from thirdbody.systems.oil_particles import FilmParticles
 
-THIRDS = SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
+QUARTERS = SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
 
 
-def test_halves_fall_three_classes_down_and_are_eight():
-    B = daughters(THIRDS, ratio=0.5)
-    assert np.allclose(np.diag(B, 3), 8.0, rtol=1e-12)
-    assert np.count_nonzero(B) == THIRDS.count - 3
+def test_halves_fall_four_classes_down_and_are_eight():
+    B = daughters(QUARTERS, ratio=0.5)
+    assert np.allclose(np.diag(B, 4), 8.0, rtol=1e-12)
+    assert np.count_nonzero(B) == QUARTERS.count - 4
 
 
 @pytest.mark.parametrize("ratio", [0.5, 0.37, 0.71])
 def test_breaking_keeps_volume_and_number(ratio):
-    B, v = daughters(THIRDS, ratio=ratio), THIRDS.volumes
+    B, v = daughters(QUARTERS, ratio=ratio), QUARTERS.volumes
     whole = np.flatnonzero(v * ratio**3 > v[0])
     assert np.allclose((v @ B)[whole], v[whole], rtol=1e-12)
     assert np.allclose(B.sum(axis=0)[whole], ratio**-3, rtol=1e-12)
 
 
 def test_what_all_breaks_goes_on_until_nothing_breaks():
-    b = np.array([0.0] * 6 + [1.0] * 18)
-    C = break_up(b, classes=THIRDS, ratio=0.5)
-    assert np.allclose(THIRDS.volumes @ C, THIRDS.volumes, rtol=1e-12)
-    assert C[5, 23] == pytest.approx(8**6, rel=1e-12)
+    b = np.array([0.0] * 8 + [1.0] * 24)
+    C = break_up(b, classes=QUARTERS, ratio=0.5)
+    assert np.allclose(QUARTERS.volumes @ C, QUARTERS.volumes, rtol=1e-12)
+    assert C[7, 31] == pytest.approx(8**6, rel=1e-12)
 
 
 def test_cascade_against_its_printed_numbers():
@@ -49,14 +49,14 @@ def test_cascade_against_its_printed_numbers():
 
 
 def test_layers_of_oil_are_those_of_entrainment():
-    sizes = THIRDS.distribution(np.ones(THIRDS.count))
-    counts = np.ones(THIRDS.count) / THIRDS.count
+    sizes = QUARTERS.distribution(np.ones(QUARTERS.count))
+    counts = np.ones(QUARTERS.count) / QUARTERS.count
     for film, mu in ((2e-7, 0.05), (3.3e-6, 0.02), (2e-5, 0.1)):
         for height in ("size", "film"):
             dirt = Entrainment(concentration=1e-5, entry_ratio=1.0, friction=mu, height=height)
             exact = dirt.areal_density(sizes, h=film, R=9.5e-3) / dirt.per_volume(sizes)
             largest = film + 2 * mu**2 * 9.5e-3
-            layer = oil_layer(THIRDS, film=film, largest=largest, height=height)
+            layer = oil_layer(QUARTERS, film=film, largest=largest, height=height)
             assert counts @ layer == pytest.approx(exact, rel=1e-9)
 
 
@@ -79,14 +79,14 @@ def test_the_entry_ratio_comes_back_from_the_dents_that_it_makes():
 
 def test_shares_of_debris_are_by_volume_and_add_up():
     debris = Debris.boundary_lubricated()
-    phi = debris.shares(THIRDS)
+    phi = debris.shares(QUARTERS)
     assert phi.sum() == pytest.approx(1.0, rel=1e-14)
     # volume of a log-normal: median moved by 3 ln² gsd
     s, middle = math.log(1.6), math.log(0.4e-6) + 3 * math.log(1.6) ** 2
-    low, high = THIRDS.ends
+    low, high = QUARTERS.ends
     z = [(math.log(x) - middle) / s / math.sqrt(2) for x in (low[6], high[6])]
     assert phi[6] == pytest.approx(0.5 * (math.erf(z[1]) - math.erf(z[0])), rel=1e-6)
-    assert any("estimate" in note for note in debris.notes(THIRDS))
+    assert any("estimate" in note for note in debris.notes(QUARTERS))
 
 
 def test_debris_has_the_hardness_of_its_surface_or_its_own():

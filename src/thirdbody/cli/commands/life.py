@@ -104,12 +104,14 @@ def _tell_history(options: Options) -> None:
         figure_format(options.figure)
         files.need(options.figure, force=options.force)
     bands = bool(asked.uncertainty)
-    if options.keep is not None and not bands:
+    contact = isinstance(asked, AskedDry) or asked.contact is not None
+    if options.keep is not None and not (bands or contact):
         raise InvalidValue(
-            "--keep keeps the many histories of [life.uncertainty], and the study has none: one "
-            "history takes seconds"
+            "--keep keeps many histories, or a long one with a contact; the study has neither "
+            "[life.uncertainty] nor [life.contact]: its history takes a moment"
         )
-    with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep):
+    of = "histories" if bands else "steps"
+    with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep, of=of):
         found = run_life(asked, progress=bands, keep=options.keep, filter=fine)
     drawn = None
     if options.figure is not None:

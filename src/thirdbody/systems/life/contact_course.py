@@ -14,6 +14,7 @@ from ...quantities.say import number, value_of
 from .circuit import OilCircuit
 from .film_loop import FilmLoop
 from .history import LifeEvent
+from .kept_rates import KeptRates
 from .loop import Loop
 from .until import CodeReached, ContactUntil, FilterFull, Until
 
@@ -57,6 +58,8 @@ class ContactCourse:
     until : sequence of Until
     circuit : OilCircuit, optional
         Of a loop with oil.
+    kept : KeptRates, optional
+        Rates that were computed before.
     """
 
     def __init__(
@@ -68,7 +71,9 @@ class ContactCourse:
         times: Array,
         until: Sequence[Until] = (),
         circuit: OilCircuit | None = None,
+        kept: KeptRates | None = None,
     ):
+        self.kept = KeptRates() if kept is None else kept
         self.loop, self.y, self.duration, self.times = loop, start, duration, times
         self.circuit, self.until = circuit, list(until)
         self.time, self.stopped = 0.0, False
@@ -262,6 +267,12 @@ class ContactCourse:
             self.stopped = True
         return self.stopped
 
+    def _derivative(self, time: float, y: Array) -> Array:
+        return self.kept.rate(self.loop, time, y, lambda: self.loop.derivative(time, y))
+
+    def _jacobian(self, time: float, y: Array) -> Array:
+        return self.kept.rate(self.loop, time, y, lambda: self.loop.jacobian(time, y))
+
     def _integrate(self, end: float, events: list[Any]) -> Any:
         """Stiff steps to a time, or to the first event."""
 
@@ -274,11 +285,11 @@ class ContactCourse:
             return event
 
         found = solve_ivp(
-            self.loop.derivative,
+            self._derivative,
             (self.time, end),
             self.y,
             method="BDF",
-            jac=self.loop.jacobian,
+            jac=self._jacobian,
             rtol=RTOL,
             atol=self._tolerances(),
             dense_output=True,

@@ -19,6 +19,7 @@ from .contact_course import coverage
 from .dry_loop import DryLoop
 from .film_loop import FilmLoop
 from .history import SETTLES_TO, LifeEvent, LifeHistory
+from .kept_rates import KeptRates
 from .ledger import IN_OIL, Ledger
 from .linear_flow import dirt_gain, generations
 from .loop import SURFACES, Loop
@@ -76,15 +77,22 @@ class SteadyContact(NamedTuple):
     """Until a hundredth of the way is left [s]; infinite where it is not stable."""
 
 
-def contact_columns(loop: Loop, times: Array, states: list[Array]) -> dict[str, Array]:
+def contact_columns(
+    loop: Loop, times: Array, states: list[Array], kept: KeptRates | None = None
+) -> dict[str, Array]:
     """`COLUMNS` of states, (T,) each."""
-    out: dict[str, list[float]] = {name: [] for name in COLUMNS}
+    known, rows = KeptRates() if kept is None else kept, []
     for time, y in zip(times, states, strict=True):
         if isinstance(loop, FilmLoop):
             loop.now = float(time)
-        for name, value in _columns_of(loop, y).items():
-            out[name].append(value)
-    return {name: np.array(values) for name, values in out.items()}
+        rows.append(known.rate(loop, float(time), y, lambda y=y: _row_of(loop, y)))  # type: ignore[misc]
+    return dict(zip(COLUMNS, np.array(rows).T, strict=True))
+
+
+def _row_of(loop: Loop, y: Array) -> Array:
+    """`COLUMNS` of one state."""
+    found = _columns_of(loop, y)
+    return np.array([found[name] for name in COLUMNS])
 
 
 def _columns_of(loop: Loop, y: Array) -> dict[str, float]:

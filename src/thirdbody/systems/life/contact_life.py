@@ -29,9 +29,10 @@ from .dry_loop import ARRIVED, LEFT, DryLoop
 from .film_loop import FRESH, INGRESS, FilmLoop
 from .history import LifeHistory
 from .ingress import Ingress
+from .kept_rates import KeptRates
 from .ledger import Ledger
 from .loop import FINER, Loop, Setting
-from .oil_history import kept_times, run_oil_history, usual_times
+from .oil_history import kept_times, need_oil_left, run_oil_history, usual_times
 from .size_classes import SizeClasses, sizes_of
 from .surfaces import RunningIn
 from .until import ContactUntil, Until
@@ -234,9 +235,11 @@ def run_film_history(
     duration: float,
     until: Sequence[Until],
     times: ArrayLike | None,
+    kept: KeptRates,
 ) -> LifeHistory:
     """The history of an oil and of alike contacts in it; arguments as in `thirdbody.life`."""
     _check(contact, debris, running_in)
+    need_oil_left(oil, duration)
     if contact.populations:
         rule = "are those of the oil: remove them from the contact"
         raise InvalidValue(Problem("contact.particles", rule))
@@ -277,10 +280,10 @@ def run_film_history(
     start = _start(loop, oil.volume * terms.start.T.ravel())
     course = ContactCourse(
         loop, start, duration=duration, times=some,
-        until=() if alone is not None else until, circuit=oil,
+        until=() if alone is not None else until, circuit=oil, kept=kept,
     )  # fmt: skip
     seen = course.run()
-    columns = contact_columns(loop, np.array(seen.times), seen.states)
+    columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
     notes = _notes(loop, columns, debris, worn_area=worn_area, entry_ratio=entry_ratio)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
     moments = np.array(seen.times)
@@ -334,6 +337,7 @@ def run_dry_history(
     duration: float,
     until: Sequence[Until],
     times: ArrayLike | None,
+    kept: KeptRates,
 ) -> DryHistory:
     """The history of a dry or greased contact; arguments as in `thirdbody.life`."""
     _check(contact, debris, running_in)
@@ -387,10 +391,10 @@ def run_dry_history(
         times = usual_times(duration, shortest=0.1 * length / sliding_speed)
     course = ContactCourse(
         loop, _start(loop, present.ravel()), duration=duration,
-        times=kept_times(times, duration=duration), until=until,
+        times=kept_times(times, duration=duration), until=until, kept=kept,
     )  # fmt: skip
     seen = course.run()
-    columns = contact_columns(loop, np.array(seen.times), seen.states)
+    columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
     numbers = np.array([loop.shaped(y[loop.layout["contact"]]).T for y in seen.states]) / area
     absent = ("film_share", *(f"{name}_{side}" for name in ("dents", "thrown") for side in (1, 2)))

@@ -12,6 +12,7 @@ over d/σ, particles over the mean gap under them; both over ln σ where σ move
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -171,8 +172,7 @@ class PanelTable:
 
     def _panel(self, place: float) -> tuple[float, float, Array]:
         while True:
-            i = min(max(int(np.searchsorted(self.edges, place, side="right")) - 1, 0),
-                    len(self.edges) - 2)  # fmt: skip
+            i = min(max(bisect_right(self.edges, place) - 1, 0), len(self.edges) - 2)
             low, high = self.edges[i], self.edges[i + 1]
             if (found := self.panels.get((low, high))) is not None:
                 return low, high, found
@@ -227,7 +227,7 @@ class ContactTables:
     contact : Contact
         With `Friction` and `Wear`; its own particles do not matter.
     classes : SizeClasses
-        Of one ratio of edges.
+        Those of one ratio of edges share a curve.
     kinds : sequence of Kind
         Kinds of particles, in the order of every array here.
     sigma : (float, float), optional
@@ -236,8 +236,7 @@ class ContactTables:
     Raises
     ------
     InvalidValue
-        No Friction or Wear, a law of asperities or particles that does not know single ones, or
-        classes of different ratios.
+        No Friction or Wear, or a law of asperities or particles that does not know single ones.
     """
 
     def __init__(
@@ -261,11 +260,17 @@ class ContactTables:
         self.rough_seat = law.seat == "rough"
         width = law.zeta_std * self.span[1] if self.rough_seat else 0.0
         lowest = -(REACH * width + 4 * self.span[1]) / self.tops[0]
-        ratio = float(f"{edges[0] / edges[1]:.12g}")
+        ratios = [float(f"{each:.12g}") for each in edges[:-1] / edges[1:]]
         self.curves = [
-            particle_curve(self.contact, kind.material, ratio, lowest) for kind in self.kinds
+            tuple(particle_curve(self.contact, kind.material, ratio, lowest) for ratio in ratios)
+            for kind in self.kinds
         ]
-        self.survival = [self._survival(kind, curve) for kind, curve in self._with_curves()]
+        """Of every kind and class."""
+        self.survival = [
+            self._survival(kind, curves)
+            for kind, curves in zip(self.kinds, self.curves, strict=True)
+        ]
+        """Of every kind and class, with its place in the curve; None of what does not break."""
         self._sums: dict[float, Any] = {}
         self._roughs: dict[float, Roughness] = {}
         self._distinct: dict[tuple[int, int], int] = {}
@@ -282,27 +287,33 @@ class ContactTables:
         most = self._of_asperities(np.zeros(1), np.array(self.span[1:]))[0, 0]
         self.spots = PanelTable(self._of_asperities, np.linspace(-5.0, 20.0, 26), self.span, most)
         self._first = [NAMES.index(name) for name in FIRST]
-
-    def _with_curves(self) -> list[tuple[Kind, ParticleCurve]]:
-        return list(zip(self.kinds, self.curves, strict=True))
+        self._parts: dict[int, tuple[Array, Array]] = {}
+        """Of panels of the particles their coefficients, and of these load and shadow alone."""
 
     def _largest(self, i: int) -> Array:
         """The largest value of every column of a kind: (K, Q + 1)."""
-        curve = self.curves[i]
-        most = np.max(np.abs(curve.series.coefficients).sum(axis=1), axis=0)
-        return np.column_stack([most * self.tops[:, None] ** curve.powers, np.ones(len(self.tops))])
+        most = np.array([curve.largest for curve in self.curves[i]])
+        powers = self.curves[i][0].powers
+        return np.column_stack([most * self.tops[:, None] ** powers, np.ones(len(self.tops))])
 
-    def _survival(self, kind: Kind, curve: ParticleCurve) -> SurvivalCurve | None:
+    def _survival(
+        self, kind: Kind, curves: tuple[ParticleCurve, ...]
+    ) -> tuple[tuple[SurvivalCurve, int], ...] | None:
         if kind.strength is None:
             return None
-        return SurvivalCurve(curve, kind.strength, self.tops)
+        alike = {curve: [k for k, c in enumerate(curves) if c is curve] for curve in curves}
+        made = {
+            curve: SurvivalCurve(curve, kind.strength, self.tops[mine])
+            for curve, mine in alike.items()
+        }
+        return tuple((made[curve], alike[curve].index(k)) for k, curve in enumerate(curves))
 
     def _place(self, i: int) -> int:
         """The first of the kinds with the same curve and strength."""
         alike = [
             j
             for j in range(i + 1)
-            if self.curves[j] is self.curves[i] and self.kinds[j].strength == self.kinds[i].strength
+            if self.curves[j] == self.curves[i] and self.kinds[j].strength == self.kinds[i].strength
         ]
         key = (alike[0], 0)
         return self._distinct.setdefault(key, len(self._distinct))
@@ -341,7 +352,7 @@ class ContactTables:
 
     def _of_kind(self, i: int, gap: Array, sigmas: Array) -> Array:
         """Quantities and the broken part of one kind at mean gaps (N,): (N, S, K, Q + 1)."""
-        curve = self.curves[i]
+        curve = self.curves[i][0]
         out = np.zeros((len(gap), len(sigmas), len(self.tops), len(NAMES) + 1))
         for k, top in enumerate(self.tops):
             out[:, :, k] = self._of_class(i, k, gap / top, sigmas / top)
@@ -353,10 +364,12 @@ class ContactTables:
 
     def _of_class(self, i: int, k: int, gap: Array, sigmas: Array) -> Array:
         """Quantities of a class with upper edge 1, averaged over its seats: (N, S, Q + 1)."""
-        curve, survival = self.curves[i], self.survival[i]
+        curve = self.curves[i][k]
+        breaking = self.survival[i]
+        survival, place = (None, 0) if breaking is None else breaking[k]
 
         def values(local: Array) -> Array:
-            broken = np.zeros(len(local)) if survival is None else survival.of_class(k, local)
+            broken = np.zeros(len(local)) if survival is None else survival.of_class(place, local)
             return np.column_stack([curve(local), broken])
 
         if not self.rough_seat:
@@ -418,9 +431,9 @@ class ContactTables:
         gap, columns = d + self.offset(sigma), len(NAMES) + 1
         if self.rough_seat:
             coefficients, values, slopes = self.particles.basis(gap, sigma)
-            shape = (len(coefficients), len(self._distinct), len(self.tops), columns)
-            part = coefficients.reshape(shape)[..., self._first].reshape(len(coefficients), -1)
-            both = (np.stack([values, slopes]) @ part).reshape(2, *shape[1:3], 2)
+            part = self._load_and_shadow(coefficients)
+            shape = (2, len(self._distinct), len(self.tops), 2)
+            both = (np.stack([values, slopes]) @ part).reshape(shape)
         else:
             step = 1e-7 * sigma
             places = gap + step * np.array([-1.0, 0.0, 1.0])
@@ -429,6 +442,26 @@ class ContactTables:
             three = three[..., self._first]
             both = np.stack([three[1], (three[2] - three[0]) / (2 * step)])
         return both[0][self.place], both[1][self.place]
+
+    def _load_and_shadow(self, coefficients: Array) -> Array:
+        """The coefficients of a panel of load and shadow alone: (n·s, distinct·classes·2)."""
+        of, part = self._parts.get(id(coefficients), (None, coefficients))
+        if of is not coefficients:
+            shape = (len(coefficients), len(self._distinct), len(self.tops), len(NAMES) + 1)
+            some = coefficients.reshape(shape)[..., self._first]
+            part = np.ascontiguousarray(some.reshape(len(coefficients), -1))
+            self._parts[id(coefficients)] = coefficients, part
+        return part
+
+    def load_alone(self, d: float, *, eta: Array, sigma: float) -> float:
+        """The pressure of `load` without its slope."""
+        if not self.rough_seat:
+            return self.load(d, eta=eta, sigma=sigma)[0]
+        coefficients, values, _ = self.particles.basis(d + self.offset(sigma), sigma)
+        part = self._load_and_shadow(coefficients)
+        each = (values @ part).reshape(len(self._distinct), len(self.tops), 2)
+        own, shadow = np.tensordot(eta, each[self.place], 2)
+        return float(self._force(d, sigma)[0] * max(1 - shadow, 0.0) + own)
 
     def load(self, d: float, *, eta: Array, sigma: float) -> tuple[float, float]:
         """Pressure that particles η (kinds, classes) [1/m²] and asperities bear, and its slope."""

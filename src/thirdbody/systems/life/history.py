@@ -145,6 +145,15 @@ class LifeHistory(Record):
             if each.when_full == "bypass" and any(s.startswith(f"{name} is full") for s in full)
         )
 
+    @property
+    def _terms_now(self) -> OilTerms:
+        """What comes in and goes out in the end, past the filters that are full."""
+        if not self.bypassed:
+            return self.terms
+        return self.circuit.terms(
+            full=self.bypassed, classes=self.terms.classes, materials=self.terms.materials
+        )
+
     # -------------------------------------------------------------------------- what it tends to
     def steady(self) -> tuple[SteadyOil, ...]:
         """The states in which the oil no longer changes; one, stable, without a contact."""
@@ -189,7 +198,7 @@ class LifeHistory(Record):
         """The sizes that go on when the counts of the code have long ended; None for none."""
         known = [each for each in self.code_times if math.isfinite(each)]
         return slow_sizes(
-            self.terms, volume=self.circuit.volume, than=max([self._first_time, *known])
+            self._terms_now, volume=self.circuit.volume, than=max([self._first_time, *known])
         )
 
     @property
@@ -226,10 +235,14 @@ class LifeHistory(Record):
 
     @property
     def time_scales(self) -> dict[str, float]:
-        """How long things take [s], by name; NaN for what never ends."""
-        volume, terms = self.circuit.volume, self.terms
+        """How long things take in the end [s], by name; NaN for what never ends."""
+        volume, terms = self.circuit.volume, self._terms_now
         out: dict[str, float] = {}
-        flow = sum(each.flow or 0.0 for each in self.circuit.filters)
+        named = zip(self.circuit.filter_names(), self.circuit.filters, strict=True)
+        flow = sum(
+            (each.flow or 0.0) * (each.still_filtered if name in self.bypassed else 1.0)
+            for name, each in named
+        )
         if flow > 0:
             out["oil through the filters once"] = volume / flow
         for size, part in zip(counted_sizes(), terms.classes.above(counted_sizes()), strict=True):

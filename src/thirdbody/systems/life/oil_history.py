@@ -96,6 +96,22 @@ def need_duration(duration: float) -> None:
         raise InvalidValue(Problem("duration", rule, value_of(duration, "s")))
 
 
+def need_oil_left(circuit: OilCircuit, duration: float) -> None:
+    """Refuse a duration in which a leak empties a circuit.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    lost = circuit.leak - circuit.make_up
+    if lost > 0 and circuit.volume / lost <= duration:
+        rule = (
+            f"must be below {value_of(circuit.volume / lost, 's', 3)}: then the leak has emptied "
+            "the circuit"
+        )
+        raise InvalidValue(Problem("duration", rule, value_of(duration, "s")))
+
+
 @dataclass
 class _Stretch:
     """The oil from one event to the next, with constant sources and flows."""
@@ -367,10 +383,7 @@ def run_oil_history(
     ('18/16/13', '5/3/0', True)
     """
     need_duration(duration)
-    dry = circuit.volume / (circuit.leak - circuit.make_up) if circuit.leak > circuit.make_up else 0
-    if 0 < dry <= duration:
-        rule = f"must be below {value_of(dry, 's', 3)}: then the leak has emptied the circuit"
-        raise InvalidValue(Problem("duration", rule, value_of(duration, "s")))
+    need_oil_left(circuit, duration)
     shortest = 1e-2 * circuit.volume / max(float(np.max(circuit.terms().loss)), 1e-300)
     if times is None:
         some = usual_times(duration, shortest=shortest)

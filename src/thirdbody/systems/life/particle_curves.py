@@ -219,6 +219,12 @@ class ParticleCurve:
             f"sunk_{side + 1}": spots.total(stays.astype(float)),
         }
 
+    @cached_property
+    def largest(self) -> Array:
+        """No less than the largest value of every quantity: (Q,)."""
+        bound: Array = np.max(np.abs(self.series.coefficients).sum(axis=1), axis=0)
+        return bound
+
     def __call__(self, gap: Array) -> Array:
         """Every quantity at gaps over the upper edge (N,): (N, Q)."""
         gap = np.asarray(gap, float)

@@ -55,7 +55,7 @@ def daughters(classes: SizeClasses, *, ratio: float) -> Array:
     Examples
     --------
     >>> classes = SizeClasses.covering(smallest=1e-6, largest=8e-6)
-    >>> daughters(classes, ratio=0.5)[:, 3].tolist()[:4]
+    >>> daughters(classes, ratio=0.5)[:, 4].tolist()[:4]
     [8.0, 0.0, 0.0, 0.0]
     """
     if not 0 < ratio < 1:
@@ -97,9 +97,9 @@ def break_up(broken: ArrayLike, *, classes: SizeClasses, ratio: float) -> Array:
     Examples
     --------
     >>> classes = SizeClasses.covering(smallest=1e-6, largest=8e-6)
-    >>> b = [0.0] * 6 + [0.5] * 3
-    >>> break_up(b, classes=classes, ratio=0.5)[:, 8].round(3).tolist()
-    [0.0, 0.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.5]
+    >>> b = [0.0] * 8 + [0.5] * 4
+    >>> break_up(b, classes=classes, ratio=0.5)[:, 11].round(3).tolist()
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.5]
     """
     b = np.asarray(broken, float)
     B = daughters(classes, ratio=ratio)

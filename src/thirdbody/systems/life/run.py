@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from ...contact.contact import Contact
@@ -15,6 +16,7 @@ from .contact_life import run_dry_history, run_film_history
 from .debris import Debris
 from .history import LifeHistory
 from .ingress import Ingress
+from .kept_rates import KeptRates, plain_inputs
 from .oil_history import need_duration, run_oil_history
 from .surfaces import RunningIn
 from .until import ContactUntil, Until
@@ -68,6 +70,7 @@ def life(
     running_in: RunningIn | None = ...,
     stays: float = ...,
     worn_area: tuple[float, float] | None = ...,
+    keep: Path | str | None = ...,
     **conditions: Any,
 ) -> LifeHistory: ...
 
@@ -83,6 +86,7 @@ def life(
     running_in: RunningIn | None = ...,
     stays: float = ...,
     worn_area: tuple[float, float] | None = ...,
+    keep: Path | str | None = ...,
     **conditions: Any,
 ) -> DryHistory: ...
 
@@ -99,6 +103,7 @@ def life(
     running_in: RunningIn | None = None,
     stays: float = 0.0,
     worn_area: tuple[float, float] | None = None,
+    keep: Path | str | None = None,
     **conditions: Any,
 ) -> LifeHistory | DryHistory:
     r"""The history of an oil circuit, of contacts in it, or of a dry contact.
@@ -121,6 +126,9 @@ def life(
         Part of the particles sunk deeper than half their radius that stays embedded [1].
     worn_area : (float, float), optional
         Area of each surface that is worn in turn [m²]; that of the contact without it.
+    keep : path-like, optional
+        A file that keeps the rates of a history with a contact; the same call goes on with it, to
+        the same numbers.
     **conditions
         Of contacts in a film ``conjunction`` (films.Point, films.Line), ``lubricant``
         (films.Oil), ``load`` of one [N], ``speed`` of entrainment [m/s], ``entry_ratio`` ε [1], and
@@ -181,7 +189,8 @@ def life(
     found: LifeHistory | DryHistory
     if contact is None:
         assert oil is not None
-        if lost := [*conditions, *(name for name, value in of_contact.items() if value)]:
+        given = of_contact | {"keep": keep}
+        if lost := [*conditions, *(name for name, value in given.items() if value)]:
             raise InvalidValue(Problem(lost[0], "needs a contact"))
         if idle := [each for each in waits if isinstance(each, ContactUntil)]:
             raise InvalidValue(Problem("until", "needs a contact", idle[0].name))
@@ -189,16 +198,20 @@ def life(
     else:
         _check_parts(of_contact)
         need_duration(duration)
+        asked = {"contact": contact, "oil": oil} | conditions | of_contact | shared
+        file = None if keep is None else Path(keep)
         if oil is not None:
             whole = _whole(conditions, OF_FILM, FILM)
+            shared["kept"] = KeptRates(file, plain_inputs(asked))
             found = run_film_history(contact, oil=oil, **whole, **of_contact, **shared)
         else:
             of_oil = [each for each in waits if not isinstance(each, ContactUntil)]
             if of_oil:
                 raise InvalidValue(Problem("until", "needs an oil", of_oil[0].name))
             whole = _whole(conditions, OF_DRY, DRY)
-            given = whole["arrivals"]
-            whole["arrivals"] = (given,) if isinstance(given, Ingress) else tuple(given)
+            arriving = whole["arrivals"]
+            whole["arrivals"] = (arriving,) if isinstance(arriving, Ingress) else tuple(arriving)
+            shared["kept"] = KeptRates(file, plain_inputs(asked))
             found = run_dry_history(contact, **whole, **of_contact, **shared)
     for note in found.warnings:
         tell_of_range(note)

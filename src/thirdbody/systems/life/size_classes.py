@@ -1,9 +1,12 @@
 r"""Classes of size, in which the particles of an oil are counted over time.
 
-.. math:: e_{k+1}/e_k = 2^{1/3}, \qquad \varphi(x) \propto x^{-4}\ \text{inside a class}
+.. math:: e/e_0 = 2^n\,(1,\ \tfrac54,\ \tfrac32,\ \tfrac74), \quad e_0 = 0.25\ \text{µm}, \qquad
+          \varphi(x) \propto x^{-4}\ \text{inside a class}
 
-Numbers fall as x⁻⁴ between the sizes of a test dust too, where its volume is spread evenly over
-ln x. A piece of half the size of its parent falls three classes down.
+So 4, 6 and 14 µm, from which ISO 4406 counts, are edges, and 5, 7, 10, 12 and 20 µm of data sheets
+of filters are too: no count is interpolated in a class. Half of an edge is an edge, so that a piece
+of half the size of its parent falls four classes down. Numbers fall as x⁻⁴ between the sizes of a
+test dust too, where its volume is spread evenly over ln x.
 """
 
 from __future__ import annotations
@@ -28,8 +31,8 @@ __all__ = ["SizeClasses"]
 
 ORIGIN = 0.25e-6
 """An edge of every grid of classes [m]; 0.5, 1, 2, 4, 8 ... µm are edges too."""
-PER_OCTAVE = 3
-"""Classes for each factor of two in size."""
+PER_OCTAVE = 4
+"""Classes of one width for each factor of two in size; 6 and 14 µm are edges of multiples of 4."""
 NEGLECTED = 1e-9
 """Part of the particles by number that may lie below the first class."""
 FALL = 3.0
@@ -53,8 +56,8 @@ class SizeClasses(Value):
     Examples
     --------
     >>> classes = SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
-    >>> classes.count, classes.edges[12]
-    (24, 4e-06)
+    >>> classes.count, classes.edges[18]
+    (32, 6e-06)
     """
 
     edges: tuple[float, ...] = several("m", "edges of the classes of size")
@@ -79,12 +82,12 @@ class SizeClasses(Value):
         smallest, largest : float
             The sizes [m].
         per_octave : int, optional
-            Classes for each factor of two [1].
+            Classes of one width for each factor of two [1].
         """
-        low, high = (per_octave * math.log2(x / ORIGIN) for x in (smallest, largest))
+        low, high = (_place_of(x / ORIGIN, per_octave) for x in (smallest, largest))
         first, last = math.floor(low + 1e-9), math.ceil(high - 1e-9)
         places = range(first, max(last, first + 1) + 1)
-        within = [ORIGIN * 2.0 ** (i / per_octave) for i in range(per_octave)]
+        within = [ORIGIN * (1 + i / per_octave) for i in range(per_octave)]
         # times a power of two is exact, so that halves are edges
         return cls(edges=tuple(math.ldexp(within[j % per_octave], j // per_octave) for j in places))
 
@@ -209,6 +212,12 @@ class SizeClasses(Value):
         """
         counts = tuple(float(n) for n in np.asarray(numbers, float))
         return PowerLaw(edges=self.edges, counts=counts, slopes=(FALL,) * self.count)
+
+
+def _place_of(size: float, per_octave: int) -> float:
+    """Where a size over the origin lies among the edges, which are whole numbers."""
+    within, octave = math.frexp(size)
+    return per_octave * (octave - 1 + 2 * within - 1)
 
 
 def sizes_of(diameter: Distribution) -> tuple[float, float]:

@@ -159,7 +159,7 @@ def time_of_event(circuit: OilCircuit, *, until: Until, duration: float) -> floa
     >>> oil = tb.OilCircuit(volume=0.2, start=dirt, ingress=(),
     ...                     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> round(time_of_event(oil, until=tb.until.iso4406("15/13/10"), duration=3600.0))
-    360
+    351
     """
     stops = until.replace(stops=True)
     found = run_oil_history(circuit, duration=duration, until=(stops,), times=[0.0, duration])

@@ -27,6 +27,8 @@ SIZES = {"4 µm": "blue", "6 µm": "vermilion", "14 µm": "green"}
 DASHES = ("-", "--", "-.")
 AWAY = ("--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
 """Dashes of what leaves, so that its lines differ without their colours."""
+BROKEN = (0, (4, 4))
+"""Dashes of a third line that arrives, through which the second one is seen."""
 LEAST = 0.01
 """Particles per mL that the code number 0 ends at."""
 THINNEST = 0.004
@@ -123,7 +125,9 @@ def draw_masses(axes: Axes, history: Histories) -> None:
         seen = np.where(values > 0, values, np.nan)  # a logarithm has no 0
         line = axes.plot(hours, 1e3 * seen, color=colours[i % len(colours)], label=name, lw=1.6)[0]
         if name in arrived:
-            line.set_linewidth(3.2 / 2 ** arrived.index(name))
+            # wide below, narrow and broken above: both are seen where they lie on each other
+            line.set_linewidth(4.8 / 2 ** arrived.index(name))
+            line.set_linestyle("-" if arrived.index(name) < 2 else BROKEN)
         else:
             line.set_linestyle(":" if name == inside else AWAY[(i - len(arrived)) % len(AWAY)])
     axes.set(xlabel="Time [h]", ylabel="Mass since the beginning [g]", xscale="log", yscale="log")
