@@ -10,6 +10,7 @@ from numba import njit
 from ..compiled.cached import Cached
 from ..compiled.machine import apart
 from .breakage import lay_tension, lay_whole
+from .cells import add_cells, empty_slots
 from .curves import (
     MOST_PANELS,
     PANEL,
@@ -57,12 +58,13 @@ from .fragments import (
     FRAGMENT_ROWS,
     MOST_ENDS,
     add_fragments,
+    add_lowest,
     goes_by_fragments,
     lay_fragments,
     most_above,
     pace_of,
 )
-from .gaps import SLOTS, SUMS, add_by_gaps, goes_by_gaps, lay_cells, sum_panels
+from .gaps import SUMS, add_below, goes_by_gaps, lay_cells, sum_panels
 from .laid import (
     BASE,
     BY_FRAGMENTS,
@@ -89,6 +91,7 @@ from .printed import add_printed, printed_bound
 from .seats import (
     GRID_ROWS,
     MOST_NODES,
+    SLOTS,
     add_broken,
     add_rough,
     gather_gaps,
@@ -126,6 +129,8 @@ STEPS, RESOLVED = 2000, 1e-3
 BETWEEN, FALLEN = 0.4, 0.03
 """Steps over seats [widths] at which loads of particles that break are looked at, and how far they
 must have fallen."""
+FAR_GAP = 30.0
+"""Widths of the seat from which on a gap by itself says whether a load is carried."""
 
 
 @scalar
@@ -139,12 +144,20 @@ def _add_part(given, work, laid, p, own, d, rule, out):
     gap = d + given[p, OFFSET]
     if given[p, SHADOW] == COVERED:
         out[SHADE] += given[p, COVERAGE]
+    count, free = own[COUNT], laid[len(laid) - 1, 0]
     if own[WAY] == BY_FRAGMENTS:
-        return add_fragments(given, sides, panels, p, own, laid, grid, gap, rule, way, out)
+        alone = free[QUICK] == 1 and gap > FAR_GAP * given[p, WIDTH]
+        if given[p, SEAT] == PLANE or alone:
+            return add_fragments(given, sides, panels, p, count, 1.0, gap, rule, way, out)
+        good = add_lowest(given, sides, panels, p, count, gap, rule, way, out)
+        return good and add_cells(
+            given, sides, panels, p, own, free, grid, gap, rule, sums, way, out
+        )
     if given[p, SEAT] == PLANE:
-        return add_plane(given, sides, panels, p, own[COUNT], gap, rule, out)
+        return add_plane(given, sides, panels, p, count, gap, rule, out)
     if own[WAY] == BY_GAPS:
-        add_by_gaps(given, sides, panels, p, own, laid, grid, sizes, gap, rule, sums, out)
+        add_cells(given, sides, panels, p, own, free, grid, gap, rule, sums, way, out)
+        add_below(given, sides, panels, p, own, sizes, gap, out)
     elif given[p, BREAKS] == 1:
         add_broken(given, sides, panels, p, own, grid, sizes, gap, shares, out)
     else:
@@ -201,14 +214,15 @@ def lay(given, skin, work, laid, rules, level):
         own = laid[p, level]
         own[COUNT], own[WAY] = laid[p, COARSE, COUNT], laid[p, COARSE, WAY]
         own[GRID], own[SIZED], own[WHOLE], own[PIECE_BEGIN] = place, size, kept, piece
-        if own[WAY] == BY_GAPS:
+        if own[WAY] != PIECES:
             own[SLOT] = (2 * p + level) * SLOTS
+            empty_slots(grid, own[SLOT], own[SLOT] + SLOTS)
+        if own[WAY] == BY_GAPS:
             piece, size = lay_cells(
                 given, panels, p, own[COUNT], grid, own, sizes, size, rules[level]
             )
             good &= piece >= 0 and size >= 0
         elif own[WAY] == BY_FRAGMENTS:
-            own[SLOT] = (2 * p + level) * SLOTS
             if given[p, SEAT] == ROUGH:
                 piece = lay_fragments(given, panels, p, own[COUNT], grid, own, rules[level], way[0])
             good &= piece >= 0
@@ -609,7 +623,8 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
     out = np.empty(10)
     for i in range(len(target)):
         if i > 0:
-            parts[i, :, LEAST] = parts[i - 1, :, LEAST]  # which is found, not given
+            for p in range(most):
+                parts[i, p, LEAST] = parts[i - 1, p, LEAST]  # which is found, not given
         if i == 0 or not (
             _alike(skins[i].ravel(), skins[i - 1].ravel())
             and _alike(parts[i].ravel(), parts[i - 1].ravel())

@@ -79,25 +79,22 @@ from .fields import (
     UNBROKEN,
     WIDTH,
 )
-from .laid import BASE, COUNT, FREE, PIECE_BEGIN, PIECE_END, QUICK, SLOT
+from .laid import PIECE_BEGIN
 from .seats import (
+    CELLS,
+    COLUMNS,
     EPS,
     FIRST,
     FROM,
-    KEY,
     LARGER,
     LOAD,
     MOST_NODES,
     NODE,
-    PLACE,
-    PLACE_END,
+    PARTS,
     REACH,
     SECOND,
-    SIZE,
-    SIZE_END,
+    SLOTS,
     UNTIL,
-    add_nodes,
-    weigh_gaps,
 )
 from .shares import fill_particles
 from .sides import exact, scalar, summed
@@ -109,6 +106,8 @@ __all__ = [
     "FRAGMENT_ROWS",
     "MOST_ENDS",
     "add_fragments",
+    "add_lowest",
+    "fill_fragments",
     "goes_by_fragments",
     "lay_fragments",
     "most_above",
@@ -119,19 +118,16 @@ ENDS, PHASE, PART, NUMBER, WHOLE, TENSIONS, SIZES, FOUND, FRAGMENT_ROWS = range(
 """Rows of what is on the way: ends of panels over u, its nodes and their weights; of one generation
 numbers, the part that is whole, ln of the largest tension, and sizes; the columns of a gap."""
 MOST_ENDS, MOST_GENERATIONS = 1024, 80
-COLUMNS = 6
-"""Of a gap: load, areas on the second surface and the larger one, on the first by regime."""
 BROAD = 200.0
 """Largest size over the width of the seat from which on sums go by gaps."""
 STEEPEST = 5.0
 """By how much the logarithm of the hazard may change over a panel because of the sizes."""
-FAR, NEAR = 30.0, 0.04
-"""Widths of the seat from which on a gap by itself says whether a load is carried; part of a gap
-over which that hardly rises."""
-ROOTED, PARTS, CELL = NODE, SIZE, SIZE_END
-"""Of segments, beside their ends: whether the upper one is where sizes begin to be squeezed, their
-number of cells, and that of all before."""
-SLOTS = 256
+NEAR = 0.04
+"""Part of a gap over which what is carried hardly rises."""
+ROOTED = NODE
+"""Of segments, more: whether the upper end is where sizes begin to be squeezed."""
+SAME = 1e-12
+"""Difference, or part of a gap, up to which two ends are one."""
 SHORT, NEAR_END = 0.6, 1.3
 """Widths of the seat, and ratio of its ends, up to which fewer nodes do for a cell."""
 
@@ -165,18 +161,22 @@ def rule_of(rule, short):
 
 # ------------------------------------------------------------------------------ under one gap
 @scalar
-def _note_end(ends, count, phase):
-    """Note an end in increasing order, equal ones once; how many there are."""
+def _note_end(ends, count, end, near):
+    """Note an end between the first and the last, in increasing order, equal ones once.
+
+    How many there are.
+    """
     apart()
+    if not ends[0] + near < end < ends[count - 1] - near or count == len(ends):
+        return count
     place = count
-    while place > 0 and ends[place - 1] > phase:
+    while ends[place - 1] > end:
         place -= 1
-    near = place > 0 and phase - ends[place - 1] < 1e-13
-    if near or (place < count and ends[place] - phase < 1e-13) or count == len(ends):
+    if end - ends[place - 1] < near or ends[place] - end < near:
         return count
     for j in range(count, place, -1):
         ends[j] = ends[j - 1]
-    ends[place] = phase
+    ends[place] = end
     return count + 1
 
 
@@ -190,12 +190,12 @@ def _lay_ends(given, panels, p, count, gap, start, ends):
     for n in range(count):
         u = -math.log(1 - panels[p, n, TO]) - start
         if u > 0:
-            number = _note_end(ends, number, u - step * math.floor(u / step))
+            number = _note_end(ends, number, u - step * math.floor(u / step), SAME)
     for which in range(3):
         x = given[p, LOW] if which == 0 else given[p, HIGH] if which == 1 else given[p, UNBROKEN]
         if x > 0:
             u = math.log(x / gap) - start
-            number = _note_end(ends, number, u - step * math.floor(u / step))
+            number = _note_end(ends, number, u - step * math.floor(u / step), SAME)
     return number
 
 
@@ -462,11 +462,11 @@ def lay_fragments(given, panels, p, count, grid, own, rule, ends):
     marked, number = mark_sizes(given, p, marks), 2
     ends[0], ends[1] = low, high
     for k in range(marked):
-        number = _note_gap(ends[: len(ends) // 2], number, marks[k])
+        number = _note_end(ends[: len(ends) // 2], number, marks[k], SAME * marks[k])
         for n in range(count):
             if rule[0, ALL_KINKS] == 1 and panels[p, n, KINKED] == 1:
                 gap = marks[k] * (1 - panels[p, n, TO])
-                number = _note_gap(ends[: len(ends) // 2], number, gap)
+                number = _note_end(ends[: len(ends) // 2], number, gap, SAME * gap)
     if number == len(ends) // 2:
         return -1
     for e in range(number - 1):
@@ -479,35 +479,17 @@ def lay_fragments(given, panels, p, count, grid, own, rule, ends):
                 at_mark = 1.0
         parts = max(1, math.ceil((b - a) / step - 1e-9))
         grid[FROM, piece], grid[UNTIL, piece], grid[PARTS, piece] = a, b, parts
-        grid[ROOTED, piece], grid[CELL, piece] = at_mark, cells
+        grid[ROOTED, piece], grid[CELLS, piece] = at_mark, cells
         cells += parts
         piece += 1
-    for slot in range(own[SLOT], own[SLOT] + SLOTS):
-        grid[KEY, slot] = 0.0
     return piece
 
 
 @scalar
-def _note_gap(ends, count, gap):
-    """Note an end over the gap, between the first and the last, in increasing order."""
+def fill_fragments(given, sides, panels, p, count, grid, s, last, a, b, place, rule, way):
+    """Fill the nodes of a cell of segment s between two gaps; where they end, or −1."""
     apart()
-    if not ends[0] * (1 + 1e-12) < gap < ends[count - 1] * (1 - 1e-12) or count == len(ends):
-        return count
-    place = count
-    while ends[place - 1] > gap:
-        place -= 1
-    if gap - ends[place - 1] < 1e-12 * gap or ends[place] - gap < 1e-12 * gap:
-        return count
-    for j in range(count, place, -1):
-        ends[j] = ends[j - 1]
-    ends[place] = gap
-    return count + 1
-
-
-@scalar
-def _fill_cell(given, sides, panels, p, count, grid, a, b, rooted, place, rule, way):
-    """Fill the nodes of a cell between two gaps; where they end, or −1."""
-    apart()
+    rooted = grid[ROOTED, s] if last else 0.0
     short = rooted == 0 and b - a <= SHORT * given[p, WIDTH] and b <= NEAR_END * a
     row, nodes = rule_of(rule, short)
     gauss, weights, found = rule[row], rule[row + 1], way[FOUND, :COLUMNS]
@@ -528,58 +510,26 @@ def _fill_cell(given, sides, panels, p, count, grid, a, b, rooted, place, rule, 
 
 # ------------------------------------------------------------------------------ at a separation
 @scalar
-def add_fragments(given, sides, panels, p, own, laid, grid, gap, rule, way, out):
-    """What part p carries at a gap; False where there is no room.
-
-    ``own`` is what is laid of it, ``laid`` of all.
-    """
+def add_fragments(given, sides, panels, p, count, part, gap, rule, way, out):
+    """What part p carries under a gap over this part of the area; False where there is no room."""
     apart()
-    count, width, found = own[COUNT], given[p, WIDTH], way[FOUND, :COLUMNS]
-    free = laid[len(laid) - 1, 0]
-    if given[p, SEAT] == PLANE or (free[QUICK] == 1 and gap > FAR * width):
-        good = sum_gap(given, sides, panels, p, count, gap, rule, way, found)
-        _add_columns(given, p, 1.0, found, out)
-        return good
-    low, high = gap - REACH * width, gap + REACH * width
-    bottom = lowest_gap(given, panels, p, count)
-    if bottom > low:
-        if not sum_gap(given, sides, panels, p, count, bottom, rule, way, found):
-            return False
-        _add_columns(given, p, above((bottom - gap) / width), found, out)
-    for s in range(own[PIECE_BEGIN], own[PIECE_END]):
-        begin, end, parts = grid[FROM, s], grid[UNTIL, s], grid[PARTS, s]
-        if end < low or begin > high:
-            continue
-        step = (end - begin) / parts
-        first = int(max((low - begin) / step, 0.0))
-        last = int(min(math.ceil((high - begin) / step), parts))
-        for m in range(first, last):
-            slot = own[SLOT] + int(grid[CELL, s] + m) % SLOTS
-            if grid[KEY, slot] != grid[CELL, s] + m + 1:
-                if free[FREE] + 2 * TERMS > MOST_NODES:  # all are forgotten
-                    free[FREE] = free[BASE]
-                    grid[KEY, : 2 * SLOTS * len(given)] = 0.0
-                a, b = begin + m * step, end if m == parts - 1 else begin + (m + 1) * step
-                rooted = grid[ROOTED, s] if m == parts - 1 else 0.0
-                place = _fill_cell(
-                    given, sides, panels, p, count, grid, a, b, rooted, free[FREE], rule, way
-                )
-                if place < 0:
-                    return False
-                grid[KEY, slot], grid[PLACE, slot] = grid[CELL, s] + m + 1, free[FREE]
-                grid[PLACE_END, slot] = free[FREE] = place
-            place, until = int(grid[PLACE, slot]), int(grid[PLACE_END, slot])
-            weigh_gaps(grid, place, until, gap, width)
-            add_nodes(given, p, grid, place, until, out)
-    return True
-
-
-@scalar
-def _add_columns(given, p, part, found, out):
-    """Add the columns of a gap to those of a state."""
+    found = way[FOUND, :COLUMNS]
+    good = sum_gap(given, sides, panels, p, count, gap, rule, way, found)
     factor = given[p, DENSITY] * part
     out[F_SA] += factor * found[0]
     out[A_SA2] += factor * found[SECOND - LOAD]
     out[SHADE] += factor * found[LARGER - LOAD]
     for k in range(3):
         out[A_SA + k] += factor * found[FIRST - LOAD + k]
+    return good
+
+
+@scalar
+def add_lowest(given, sides, panels, p, count, gap, rule, way, out):
+    """What part p carries where the seat leaves less than the lowest gap; False without room."""
+    apart()
+    low, width = lowest_gap(given, panels, p, count), given[p, WIDTH]
+    if low <= gap - REACH * width:
+        return True
+    part = above((low - gap) / width)
+    return add_fragments(given, sides, panels, p, count, part, low, rule, way, out)

@@ -57,13 +57,14 @@ from .fields import (
     UNIFORM,
     WIDTH,
 )
-from .laid import BASE, COUNT, FREE, PIECE_BEGIN, PIECE_END, SIZED, SIZED_END, SLOT
+from .laid import COUNT, PIECE_BEGIN, SIZED, SIZED_END
 from .nodes import CUBIC, FLATTENED, LINEAR, LOGARITHMIC, ROOTED, is_plain, place_nodes, variable_of
 from .seats import (
+    CELLS,
+    COLUMNS,
     EPS,
     FIRST,
     FROM,
-    KEY,
     LARGER,
     LOAD,
     MOST_NODES,
@@ -72,16 +73,12 @@ from .seats import (
     NODE,
     NODE_END,
     ONSET,
-    PLACE,
-    PLACE_END,
+    PARTS,
     REACH,
     SECOND,
-    SIZE,
-    SIZE_END,
+    SLOTS,
     SUM,
     UNTIL,
-    add_nodes,
-    weigh_gaps,
 )
 from .shares import fill_particles
 from .sides import exact, scalar
@@ -89,7 +86,7 @@ from .skins import ROOT_2PI
 from .sums import above, add_last, lay_sizes
 from .vectors import ln
 
-__all__ = ["SUMS", "add_by_gaps", "goes_by_gaps", "lay_cells", "sum_panels"]
+__all__ = ["SUMS", "add_below", "fill_gaps", "goes_by_gaps", "lay_cells", "sum_panels"]
 
 TERMS = 32
 """Of a series of sums: as many as the finest polynomial over a seat has nodes."""
@@ -105,11 +102,8 @@ OF_AREA_1, OF_AREA_2, SUMS = (
 BROAD, STEEP = 3.0, 2.0
 """Difference of the largest and the smallest size over the width of the seat, at least; ratio of
 1 − ε at the ends of a panel up to which every variable does for a power of it."""
-ONE, TWO, PARTS, CELL = NODE, NODE_END, SIZE, SIZE_END
-"""Of segments, beside their ends: the panels of the smallest and of the largest size there, their
-number of cells, and that of all before."""
-SLOTS, COLUMNS = 256, 6
-"""Cells of a part and a level whose nodes are kept at once, and columns of nodes."""
+ONE, TWO = NODE, NODE_END
+"""Of segments, more: the panels of the smallest and of the largest size there."""
 
 
 @scalar
@@ -206,7 +200,8 @@ def sum_panels(given, sides, panels, p, count, rule, sums):
         worst = max(worst, left / (own[BEFORE + SECOND - LOAD] + one))
         two = one
         if given[p, EQUAL] == 1:
-            own[OF_AREA_2:SUMS] = own[OF_AREA_1:OF_AREA_2]
+            for k in range(TERMS + 1):
+                own[OF_AREA_2 + k] = own[OF_AREA_1 + k]
         else:
             two, left = _sum_row(rule, room[AREA_2, :TERMS], mass, ones, own[OF_AREA_2:SUMS])
             worst = max(worst, left / (own[BEFORE + SECOND - LOAD] + two))
@@ -243,14 +238,12 @@ def lay_cells(given, panels, p, count, grid, own, sizes, size, rule):
             near = one == 0 or (one < 0 and two == 0)
             parts = max(1, math.ceil((b - a) / (ONSET * step if near else step) - 1e-9))
             grid[FROM, piece], grid[UNTIL, piece], grid[PARTS, piece] = a, b, parts
-            grid[ONE, piece], grid[TWO, piece], grid[CELL, piece] = one, two, cells
+            grid[ONE, piece], grid[TWO, piece], grid[CELLS, piece] = one, two, cells
             cells += parts
             piece += 1
             a = b
         one -= 1 if end_1 <= b else 0
         two -= 1 if end_2 <= b else 0
-    for slot in range(own[SLOT], own[SLOT] + SLOTS):
-        grid[KEY, slot] = 0.0
     return piece, lay_sizes(given, p, sizes, size, rule, thin)
 
 
@@ -340,7 +333,7 @@ def _add_end(given, sides, panels, p, n, sign, size, own_size, sums, grid, begin
 
 
 @scalar
-def _fill_cell(given, sides, panels, p, count, grid, s, a, b, place, rule, sums):
+def fill_gaps(given, sides, panels, p, count, grid, s, a, b, place, rule, sums):
     """Fill the nodes of a cell of segment s between two gaps; where they end."""
     apart()
     one, two, low, high = int(grid[ONE, s]), int(grid[TWO, s]), given[p, LOW], given[p, HIGH]
@@ -375,38 +368,13 @@ def _fill_cell(given, sides, panels, p, count, grid, s, a, b, place, rule, sums)
     return end
 
 
-# ------------------------------------------------------------------------------ at a separation
 @scalar
-def add_by_gaps(given, sides, panels, p, own, laid, grid, sizes, gap, rule, sums, out):
-    """What part p carries at a gap; ``own`` is what is laid of it, ``laid`` of all."""
+def add_below(given, sides, panels, p, own, sizes, gap, out):
+    """What particles carry at a gap that are squeezed further than the last panel goes."""
     apart()
     count, width = own[COUNT], given[p, WIDTH]
-    low, high = gap - REACH * width, gap + REACH * width
-    free = laid[len(laid) - 1, 0]
-    for s in range(own[PIECE_BEGIN], own[PIECE_END]):
-        begin, end, parts = grid[FROM, s], grid[UNTIL, s], grid[PARTS, s]
-        if end < low or begin > high:
-            continue
-        step = (end - begin) / parts
-        first = int(max((low - begin) / step, 0.0))
-        last = int(min(math.ceil((high - begin) / step), parts))
-        for m in range(first, last):
-            slot = own[SLOT] + int(grid[CELL, s] + m) % SLOTS
-            if grid[KEY, slot] != grid[CELL, s] + m + 1:
-                if free[FREE] + 2 * TERMS > MOST_NODES:  # all are forgotten
-                    free[FREE] = free[BASE]
-                    grid[KEY, : 2 * SLOTS * len(given)] = 0.0
-                a, b = begin + m * step, end if m == parts - 1 else begin + (m + 1) * step
-                grid[KEY, slot], grid[PLACE, slot] = grid[CELL, s] + m + 1, free[FREE]
-                free[FREE] = _fill_cell(
-                    given, sides, panels, p, count, grid, s, a, b, free[FREE], rule, sums
-                )
-                grid[PLACE_END, slot] = free[FREE]
-            place, until = int(grid[PLACE, slot]), int(grid[PLACE_END, slot])
-            weigh_gaps(grid, place, until, gap, width)
-            add_nodes(given, p, grid, place, until, out)
     thin, squared = 1 - panels[p, count - 1, TO], 0.0
-    if given[p, HIGH] * thin > low:
+    if given[p, HIGH] * thin > gap - REACH * width:
         for j in range(own[SIZED], own[SIZED_END]):
             x = sizes[0, j]
             squared += sizes[1, j] * x * x * above((x * thin - gap) / width)

@@ -83,6 +83,10 @@ end."""
 KEY, PLACE, PLACE_END, GRID_ROWS = range(SUM + 8, SUM + 12)
 """Of slots for cells over the gap, in more rows: which cell is in it, and where its nodes begin and
 end."""
+PARTS, CELLS = SIZE, SIZE_END
+"""Of segments of the gap, beside their ends: their number of cells, and that of all before."""
+SLOTS, COLUMNS = 256, 6
+"""Cells of a part and a level whose nodes are kept at once, and columns of nodes from `LOAD` on."""
 REACH = 9.5
 """Widths of a seat beyond which nothing is summed."""
 WIDE_SPAN = 2.5

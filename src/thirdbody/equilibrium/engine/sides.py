@@ -57,11 +57,15 @@ from .fields import (
 
 __all__ = ["break_at", "breaks", "law_at", "prepare", "regime_of", "side_at"]
 
-scalar = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
+scalar = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False)
 """Options of functions that only the kernel calls."""
-exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, fastmath=EXACT)
+exact = njit(
+    error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False, fastmath=EXACT
+)
 """Of loops that are to become vectors."""
-summed = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, fastmath=True)
+summed = njit(
+    error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False, fastmath=True
+)
 """Of plain sums of products, whose order may be any, the same in every state."""
 
 
