@@ -104,7 +104,6 @@ class Cached:
             JITCPUCodegen.set_env = lambda codegen, place, env: (
                 set_env(codegen, place, env) if f"{len(name)}{name}" in place else None
             )
-            _keep_types_of_operators()
         self.function.compile(signature)
 
     @staticmethod
@@ -144,28 +143,6 @@ class Cached:
             )
         except (OSError, subprocess.TimeoutExpired):
             return  # compiled here instead, by the call
-
-
-def _keep_types_of_operators() -> None:
-    """Look once at what an operator makes of two numbers, not at each of its thousand uses.
-
-    numba asks one template after the other, a third of the time that it spends on types.
-    """
-    from numba.core import types
-    from numba.core.targetconfig import ConfigStack
-
-    find_type, kept = types.functions.BaseFunction.get_call_type, {}
-
-    def get_call_type(function: Any, context: Any, args: Any, kws: Any) -> Any:
-        if kws or not all(isinstance(each, types.Number | types.Boolean) for each in args):
-            return find_type(function, context, args, kws)
-        flags = ConfigStack.top_or_none()
-        key = function, args, str(flags and flags.fastmath)
-        if key not in kept:
-            kept[key] = find_type(function, context, args, kws)
-        return kept[key]
-
-    types.functions.BaseFunction.get_call_type = get_call_type
 
 
 def _below(library: Any) -> list[Any]:
