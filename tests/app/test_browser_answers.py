@@ -133,7 +133,8 @@ def test_a_force_is_answered_as_the_command_line_does(visit):
     assert fact(page, "force") == told[0].split(". ")[0] + "."
     page.locator('[data-fact="preliminary"]').wait_for(state="hidden")
     rest = page.locator('[data-fact="force in full"]')
-    assert f"{fact(page, 'force')} {rest.text_content()}" == told[0]
+    in_full = rest.text_content().replace("\u00a0", " ")
+    assert f"{fact(page, 'force')} {in_full}" == told[0]
     assert not rest.is_visible()
     page.locator('[data-fold="force"] .q-item').click()
     rest.wait_for()
