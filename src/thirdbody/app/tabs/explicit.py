@@ -97,7 +97,8 @@ def section_figure(found: Pressing) -> Figure:
     if section["size"]:
         size = 1e9 * section["size"]
         x, y = _circles([0.0], [1e9 * section["seat"] + size / 2], [size])
-        name = f"size {value_of(section['size'], 'm', 3)}, {percent(section['share'])} of their load"
+        share = percent(section["share"])
+        name = f"size {value_of(section['size'], 'm', 3)}, {share} of their load"
         traces.append(line(x, y, name, 1, fill="toself", line={"dash": "solid"}))
         title = "The particle that carries most"
     else:
