@@ -158,6 +158,27 @@ def test_names_that_a_command_chooses_are_taken_from_nobody(tmp_path, words):
 
 # ---------------------------------------------------------------- files
 @pytest.mark.parametrize(
+    ("kind", "command"),
+    [
+        ("connector", "probability"), ("wafer-chuck", "plate"), ("oil-circuit", "life"),
+        ("dry-contact", "life"),
+    ],
+)  # fmt: skip
+def test_the_tables_of_a_question_are_written_again(tmp_path, kind, command):
+    study, files = tmp_path / "study.toml", [tmp_path / "a.csv", tmp_path / "a.xlsx"]
+    assert run("new", kind, "--out", study).exit_code == 0
+    asked = (command, study, "--csv", files[0], "--xlsx", files[1])
+    assert run(*asked).exit_code == 0
+    before = contents(tmp_path)
+    done = run(*asked)
+    assert done.exit_code == 0, done.output
+    assert contents(tmp_path) == before
+    files[0].write_text("time [s],code\n0,mine\n")
+    assert run(*asked).exit_code == 2
+    assert files[0].read_text() == "time [s],code\n0,mine\n"
+
+
+@pytest.mark.parametrize(
     "words",
     [
         ("solve", STUDY, "--csv"), ("film", FILM, "--csv"), ("film", FILM, "--figure"),

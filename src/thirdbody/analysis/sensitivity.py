@@ -26,11 +26,7 @@ from ..equilibrium.load import as_loads
 from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities import notebook
 from ..quantities.arguments import need_place
 from ..quantities.carried import takes_units

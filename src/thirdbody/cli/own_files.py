@@ -13,11 +13,7 @@ import zipfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.files import hindrance
 from ..views.html import is_page
 
@@ -30,8 +26,13 @@ HEADS = (
     {"cutoff [m]", "m0 [m^2]", "m2 [1]", "m4 [1/m^2]", "eta_counted [1/m^2]", "R_counted [m]"},
     {"feasible", "front", "reason"},
     {"row of the sweep"},
+    {"force [N]", "failure [1]", "failure_low [1]", "failure_high [1]", "failure_of_all [1]"},
+    {"grain [m]", "particles", "height [m]", "width [m]", "force [N]", "thin"},
+    {"time [s]", "code", "volume [m^3]", "in the oil [kg]", "ingress [kg]", "settled [kg]"},
+    {"time [s]", "in the contact [kg]", "arrivals [kg]", "worn 1 [kg]", "worn 2 [kg]"},
 )
-"""Columns by which a table is known: of solve, film, compare, surface, design, sweep."""
+"""Columns by which a table is known: of solve, film, compare, surface, design, sweep, probability,
+plate, life of an oil, life of a dry contact."""
 JSON_KEYS = (
     {"curve", "units"},
     {"title", "version", "inputs", "warnings", "citations"},

@@ -23,10 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..errors import (
-    InvalidValue,
-    Mistake,
-)
+from ..errors import InvalidValue, Mistake
 from ..laws.base import COLUMNS, KINDS, OneParticle
 from ..laws.particle.breakage import Breakage
 from ..numerics.chebyshev import PiecewiseChebyshev

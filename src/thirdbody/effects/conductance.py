@@ -12,11 +12,7 @@ import numpy as np
 from ..contact.evaluation import bodies_of
 from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column, missing
-from ..errors import (
-    Mistake,
-    Note,
-    Problem,
-)
+from ..errors import Mistake, Note, Problem
 from ..populations.conduction import conducts
 from ..populations.materials import Material
 from ..quantities.say import number, percent

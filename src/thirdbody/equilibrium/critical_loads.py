@@ -10,11 +10,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
 from .modes import WINDOW, CriticalStatus

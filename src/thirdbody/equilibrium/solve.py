@@ -20,15 +20,7 @@ from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    NoEquilibrium,
-    NotCompiled,
-    Note,
-    Problem,
-    tell_of_range,
-)
+from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, Problem, tell_of_range
 from ..quantities.arguments import need_one, only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
@@ -71,7 +63,7 @@ def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
             if kind == "b":
                 raise InvalidValue(
                     Problem(
-                        f"{name}",
+                        name,
                         "must be a number, not a truth value",
                         repr(value),
                         code=Mistake.KIND,
@@ -82,9 +74,7 @@ def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
     except (TypeError, ValueError, OverflowError):
         shown = repr(value) if len(repr(value)) <= 80 else repr(value)[:76] + " ..."
         raise InvalidValue(
-            Problem(
-                f"{name}", "must be a number or an array of numbers", f"{shown}", code=Mistake.KIND
-            )
+            Problem(name, "must be a number or an array of numbers", f"{shown}", code=Mistake.KIND)
         ) from None
     if values.ndim > 1:
         raise InvalidValue(

@@ -11,11 +11,7 @@ from numpy.typing import NDArray
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities import notebook
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units

@@ -26,13 +26,7 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_numbers
 from ..equilibrium.solve import solve as statistical
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Note,
-    Problem,
-    tell_of_range,
-)
+from ..errors import InvalidValue, Mistake, Note, Problem, tell_of_range
 from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments

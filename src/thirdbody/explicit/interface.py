@@ -12,13 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import (
-    Advice,
-    InvalidValue,
-    Mistake,
-    Note,
-    Problem,
-)
+from ..errors import Advice, InvalidValue, Mistake, Note, Problem
 from ..laws.base import AbstractParticleLaw
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.topography import Topography
@@ -279,9 +273,8 @@ def interface_of(
             warnings.append(
                 Note(
                     f"the largest particle, {value_of(float(np.max(bodies.diameter)), 'm')}, is "
-                    "more "
-                    f"than a tenth of the side of the map, {value_of(side, 'm')}: it meets its own "
-                    "images; take a larger map",
+                    f"more than a tenth of the side of the map, {value_of(side, 'm')}: it meets "
+                    "its own images; take a larger map",
                     code="explicit.large",
                 )
             )
@@ -447,9 +440,8 @@ def _doubts(contact: Contact, surface: Map) -> list[str]:
         out.append(
             Note(
                 f"the shortest waves of {surface.source} have {number(wave, 2)} points; "
-                "pressures and "
-                f"areas are those of the grid below {FEW_POINTS} (a longer cut-off, or a finer "
-                "map)",
+                f"pressures and areas are those of the grid below {FEW_POINTS} (a longer cut-off, "
+                "or a finer map)",
                 code="explicit.grid",
             )
         )
@@ -458,8 +450,7 @@ def _doubts(contact: Contact, surface: Map) -> list[str]:
         out.append(
             Note(
                 f"the map has sigma = {value_of(surface.sigma, 'm')} and the roughness of the "
-                "contact "
-                f"{value_of(own, 'm')}: the statistical model is one of another surface",
+                f"contact {value_of(own, 'm')}: the statistical model is one of another surface",
                 code="explicit.sigma",
             )
         )

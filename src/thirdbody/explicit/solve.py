@@ -13,13 +13,7 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import _mode
 from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import given_numbers
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Note,
-    Problem,
-    tell_of_range,
-)
+from ..errors import InvalidValue, Mistake, Note, Problem, tell_of_range
 from ..laws.base import REGIMES
 from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, plural, value_of

@@ -19,11 +19,7 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..systems.life.debris import Debris
 from ..systems.life.oil_history import run_oil_history
 from ..systems.life.surfaces import RunningIn

@@ -6,11 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..laws.asperity import OwnSpectrum, RollOff
 from ..populations.ellipticity import FACES, Ellipticity
 from ..populations.heights import Heights

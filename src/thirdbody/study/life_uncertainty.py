@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -54,22 +55,20 @@ class KnownOfLife:
     seed: int = 0
     places: Mapping[str, str] = field(default_factory=dict)
 
-    def placed(self, error: InvalidValue) -> InvalidValue:
-        """The same mistakes where their numbers stand in the file.
-
-        Parameters
-        ----------
-        error : InvalidValue
-            Its places are names of ``vary``.
-        """
-        return InvalidValue(
-            *(
-                each.changed(path=self.places.get(each.place, each.path), owner="")
-                if each.place in self.places
-                else each
-                for each in error.problems
-            )
-        )
+    @contextmanager
+    def in_file(self) -> Iterator[None]:
+        """Context whose mistakes stand where the numbers of ``vary`` do in the file."""
+        try:
+            yield
+        except InvalidValue as error:
+            raise InvalidValue(
+                *(
+                    each.changed(path=self.places[each.place], owner="")
+                    if each.place in self.places
+                    else each
+                    for each in error.problems
+                )
+            ) from None
 
 
 def place_of_beta(circuit: OilCircuit, name: str) -> tuple[int, int] | None:

@@ -12,13 +12,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import solve as statistical
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-    RangeWarning,
-    note_of,
-)
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, note_of
 from ..explicit.ensemble import counterpart, seats_on, spacing_for, surface_of
 from ..explicit.seats import GivenSeats
 from ..explicit.solve import solve

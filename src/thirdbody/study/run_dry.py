@@ -19,7 +19,7 @@ from .asked_result import QuestionResult
 from .life_bands import LifeBands, check_dry, propagate_dry
 from .life_dry import AskedDry
 
-__all__ = ["DryResult", "bands_of_dry", "life_of_asked", "run_dry"]
+__all__ = ["DryResult", "bands_of_dry", "drawn_of", "life_of_asked", "run_dry"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -119,6 +119,17 @@ def life_of_asked(asked: Any, **arguments: Any) -> Any:
             ) from None
 
 
+def drawn_of(asked: Any) -> dict[str, Any]:
+    """Arguments that say what is drawn of a study, and over which time."""
+    return {
+        "vary": asked.uncertainty,
+        "duration": asked.duration,
+        "until": asked.until,
+        "samples": asked.drawn.samples,
+        "seed": asked.drawn.seed,
+    }
+
+
 def bands_of_dry(
     asked: AskedDry, *, progress: bool = False, keep: Path | None = None
 ) -> LifeBands | None:
@@ -132,20 +143,11 @@ def bands_of_dry(
     """
     if not asked.uncertainty:
         return None
-    try:
+    with asked.drawn.in_file():
         return propagate_dry(
-            asked.contact,
-            vary=asked.uncertainty,
-            duration=asked.duration,
-            until=asked.until,
-            samples=asked.drawn.samples,
-            seed=asked.drawn.seed,
-            conditions=_arguments(asked),
-            progress=progress,
+            asked.contact, **drawn_of(asked), conditions=_arguments(asked), progress=progress,
             keep=keep,
-        )
-    except InvalidValue as error:
-        raise asked.drawn.placed(error) from None
+        )  # fmt: skip
 
 
 def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None) -> DryResult:
@@ -161,10 +163,8 @@ def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None
         As in `thirdbody.study.run_life.run_life`.
     """
     if asked.uncertainty:
-        try:
+        with asked.drawn.in_file():
             check_dry(asked.contact, vary=asked.uncertainty, conditions=_arguments(asked))
-        except InvalidValue as error:
-            raise asked.drawn.placed(error) from None
     one: dict[str, Any] = {} if keep is None or asked.uncertainty else {"keep": keep}
     history = life_of_asked(asked, contact=asked.contact, **_arguments(asked), **one)
     assert isinstance(history, DryHistory)

@@ -10,7 +10,6 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
-from ..errors import InvalidValue
 from ..quantities.plain_data import plain_data
 from ..systems.life.history import LifeHistory
 from ..systems.life.reports import OilReports, oil_reports, read_reports
@@ -20,7 +19,7 @@ from .life import AskedDry, AskedLife, life_of, oil_of
 from .life_bands import LifeBands, check_oil, propagate_life
 from .life_dents import LifeDents, dents_of_life
 from .life_dirt import CLEAN
-from .run_dry import DryResult, bands_of_dry, life_of_asked, run_dry
+from .run_dry import DryResult, bands_of_dry, drawn_of, life_of_asked, run_dry
 from .toml import override, read
 from .whole import load_tables, read_tables
 
@@ -274,20 +273,11 @@ def bands_of(
         return bands_of_dry(asked, progress=progress, keep=keep)
     if not asked.uncertainty:
         return None
-    try:
+    with asked.drawn.in_file():
         return propagate_life(
-            asked.circuit,
-            vary=asked.uncertainty,
-            duration=asked.duration,
-            until=asked.until,
-            samples=asked.drawn.samples,
-            seed=asked.drawn.seed,
-            contact=_arguments(asked),
-            progress=progress,
+            asked.circuit, **drawn_of(asked), contact=_arguments(asked), progress=progress,
             keep=keep,
-        )
-    except InvalidValue as error:
-        raise asked.drawn.placed(error) from None
+        )  # fmt: skip
 
 
 def need_bands(asked: AskedLife) -> None:
@@ -303,7 +293,7 @@ def need_bands(asked: AskedLife) -> None:
     """
     if not asked.uncertainty:
         return
-    try:
+    with asked.drawn.in_file():
         check_oil(
             asked.circuit,
             vary=asked.uncertainty,
@@ -312,8 +302,6 @@ def need_bands(asked: AskedLife) -> None:
             samples=asked.drawn.samples,
             seed=asked.drawn.seed,
         )
-    except InvalidValue as error:
-        raise asked.drawn.placed(error) from None
 
 
 @overload

@@ -12,11 +12,7 @@ from __future__ import annotations
 
 import math
 
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.measured.cleanliness import read_iso4406
 from ..quantities.carried import takes_units
 from ..quantities.units import say

@@ -23,14 +23,7 @@ from ..contact.contact import Contact
 from ..equilibrium.crowding import crowded_places
 from ..equilibrium.solve import solve
 from ..equilibrium.words import meets
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    NoEquilibrium,
-    Note,
-    Problem,
-    RangeWarning,
-)
+from ..errors import InvalidValue, Mistake, NoEquilibrium, Note, Problem, RangeWarning
 from ..laws.asperity import ZMC
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units

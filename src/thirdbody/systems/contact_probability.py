@@ -22,11 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..laws.particle.series import Series
 from ..numerics.quadrature import panel_rule
 from ..populations.distributions import Monodisperse

@@ -14,12 +14,7 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.crowding import crowded_places
 from ..equilibrium.load_scan import load_scan
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    NoEquilibrium,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.say import value_of
 

@@ -34,12 +34,7 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.status import DEEPEST
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    NoEquilibrium,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule, subdivide
 from ..numerics.roots import halley_root
@@ -176,7 +171,7 @@ def mean_interaction(
     """
     for name, value in (("nominal_area", nominal_area), ("kappa", kappa)):
         if not (math.isfinite(value) and value > 0):
-            raise InvalidValue(Problem(f"{name}", "must be > 0", repr(value), code=Mistake.RANGE))
+            raise InvalidValue(Problem(name, "must be > 0", repr(value), code=Mistake.RANGE))
     _check_sum(contact)
     bound = interface(contact)
     compliance = kappa * math.sqrt(nominal_area) / contact.E_ss

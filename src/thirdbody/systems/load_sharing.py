@@ -17,11 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units
 from ..quantities.record import Record

@@ -479,7 +479,7 @@ def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, 
         except (TypeError, ValueError):
             problems.append(
                 Problem(
-                    f"{name}",
+                    name,
                     f"must be a number or an array of numbers [{unit}]",
                     repr(value),
                     code=Mistake.KIND,
@@ -499,7 +499,7 @@ def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, 
             hint = "; without motion there is no film: use solve" if name == "speed" else ""
             problems.append(
                 Problem(
-                    f"{name}",
+                    name,
                     f"must be finite and > 0 [{unit}]{hint}",
                     f"{bad:g}",
                     code=Mistake.RANGE,

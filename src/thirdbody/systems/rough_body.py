@@ -28,11 +28,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.carried import takes_units
 from .elastic_balance import (
     COARSE,
@@ -175,7 +171,7 @@ def _result(
 
 def _positive(name: str, value: float) -> float:
     if not (math.isfinite(value) and value > 0):
-        raise InvalidValue(Problem(f"{name}", "must be > 0 [m]", repr(value), code=Mistake.RANGE))
+        raise InvalidValue(Problem(name, "must be > 0 [m]", repr(value), code=Mistake.RANGE))
     return float(value)
 
 

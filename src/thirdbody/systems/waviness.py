@@ -23,12 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import (
-    InvalidValue,
-    Mistake,
-    NoEquilibrium,
-    Problem,
-)
+from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ..quantities.carried import takes_units
 from ..quantities.say import value_of
 from .elastic_balance import (
@@ -329,9 +324,7 @@ def elastic_wave(
     """
     for name, value in (("amplitude", amplitude), ("wavelength", wavelength)):
         if not (math.isfinite(value) and value >= 0):
-            raise InvalidValue(
-                Problem(f"{name}", "must be >= 0 [m]", repr(value), code=Mistake.RANGE)
-            )
+            raise InvalidValue(Problem(name, "must be >= 0 [m]", repr(value), code=Mistake.RANGE))
     skin = Skin(contact, E_star)
     wave = Wave(float(amplitude), float(wavelength), skin.E_star)
     return _result(skin, balance(skin, wave, d=d, load=_load(skin, pressure, F_star)), True)

@@ -1,5 +1,6 @@
 """Contacts over time: against closed forms, matrix exponentials, and the oil alone."""
 
+import json
 import warnings
 
 import numpy as np
@@ -228,6 +229,13 @@ def test_an_interrupted_history_goes_on_to_the_same_numbers(tmp_path, monkeypatc
     assert again.to_dict() == whole.to_dict()
     assert file.read_bytes() == before
     assert -left[0] < done + 5  # no step is computed a second time
+    lines = file.read_text().splitlines()
+    entry = json.loads(lines[len(lines) // 2])
+    entry["value"] = "AAAA" + entry["value"][4:]  # a number that was changed is not believed
+    lines[len(lines) // 2] = json.dumps(entry)
+    file.write_text("\n".join([*lines, ""]))
+    assert run(contact(STEEL, SOFT), keep=file, **asked).to_dict() == whole.to_dict()
+    assert file.read_bytes() == before
     with pytest.raises(tb.InvalidValue, match="does not hold the history of this study"):
         run(contact(), keep=file, **asked)
 

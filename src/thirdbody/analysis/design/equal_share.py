@@ -10,11 +10,7 @@ import numpy as np
 from ...contact.contact import Contact
 from ...equilibrium.modes import need_shares
 from ...equilibrium.solve import solve
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
 

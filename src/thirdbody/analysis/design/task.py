@@ -11,12 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of
 from ...equilibrium.solve import given_load
-from ...errors import (
-    Advice,
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import Advice, InvalidValue, Mistake, Problem
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
 from ..inputs import input_of as moved_input

@@ -30,11 +30,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.files import is_draft, remove_files, write_text
 from ...quantities.progress import reporting
 from ...quantities.run_files import (

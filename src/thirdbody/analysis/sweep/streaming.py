@@ -14,12 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-    tell_of_range,
-)
+from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Cost, Report, reporting, solving
 from ...quantities.run_files import sealed

@@ -12,11 +12,7 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from ...contact.contact import Contact
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...numerics.sampling import SweepDesign
 from ...quantities.carried import takes_units
 from ...quantities.files import refused_by_disk

@@ -11,12 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...contact.contact import Contact
-from ...errors import (
-    Clause,
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import Clause, InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.uncertain import are_correlated, is_uncertain
 from ...quantities.value import problem_with
@@ -93,7 +88,7 @@ class Uncertain:
             number = isinstance(item, (int, float, np.number)) and not isinstance(item, bool)
             if not (number and math.isfinite(item)):
                 problems.append(
-                    Problem(f"{name}", "must be a finite number", repr(item), code=Mistake.RANGE)
+                    Problem(name, "must be a finite number", repr(item), code=Mistake.RANGE)
                 )
         if not problems:
             for name in ("first", "second"):

@@ -27,12 +27,7 @@ from ...equilibrium.critical_loads import CRITICAL, critical_loads
 from ...equilibrium.crowding import crowded
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-    tell_of_range,
-)
+from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities import notebook
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units

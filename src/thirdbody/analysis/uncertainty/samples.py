@@ -14,11 +14,7 @@ from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, lo
 from ...equilibrium.modes import MODES
 from ...equilibrium.states import carries, state_columns, tables_each
 from ...equilibrium.status import MOST_AREA
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...numerics.sampling import sobol
 from ...quantities.record import Column
 from ...quantities.say import percent

@@ -8,12 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...equilibrium.words import load_of
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    NoEquilibrium,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table

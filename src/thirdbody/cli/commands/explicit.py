@@ -11,11 +11,7 @@ from typing import Any
 
 import typer
 
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.plain_data import plain_data
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of

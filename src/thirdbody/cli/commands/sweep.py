@@ -9,12 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    NoEquilibrium,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...quantities.say import join_words, percent, plural, value_of
 from ..interrupt import Interrupted
 from ..options import Force, ParquetFile, Settings, XlsxFile, argument, option, tell_notes

@@ -13,12 +13,7 @@ import numpy as np
 from ...contact.asperity_sums import GaussianSum
 from ...contact.contact import Contact
 from ...contact.interface import Interface, together
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    NotCompiled,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, NotCompiled, Problem
 from ...laws.particle.series import Series as ParticleSeries
 from ...populations.materials import reduced_modulus, softer_hardness
 from ..load_scan import load_scan

@@ -17,12 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...contact.interface import interface
-from ...errors import (
-    Advice,
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import Advice, InvalidValue, Mistake, Problem
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import write_text

@@ -14,11 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.plain_data import plain_data
 from ...quantities.say import number, percent, signed
 from ...version import __version__

@@ -9,11 +9,7 @@ from html import escape
 from pathlib import Path
 from typing import Any, ClassVar
 
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...version import __version__
 from ...views.html import symbols, table
 from .. import engine

@@ -14,11 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import (
-    InvalidValue,
-    Mistake,
-    Problem,
-)
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.say import value_of
 from .spectra import SpectralMoments

@@ -161,6 +161,12 @@ class FilmLoop(Loop):
         eta = self.shaped(self.present(y, d))
         return self.tables.load_alone(d, eta=eta, sigma=sigma) / self.pressure + math.expm1(-x)
 
+    def _start(self) -> tuple[float, ...]:
+        return float(self.last), float(self._slope)
+
+    def _start_from(self, *start: float) -> None:
+        self.last, self._slope = start
+
     def find_gap(self, y: Array) -> Gap:
         self.last = self._root(lambda x: self._excess(y, x))
         return Gap(self.separation(self.last, self.sigma_of(y)), math.exp(-self.last))

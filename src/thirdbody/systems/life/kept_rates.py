@@ -21,7 +21,6 @@ import numpy as np
 from ...errors import InvalidValue
 from ...quantities.files import need_folders
 from ...version import __version__
-from .film_loop import FilmLoop
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,6 +38,11 @@ class _Kept(NamedTuple):
     of: int
     warm: tuple[float, ...]
     value: Array
+
+    @property
+    def check(self) -> int:
+        """What another rate would hardly have alike."""
+        return zlib.crc32(np.append(self.value, self.warm).tobytes(), self.of)
 
 
 def plain_inputs(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -99,9 +103,12 @@ class KeptRates:
                 entry = json.loads(line)
                 numbers = np.frombuffer(base64.b64decode(entry["value"]), "<f8")
                 value = numbers.reshape(entry["shape"]).astype(float)
-                self.known.append(_Kept(entry["of"], tuple(entry["warm"]), value))
+                kept = _Kept(entry["of"], tuple(entry["warm"]), value)
+                if kept.check != entry["check"]:
+                    break  # it was changed: all from here on is computed again
             except (ValueError, KeyError, TypeError, binascii.Error):
                 break  # the one that was being written when it ended
+            self.known.append(kept)
             whole.append(line)
         file.write_text("\n".join([head, *whole, ""]), "utf-8")
 
@@ -125,31 +132,19 @@ class KeptRates:
         if self.next < len(self.known) and self.known[self.next].of == of:
             found = self.known[self.next]
             self.next += 1
-            _set_warm(loop, found.warm)
+            loop.start_warm(found.warm)
             return found.value.copy()
         self.known = []  # what follows is of another course
         value = np.asarray(compute(), float)
+        kept = _Kept(of, loop.warm, value)
+        numbers = np.ascontiguousarray(value, "<f8").tobytes()
         entry = {
             "of": of,
-            "warm": _warm(loop),
+            "check": kept.check,
+            "warm": kept.warm,
             "shape": value.shape,
-            "value": base64.b64encode(np.ascontiguousarray(value, "<f8").tobytes()).decode(),
+            "value": base64.b64encode(numbers).decode(),
         }
         with self.file.open("a", encoding="utf-8") as out:
             out.write(json.dumps(entry) + "\n")
         return value
-
-
-def _warm(loop: Loop) -> tuple[float, ...]:
-    """Where the gap was found, and how well the tables are known."""
-    errors = loop.tables.particles.error, loop.tables.spots.error
-    slope = loop._slope if isinstance(loop, FilmLoop) else 0.0
-    return float(loop.last), float(slope), *map(float, errors)
-
-
-def _set_warm(loop: Loop, warm: tuple[float, ...]) -> None:
-    loop.last, slope, *errors = warm
-    if isinstance(loop, FilmLoop):
-        loop._slope = slope
-    for table, error in zip((loop.tables.particles, loop.tables.spots), errors, strict=True):
-        table.error = max(table.error, error)

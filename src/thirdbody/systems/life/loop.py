@@ -155,7 +155,31 @@ class Loop(ABC):
         """Of one particle of each number [m³]: (J,)."""
         self.sizes = np.tile(tables.classes.mean_power(1), self.kinds)
 
+    @property
+    def warm(self) -> tuple[float, ...]:
+        """From where the next root is searched, and how well the tables are known."""
+        return (*self._start(), self.tables.particles.error, self.tables.spots.error)
+
+    def start_warm(self, warm: tuple[float, ...]) -> None:
+        """Search the next root from where another loop had `warm`, with its tables' errors.
+
+        Parameters
+        ----------
+        warm : tuple of float
+        """
+        *start, particles, spots = warm
+        self._start_from(*start)
+        for table, error in ((self.tables.particles, particles), (self.tables.spots, spots)):
+            table.error = max(table.error, error)
+
     # ------------------------------------------------------------------ what kinds of loops say
+    def _start(self) -> tuple[float, ...]:
+        """From where the next root of the gap is searched."""
+        return (float(self.last),)
+
+    def _start_from(self, *start: float) -> None:
+        (self.last,) = start
+
     @abstractmethod
     def find_gap(self, y: Array) -> Gap:
         """The separation in a state."""
