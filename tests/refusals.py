@@ -16,15 +16,24 @@ __all__ = ["Mistake", "refuses", "warns_of"]
 
 @contextmanager
 def refuses(
-    code: Mistake, place: str, *, value: str | None = None, meant: str | None = None
+    code: Mistake,
+    place: str,
+    *,
+    value: str | None = None,
+    meant: str | None = None,
+    says: str = "",
 ) -> Iterator[None]:
-    """Context whose end refuses an input: the kind of mistake, its dotted place, its value."""
+    """Context whose end refuses an input: the kind of mistake, its dotted place, its value.
+
+    ``says`` is a number or a name that its sentence has to state.
+    """
     with pytest.raises(tb.InvalidValue) as refusal:
         yield
     wanted = (code, place)
     told = [(each.code, each.place) for each in refusal.value.problems]
     assert wanted in told, f"{wanted} is not among {told}"
     same = [each for each in refusal.value.problems if (each.code, each.place) == wanted]
+    assert any(says in each for each in same), same
     if value is not None:
         assert value in [each.value for each in same]
     if meant is not None:
@@ -32,13 +41,18 @@ def refuses(
 
 
 @contextmanager
-def warns_of(code: str, *, effect: float | None = None) -> Iterator[None]:
-    """Context in which a note with this code is told, with this effect on the answer."""
+def warns_of(code: str, *, effect: float | None = None, says: str = "") -> Iterator[None]:
+    """Context in which a note with this code is told, with this effect on the answer.
+
+    ``says`` is a number or a name that its sentence has to state.
+    """
     with pytest.warns(tb.RangeWarning) as told:
         yield
     notes = [each.message.args[0] for each in told if isinstance(each.message, tb.RangeWarning)]
     codes = [getattr(note, "code", "") for note in notes]
     assert code in codes, f"{code} is not among {codes}"
+    same = [note for note in notes if getattr(note, "code", "") == code]
+    assert any(says in note for note in same), same
     if effect is not None:
-        effects = [note.effect for note in notes if getattr(note, "code", "") == code]
+        effects = [note.effect for note in same]
         assert any(math.isclose(each, effect, rel_tol=1e-3) for each in effects), effects

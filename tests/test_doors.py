@@ -73,9 +73,9 @@ def test_loads_beyond_a_double_are_refused_by_name(load):
 
 def test_the_ends_of_what_is_computed_are_taken():
     assert tb.Roughness(sigma=SMALLEST, R=LARGEST).sigma == SMALLEST
-    with refuses(Mistake.RANGE, "Roughness.sigma", value="5e-41"):
+    with refuses(Mistake.RANGE, "Roughness.sigma", value="5e-41", says="1e-40 [m]"):
         tb.Roughness(sigma=SMALLEST / 2, R=1e-6)
-    with refuses(Mistake.RANGE, "Roughness.R", value="2e+40"):
+    with refuses(Mistake.RANGE, "Roughness.R", value="2e+40", says="1e+40 [m]"):
         tb.Roughness(sigma=1e-7, R=2 * LARGEST)
 
 
@@ -88,7 +88,7 @@ def test_what_may_be_zero_may_be_as_small_as_it_likes(tiny):
     state = tb.solve(CONTACT.replace(surfaces=surfaces), F_star=1e-5)
     plain = tb.MaterialPair(*(tb.Material(E=2e11, nu=0.0, H=5e9) for _ in range(2)))
     assert state.d == tb.solve(CONTACT.replace(surfaces=plain), F_star=1e-5).d
-    with refuses(Mistake.RANGE, "Material.E"):
+    with refuses(Mistake.RANGE, "Material.E", says="1e-40 [Pa]"):
         tb.Material(E=tiny, nu=0.3, H=5e9)
 
 
@@ -125,7 +125,7 @@ def test_units_of_other_trades_are_refused(unit, need):
 )  # fmt: skip
 def test_units_of_this_trade_are_taken(text, unit, want):
     if "kip" in text:
-        with refuses(Mistake.UNIT, ""):
+        with refuses(Mistake.UNIT, "", says="kip"):
             to_si(text, unit)
     else:
         assert to_si(text, unit) == pytest.approx(want, rel=1e-5)

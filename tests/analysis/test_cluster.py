@@ -195,7 +195,7 @@ def test_a_bad_address_has_one_message(command, address, tmp_path, monkeypatch):
 
 
 def test_nobody_there(tmp_path):
-    with refuses(Mistake.ABSENT, ""):
+    with refuses(Mistake.ABSENT, "", says="tcp://127.0.0.1:9"):
         connected("tcp://127.0.0.1:9", timeout=1)
 
 
@@ -240,5 +240,5 @@ def test_who_listens_there_may_be_no_scheduler(answer, timeout, why):
 
 def test_missing_package_has_one_message(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with refuses(Mistake.ABSENT, ""):
+    with refuses(Mistake.ABSENT, "", says="'thirdbody[cluster]'"):
         connected("tcp://127.0.0.1:8786")

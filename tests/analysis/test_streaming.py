@@ -333,7 +333,7 @@ def test_another_study_is_refused(tmp_path):
     tb.sweep(DUSTY, **GRID, out=tmp_path).close()
     before = files(tmp_path)
     other = DUSTY.replace(**{"roughness.sigma": 90e-9})
-    with refuses(Mistake.OTHER_STUDY, ""):
+    with refuses(Mistake.OTHER_STUDY, "", says="contact.roughness.sigma is 1e-07"):
         tb.sweep(other, **GRID, out=tmp_path)
     with pytest.raises(tb.InvalidValue, match="format is"):
         tb.sweep(DUSTY, **GRID, out=tmp_path, format="netcdf")
@@ -568,7 +568,7 @@ def test_another_order_of_the_inputs_is_another_study(tmp_path):
     del text["order"]
     (tmp_path / "study.json").write_text(json.dumps(text))
     as_of_earlier_version(tmp_path, name_of(text))
-    with refuses(Mistake.OTHER_STUDY, ""):
+    with refuses(Mistake.OTHER_STUDY, "", says='"not told"'):
         tb.sweep(DUSTY, **first, out=tmp_path)
 
 

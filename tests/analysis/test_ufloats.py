@@ -62,7 +62,7 @@ def test_a_field_says_where_its_uncertainty_goes():
 def test_what_is_no_independent_input_is_refused():
     with pytest.raises(tb.InvalidValue, match=r"are correlated, and inputs are independent"):
         bands({"roughness.sigma": SIGMA, "roughness.R": 28 * SIGMA})
-    with refuses(Mistake.RANGE, "vary['roughness.sigma']"):
+    with refuses(Mistake.RANGE, "vary['roughness.sigma']", says="std = 0"):
         bands({"roughness.sigma": ufloat(1e-7, 0)})
     with refuses(Mistake.KIND, "number", value="1e-07"):
         tb.Uncertain.from_ufloat(1e-7)
@@ -124,5 +124,5 @@ def test_bands_of_several_loads_and_of_other_quantiles():
 def test_without_the_package_it_is_said_in_one_line(monkeypatch):
     found = bands({"roughness.sigma": (99e-9, 101e-9)})
     monkeypatch.setitem(sys.modules, "uncertainties", None)
-    with refuses(Mistake.ABSENT, ""):
+    with refuses(Mistake.ABSENT, "", says="'thirdbody[uncertainty]'"):
         found.ufloat("h")

@@ -164,7 +164,7 @@ def test_a_speed_follows_from_the_shaft_or_is_asked_for():
     run("new", "ball-bearing", "--out", "b.toml")
     data = read(Path("b.toml"))
     del data["body"]["shaft_speed"]
-    with refuses(Mistake.MISSING, "film.speed"):
+    with refuses(Mistake.MISSING, "film.speed", says="body.shaft_speed"):
         check(data)
     data["film"]["speed"] = {"from": "0.1 m/s", "to": "3 m/s", "points": 3}
     study = check(data)

@@ -261,12 +261,12 @@ def test_debris_that_covers_the_surface_is_solved_above_that():
 
 def test_one_warning_for_crowded_contacts():
     soft = contact(0.02, density=0)
-    with warns_of("area"):
+    with warns_of("area", says="0.5"):
         tb.solve(soft, F_star=0.013)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         tb.solve(soft, F_star=0.008)
-    with warns_of("area.hard", effect=0.3):
+    with warns_of("area.hard", effect=0.3, says="= 0.41"):
         tb.solve(contact(0.1, law=tb.asperity.ZMC()), F_star=2e-3)
 
 

@@ -263,5 +263,5 @@ def test_by_material_one_kind_conducts_or_insulates():
 
 def test_of_few_particles_that_differ_nothing_is_told():
     none = SILICA.replace(resistivity=None)
-    with refuses(Mistake.CLASH, ""):
+    with refuses(Mistake.CLASH, "", says="A_n"):
         mixed(ElectricalConductance(particles="by material", A_n=1e-10), silica=none)

@@ -275,7 +275,7 @@ def test_dents_lost_in_rounding_are_refused():
         dents=Dents(debris="ductile"),
         law=Series(),
     )
-    with refuses(Mistake.BEYOND, "outputs.dents"):
+    with refuses(Mistake.BEYOND, "outputs.dents", says="surface 2"):
         tb.solve(ductile, d=1.0)
 
 

@@ -51,9 +51,9 @@ def test_probability_is_that_of_any_of_many_asperities():
         assert found["hc_closed"] == pytest.approx(want, rel=1e-4)
 
 
-def open_effects(notes):
-    """Effects of the notes that fewer than one contact conducts electricity."""
-    return [note.effect for note in notes if code_of(note) == "electrical_conductance.open"]
+def open_notes(notes):
+    """Notes that fewer than one contact conducts electricity."""
+    return [note for note in notes if code_of(note) == "electrical_conductance.open"]
 
 
 def test_below_one_contact_it_is_open():
@@ -65,6 +65,8 @@ def test_below_one_contact_it_is_open():
     for name in ("electrical", "thermal"):
         (note,) = [note for note in told if code_of(note) == f"{name}_conductance.open"]
         assert note.effect == math.inf
+        assert "0.3 contacts" in note
+        assert "probability 0.259" in note
 
 
 def test_the_mean_where_it_is_asked_for():
@@ -72,18 +74,20 @@ def test_the_mean_where_it_is_asked_for():
     found, told = at(OPEN, ElectricalConductance(A_n=A_N, few="mean"))
     same, _ = at(OPEN, ElectricalConductance())
     assert found["gc"] == same["gc"] > 0
-    assert open_effects(told) == [1.0]
+    assert [note.effect for note in open_notes(told)] == [1.0]
     above, told = at(CLOSED, ElectricalConductance(A_n=A_N))
     assert above["gc"] == at(CLOSED, ElectricalConductance())[0]["gc"]
-    assert not open_effects(told)
+    assert not open_notes(told)
 
 
 def test_without_an_area_the_area_of_one_contact_is_told():
     found, told = at(OPEN, ElectricalConductance())
     assert found["gc"] > 0
     assert math.isnan(found["gc_closed"])
-    assert open_effects(told) == [1.0]
-    assert not open_effects(at(CLOSED, ElectricalConductance())[1])
+    (note,) = open_notes(told)
+    assert note.effect == 1.0
+    assert "3.333×10⁻⁶ m²" in note
+    assert not open_notes(at(CLOSED, ElectricalConductance())[1])
 
 
 def dusty(eta, x=4e-6, **options):
@@ -176,7 +180,8 @@ def test_most_contacts_conduct_where_few_hold_dust():
     clean = tb.solve(dusty(0.0, A_n=1e-8), pressure=1e7).outputs
     assert clean["gc_closed"] > 0.99
     assert 0.99 * clean["gc"] <= state.outputs["gc"] <= clean["gc"]
-    assert "electrical_conductance.single" in map(code_of, state.warnings)
+    single = [n for n in state.warnings if code_of(n) == "electrical_conductance.single"]
+    assert any("99 %" in note for note in single)
 
 
 def test_heat_and_counts_say_it():
@@ -219,7 +224,7 @@ def test_the_template_is_open_at_its_smallest_force():
     assert closed[-1] > 0.999
     for resistance, chance in zip(states["rho_c"], closed, strict=True):
         assert (resistance is None) == (chance < -math.expm1(-1.0))
-    assert open_effects(found["warnings"])
+    assert "A_n = 1×10⁻⁶ m²" in open_notes(found["warnings"])[0]
 
 
 def test_where_nothing_touches_nothing_is_the_mean_of_few():

@@ -301,15 +301,15 @@ class TestSeveralSeparations:
 
     def test_the_branch_has_a_name(self):
         contact = soft_dust()
-        with warns_of("branches", effect=1):
+        with warns_of("branches", effect=1, says="3 separations"):
             loading = tb.solve(contact, pressure=1.7e8)
-        with warns_of("branches", effect=1):
+        with warns_of("branches", effect=1, says="unloading branch"):
             unloading = tb.solve(contact, pressure=1.7e8, branch="unloading")
         found = [state.d for state, _ in tb.roots(contact, pressure=1.7e8)]
         assert [stable for _, stable in tb.roots(contact, pressure=1.7e8)] == [True, False, True]
         assert loading.d == pytest.approx(max(found), rel=1e-12)
         assert unloading.d == pytest.approx(min(found), rel=1e-12)
-        with warns_of("branches", effect=1):
+        with warns_of("branches", effect=1, says="2 of the 3 loads"):
             tb.solve(contact, pressure=[1e7, 1.7e8, 1.75e8])
         assert not any("separations carry" in s for s in tb.solve(dusty(), pressure=1e7).warnings)
 
@@ -421,7 +421,7 @@ def test_stones_among_dust_hide_no_root():
     for load in (1e-11, 1e-10, 1e-9, 3e-9):
         more = interface(contact).load(d)[:, 0] > load * contact.E_ss
         crossed = np.flatnonzero(more[1:] != more[:-1])
-        with warns_of("branches", effect=1):
+        with warns_of("branches", effect=1, says="5 separations"):
             state = tb.solve(contact, F_star=load)
         assert state.d == pytest.approx(d[crossed[-1]], abs=6e-9)
         roots = tb.roots(contact, F_star=load)

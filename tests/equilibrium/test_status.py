@@ -187,6 +187,8 @@ class TestChi:
         if warns:
             assert state.A_t < 0.05
             assert told[0].effect == 0.3
+            assert "19 to 30 %" in told[0]
+            assert "0.05 to 0.72 sigma" in told[0]
 
     def test_the_numbers_of_hard_surfaces_are_of_the_record(self):
         """χ of 0.4 and 0.7 with α of 3 and 5: what was pressed beside the model."""

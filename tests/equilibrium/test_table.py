@@ -202,7 +202,7 @@ def test_range_and_coordinates():
     assert by_d.p(1e-7) == pytest.approx(made.p(1e-7 + shift), rel=1e-12)
     part = tb.table(made.contact, low=1e-7, high=2e-7)
     assert part.h[[0, -1]].tolist() == [1e-7, 2e-7]
-    with warns_of("area.close"):
+    with warns_of("area.close", says="A_t reaches 0.2"):
         deep = tb.table(made.contact, low=0.0)
     assert any("Validity: A_t reaches" in line for line in deep.about())
 

@@ -168,7 +168,7 @@ def test_an_interrupted_run_goes_on(tmp_path):
     assert again.to_dict() == whole.to_dict()
     assert [file.read_bytes() for file in kept] == before
     # what was made for other numbers stays
-    with refuses(Mistake.OTHER_STUDY, ""):
+    with refuses(Mistake.OTHER_STUDY, "", says="surface_000.json"):
         many(3, folder=tmp_path, seats="valleys")
     assert [file.read_bytes() for file in kept] == before
 

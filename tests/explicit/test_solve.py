@@ -317,7 +317,7 @@ def test_a_map_beyond_memory_is_refused_with_one_that_fits(monkeypatch):
 
     pages = {"SC_AVPHYS_PAGES": 1, "SC_PAGE_SIZE": 10**6}
     monkeypatch.setattr(interface.os, "sysconf", pages.__getitem__)
-    with refuses(Mistake.TOO_LARGE, ""):
+    with refuses(Mistake.TOO_LARGE, "", says="64 x 64"):
         pressed()
 
 
@@ -405,7 +405,7 @@ def test_a_map_in_nanometres_is_asked_for_its_unit():
     heights = 100.0 * np.random.default_rng(3).normal(size=(32, 32))
     with (
         pytest.warns(tb.RangeWarning, match="was 100 nm meant") as heard,
-        refuses(Mistake.TOO_LARGE, ""),
+        refuses(Mistake.TOO_LARGE, "", says="heights and spacing, 100,"),
     ):
         tb.explicit.solve(contact, heights, spacing=100, F_star=1e-3)
     assert {str(each.message).split(" =")[0] for each in heard} == {"spacing", "heights (rms)"}

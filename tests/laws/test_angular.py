@@ -426,7 +426,7 @@ def test_blunt_faces_are_told_of():
 
 def test_steep_faces_cut():
     friction = tb.outputs.Friction(tau_ss=1e6, tau_sa=1e6)
-    with warns_of("friction.cuts"):
+    with warns_of("friction.cuts", says="50°"):
         tb.solve(contact(angular(0.3, 50.0), outputs=(friction,)), pressure=1e6)
 
 

@@ -286,7 +286,7 @@ def test_pegs_of_equal_numbers_share_their_sums(package):
 def test_particles_wider_than_their_size_may_jam(package, monkeypatch):
     monkeypatch.setattr(package.pegs.OnePeg, "breadth", 100.0)
     contact = pegs(package.Pegs())
-    with refuses(Mistake.FULL, ""):
+    with refuses(Mistake.FULL, "", says="law pegs would cover 1.44"):
         tb.solve(contact, F_star=1e-5)
 
 

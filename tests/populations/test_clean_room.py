@@ -72,7 +72,7 @@ def test_ten_times_the_dust_a_class_higher_and_twice_in_twice_the_time():
 
 @pytest.mark.parametrize("value", [0, 10, -1, True, "clean", None, math.nan])
 def test_classes_that_are_none(value):
-    with refuses(Mistake.OPTION, ""):
+    with refuses(Mistake.OPTION, "", says="ISO 14644-1"):
         read_class(value)
 
 

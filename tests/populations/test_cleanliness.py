@@ -188,9 +188,9 @@ def test_tail_is_the_fall_of_the_classes():
 
 
 def test_unknown_classes():
-    with refuses(Mistake.OPTION, ""):
+    with refuses(Mistake.OPTION, "", says='NAS 1638 class "000"'):
         tb.Particles.from_cleanliness_class("nas1638", "000", gap=1e-6, material=STEEL)
-    with refuses(Mistake.OPTION, ""):
+    with refuses(Mistake.OPTION, "", says="SAE AS4059 class 6"):
         tb.Particles.from_cleanliness_class("as4059", 6, gap=1e-6, material=STEEL)
     with refuses(Mistake.OPTION, "standard", value='"iso"'):
         tb.Particles.from_cleanliness_class("iso", "6", gap=1e-6, material=STEEL)
@@ -298,7 +298,7 @@ def test_amount_of_dust():
 def test_bad_dust(options, said):
     with pytest.raises(tb.InvalidValue, match=said):
         tb.Particles.test_dust("A2", material=SILICA, **options)
-    with refuses(Mistake.OPTION, ""):
+    with refuses(Mistake.OPTION, "", says='"A9"'):
         tb.Particles.test_dust("A9", material=SILICA, **options)
 
 

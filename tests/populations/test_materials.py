@@ -420,7 +420,7 @@ def test_vickers_numbers_are_written_in_many_ways(text):
 
 
 def test_a_load_is_no_hardness():
-    with refuses(Mistake.UNIT, ""):
+    with refuses(Mistake.UNIT, "", says="hardness number"):
         quantity_to_si("500 HV", {"unit": "Pa", "meaning": "nominal pressure"})
 
 

@@ -654,7 +654,7 @@ def test_huge_files_are_refused_before_they_are_read(tmp_path, library):
     head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (900000, 900000), }"
     head = head.ljust(117) + b"\n"
     path.write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head)
-    with refuses(Mistake.TOO_LARGE, ""):
+    with refuses(Mistake.TOO_LARGE, "", says="900000 x 900000"):
         from_topography(path, unit="nm", spacing=1e-7)
     with path.open("wb") as file:
         file.truncate(2_000_000_000)

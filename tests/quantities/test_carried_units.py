@@ -487,7 +487,7 @@ def test_units_with_brackets_are_understood():
 
     got = body_conductance(1e-6, k=50e3 * u.mW / u.m / u.K, D=1.3e-5)
     assert got == body_conductance(1e-6, k=50.0, D=1.3e-5)
-    with refuses(Mistake.UNIT, "k"):
+    with refuses(Mistake.UNIT, "k", says="[W/(m K)]"):
         body_conductance(1e-6, k=5 * u.m, D=1.3e-5)
 
 

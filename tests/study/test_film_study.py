@@ -233,7 +233,7 @@ def test_a_radius_of_centimetres_is_no_slip():
     assert check(data_of(conjunction=roller | {"R": 0.5})).notes == ()
     (note,) = check(data_of(conjunction=roller | {"R": "9.5 m"})).notes  # of a journal in its bush
     assert 'film.conjunction.R = "9.5 m"' in note
-    with refuses(Mistake.UNIT, "film.conjunction.R", value="9.5"):
+    with refuses(Mistake.UNIT, "film.conjunction.R", value="9.5", says='"9.5 mm"'):
         check(data_of(conjunction=roller | {"R": 9.5}))
 
 
