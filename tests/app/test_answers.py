@@ -279,6 +279,42 @@ def test_the_next_process_is_there_before_it_is_asked_for(monkeypatch):
         solver.close()
 
 
+class Killed:
+    """A process that was killed and does not look so yet."""
+
+    exitcode = -9
+
+    def is_alive(self):
+        return True
+
+    def join(self, *_):
+        pass
+
+    kill = join
+
+
+class Torn:
+    """The pipe of a process that is gone."""
+
+    def send(self, _):
+        raise BrokenPipeError
+
+    def close(self):
+        pass
+
+
+def test_processes_that_ended_before_a_call_are_not_laid_to_it():
+    solver = Solver()
+    try:
+        for _ in range(TRIES + 1):
+            gone = Killed()
+            solver.all[gone] = time.perf_counter()
+            solver.idle.put((gone, Torn()))
+        assert asyncio.run(solver.ask(len, "abc")) == 3
+    finally:
+        solver.close()
+
+
 def test_a_study_is_read_again_after_nobody_could(tmp_path, monkeypatch):
     from thirdbody.app import state as states
 

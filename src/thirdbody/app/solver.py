@@ -203,7 +203,8 @@ class Solver:
         """Processes that wait for a call; None for one that did not get ready."""
         self.waiting = 0
         """Calls that wait for a process."""
-        self.all: set[BaseProcess] = set()
+        self.all: dict[BaseProcess, float] = {}
+        """Processes that live, as far as is known, and when each was started."""
         self.lock = threading.Lock()
         self.closed = False
 
@@ -238,6 +239,7 @@ class Solver:
         if self.closed or not wanted():
             raise asyncio.CancelledError
         ends: list[str] = []
+        asked = time.perf_counter()
         while len(ends) < TRIES:
             began = time.perf_counter()
             process, pipe = self._free()
@@ -252,7 +254,9 @@ class Solver:
                 break
             except (EOFError, OSError):
                 process.join(1.0)  # the pipe may close before the process has ended
-                ends.append(ended_by(process.exitcode))
+                # of those that were there before the call, more than one ended without it
+                if not ends or self.all.get(process, asked) >= asked:
+                    ends.append(ended_by(process.exitcode))
                 self._kill(process, pipe)
                 if self.closed or not wanted():
                     raise asyncio.CancelledError from None
@@ -308,7 +312,7 @@ class Solver:
             began = time.perf_counter()
             with interrupts_blocked():
                 process.start()
-            self.all.add(process)
+            self.all[process] = began
             self.starting.add(began)
         theirs.close()
         threading.Thread(target=self._get_ready, args=(process, ours, began), daemon=True).start()
@@ -346,7 +350,7 @@ class Solver:
         process.kill()
         process.join()
         with self.lock:
-            self.all.discard(process)
+            self.all.pop(process, None)
 
     def close(self) -> None:
         """End every process."""
