@@ -505,3 +505,34 @@ def test_crowded_samples_are_counted_and_told():
     with warnings.catch_warnings():
         warnings.simplefilter("error", tb.RangeWarning)
         assert tb.propagate(contact, pressure=50e6, **asked).crowded == 0
+
+
+def test_inputs_without_a_symbol_have_words_beside_their_bars():
+    from thirdbody import plot
+    from thirdbody.analysis.inputs import words_of
+
+    steel = tb.materials["S45C"]
+    parts = tuple(
+        tb.Particles(
+            name=name,
+            material=tb.materials["quartz"],
+            areal_density=1e9,
+            diameter=tb.TruncatedGaussian(mean=500e-9, std=50e-9, n=3.0),
+        )
+        for name in ("dust", "grit")
+    )
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=parts,
+    )
+    hardness = "particles.1.material.H"
+    found = tb.propagate(
+        contact,
+        vary={"roughness.R": (2e-6, 3e-6), hardness: (5e9, 14e9)},
+        pressure=1e8,
+        samples=64,
+        outputs=["A_t"],
+    )
+    words = [each.get_text() for each in plot.tornado(found, "A_t").get_yticklabels()]
+    assert set(words) == {"$R$", words_of(contact, hardness)}

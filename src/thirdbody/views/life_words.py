@@ -45,9 +45,8 @@ SIZES = ("4 µm", "6 µm", "14 µm")
 LARGEST_FLOWS = 3
 RISES = 1.5
 """Factor by which dirt grows while its code stays, from which on it is told."""
-NEVER = "for ever"
-SIZES = ("4 µm", "6 µm", "14 µm")
-LARGEST_FLOWS = 3
+MOST_TIMES, MOST_EVENTS = 4, 6
+"""Times of one kind of event that are listed, and kinds of events."""
 
 
 def answer(found: LifeResult) -> list[str]:
@@ -172,11 +171,21 @@ def _largest_flows(history: LifeHistory) -> str:
 
 
 def events(history: LifeHistory | DryHistory) -> list[str]:
-    """What happened, a sentence each; of many alike the first and the last."""
-    out = [f"After {duration_of(each.time)}: {each.sentence}." for each in history.events]
-    if len(out) <= 6:
+    """What happened and when, a sentence for each kind; of many kinds the first and the last."""
+    times: dict[str, list[str]] = {}
+    for each in history.events:
+        times.setdefault(each.sentence, []).append(duration_of(each.time))
+    out = [f"After {_list_times(when)}: {what}." for what, when in times.items()]
+    if len(out) <= MOST_EVENTS:
         return out
     return [*out[:3], f"... {len(out) - 4} more events ...", out[-1]]
+
+
+def _list_times(times: list[str]) -> str:
+    """Times in words, of many the first and the last."""
+    if len(times) <= MOST_TIMES:
+        return join_words(times)
+    return f"{times[0]}, and {len(times) - 1} times more until {times[-1]}"
 
 
 def rows(found: LifeResult) -> list[list[str]]:

@@ -172,7 +172,7 @@ def tornado(
     elif of in ("d", "h"):
         ax.xaxis.set_major_formatter(EngFormatter("m"))
         ax.set_xlabel(ax.get_xlabel().removesuffix(" [m]"))
-    ax.set_yticks(range(len(rows)), [_input_label(label) for label in rows])
+    ax.set_yticks(range(len(rows)), [_input_label(data, label) for label in rows])
     ax.tick_params(axis="y", length=0)
     ax.grid(visible=False, axis="y")
     ax.set_ylim(len(rows) - 0.4, -0.6)
@@ -260,8 +260,10 @@ def _output_label(of: str) -> str:
     return OUTPUT_LABELS.get(of, f"{about.meaning[:1].upper() + about.meaning[1:]} [{about.unit}]")
 
 
-def _input_label(label: str) -> str:
-    """Label of an input beside its bar; of joined inputs, all names."""
+def _input_label(data: Propagation, label: str) -> str:
+    """Label of an input beside its bar, in symbols where it has one; of joined inputs, of all."""
+    from ...analysis.inputs import words_of
+
     names = [name.strip() for name in label.split("+")]
     sides = {name.rpartition(".")[0]: name.rpartition(".")[2] for name in names}
     if set(sides) <= set(BODIES):
@@ -272,7 +274,11 @@ def _input_label(label: str) -> str:
         symbol = {"E": "$E$", "nu": r"$\nu$", "H": "$H$"}.get(letter, letter)
         return f"{symbol} of {bodies}"
     loads = {"pressure": "pressure", "F_star": "load $F^*$", "d": "separation $d$"}
-    return loads.get(label) or " + ".join(SYMBOLS.get(name, (name, ""))[0] for name in names)
+    if label in loads:
+        return loads[label]
+    if all(name in SYMBOLS for name in names):
+        return " + ".join(SYMBOLS[name][0] for name in names)
+    return words_of(data.contact, label)
 
 
 def _unit_of(data: Propagation, label: str) -> str:
