@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from thirdbody.study import check, run_film
+from thirdbody.study.run import MOST_SPEEDS, run_film_curve
 
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
-from thirdbody.app.tabs.film import MOST, START, film_figures, solved
+from thirdbody.app.tabs.film import START, film_figures
 from thirdbody.views.film_words import point
 
 STUDY = Path(__file__).parents[2] / "examples" / "oil_film.toml"
@@ -24,7 +25,7 @@ def study_of(**film):
 
 def test_the_curve_is_that_of_the_library():
     study = check(study_of())
-    found, middle = solved(study)
+    found, middle = run_film_curve(study)
     curve = study.film.stribeck(study.contact)
     assert found["states"]["mu"] == curve.mu.values.tolist()
     figures = film_figures(found, middle)
@@ -33,28 +34,28 @@ def test_the_curve_is_that_of_the_library():
     words = [note["text"] for note in figures["film shares"]["layout"]["annotations"]]
     assert words == ["boundary", "mixed", "full film"]
     # what a user waits for; benchmarks/waiting.py measures it
-    assert len(found["states"]["speed"]) <= MOST + 1
+    assert len(found["states"]["speed"]) <= MOST_SPEEDS + 1
 
 
 def test_one_speed_is_drawn_with_what_is_near():
     study = check(study_of(speed="0.5 m/s"))
-    found, at = solved(study)
-    assert len(found["states"]["speed"]) == MOST + 1
+    found, at = run_film_curve(study)
+    assert len(found["states"]["speed"]) == MOST_SPEEDS + 1
     assert found["states"]["speed"][at] == 0.5
     assert point(found, at) == point(run_film(study), 0)
 
 
 def test_many_speeds_are_thinned():
-    found, _ = solved(check(study_of(speed={"from": 0.01, "to": 1.0, "points": 500})))
+    found, _ = run_film_curve(check(study_of(speed={"from": 0.01, "to": 1.0, "points": 500})))
     speeds = found["states"]["speed"]
-    assert len(speeds) == MOST
+    assert len(speeds) == MOST_SPEEDS
     assert (speeds[0], speeds[-1]) == (0.01, 1.0)
 
 
 def test_a_film_without_particles_has_no_curves_of_them():
     data = study_of()
     del data["particles"]
-    found, at = solved(check(data))
+    found, at = run_film_curve(check(data))
     names = {t["name"] for made in film_figures(found, at).values() for t in made["data"]}
     assert "asperities" in names
     assert not any("particle" in name for name in names)

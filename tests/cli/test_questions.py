@@ -4,13 +4,16 @@ import csv
 import json
 import math
 import tomllib
+import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from thirdbody import cli
-from thirdbody.study import check
+from thirdbody.study import check, load_study, run_film
+from thirdbody.study.run import run_film_curve
 from thirdbody.study.run_connector import load_connector, run_connector
 from thirdbody.study.run_plate import load_plate, run_plate
 
@@ -216,3 +219,56 @@ def test_film_names_the_command_that_answers_a_study_without_oil(command, kind):
     done = run("film", f"{kind}.toml")
     assert done.exit_code == 2
     assert f"thirdbody {command} answers this study" in " ".join(done.stderr.split())
+
+
+# ------------------------------------------------------------------------------ figures
+def test_the_curve_of_a_connector_goes_through_its_table():
+    found = run_connector(load_connector("connector.toml"))
+    forces, one, every = found.curve()
+    for force, failure, of_all in zip(
+        found.force, found.failure, found.failure_of_all, strict=True
+    ):
+        assert math.log(failure) == pytest.approx(
+            np.interp(math.log(force), np.log(forces), np.log(one)), abs=0.03
+        )
+        assert math.log(of_all) == pytest.approx(
+            np.interp(math.log(force), np.log(forces), np.log(every)), abs=0.03
+        )
+
+
+def test_the_curve_of_a_plate_goes_through_its_table():
+    found = run_plate(load_plate("wafer-chuck.toml"))
+    sizes, kinds = found.curve()
+    (heights,) = kinds.values()
+    for grain, height in zip(found.grain, found.height, strict=True):
+        at = np.interp(math.log(grain), np.log(sizes), np.log(heights))
+        assert math.log(height) == pytest.approx(at, abs=0.05)
+
+
+@pytest.mark.parametrize(("command", "kind"), FILES.items())
+def test_a_figure_is_drawn_and_stands_in_the_workbook(command, kind):
+    pytest.importorskip("openpyxl")
+    study = Path(f"{kind}.toml")
+    done = run(command, study, "--figure", "a.png", "--xlsx", "a.xlsx")
+    assert done.exit_code == 0, done.stderr
+    assert Path("a.png").read_bytes()[:4] == b"\x89PNG"
+    with zipfile.ZipFile("a.xlsx") as parts:
+        assert [name for name in parts.namelist() if name.endswith(".png")]
+    again = run(command, study, "--figure", "a.txt", "--csv", "a.csv")
+    assert again.exit_code == 2
+    assert "must end in .png, .svg or .pdf" in again.stderr
+    assert not Path("a.csv").exists()
+
+
+def test_one_speed_of_a_film_is_drawn_with_others_around_it():
+    pytest.importorskip("openpyxl")
+    assert run("new", "ball-bearing", "6205").exit_code == 0
+    done = run("film", "ball-bearing.toml", "--figure", "a.png", "--xlsx", "a.xlsx")
+    assert done.exit_code == 0, done.stderr
+    assert Path("a.png").read_bytes()[:4] == b"\x89PNG"
+    with zipfile.ZipFile("a.xlsx") as parts:
+        assert [name for name in parts.namelist() if name.endswith(".png")]
+    study = load_study("ball-bearing.toml")
+    alone = run_film(study).states
+    curve, at = run_film_curve(study)
+    assert curve.states["h_T"][at] == pytest.approx(alone["h_T"][0], rel=1e-9)

@@ -406,7 +406,6 @@ def test_friction_that_is_not_known_is_said(tmp_path):
     ("arguments", "status", "sentence"),
     [
         (["--set", "film.load=-1"], 2, "film.load = -1 must be > 0"),
-        (["--set", "film.speed=1", "--figure", "o.png"], 2, "a curve needs several speeds"),
         (["--figure", "o.txt"], 2, "must end in .png, .svg or .pdf"),
         (["--set", "film.speed=1", "--csv", "no/o.csv"], 2, "there is no folder"),
     ],

@@ -11,9 +11,19 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ..quantities.tables import Table
 from ..version import __version__
 from .show import ALL, MOST_ROWS, some, some_times, terminal
-from .streams import STDOUT, TableFiles, remark, tell_written, warn_of
+from .streams import (
+    STDOUT,
+    TableFiles,
+    figure_format,
+    remark,
+    tell_written,
+    warn_of,
+    write_figure,
+)
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from ..views.workbook import Grid, Sheet
 
 __all__ = ["give_answer", "read_question"]
@@ -29,6 +39,7 @@ def read_question(
     settings: list[str] | None,
     files: TableFiles,
     *,
+    figure: Path | None = None,
     force: bool,
 ) -> Asked:
     """Question of a study file, after a check of the files to be written."""
@@ -36,9 +47,11 @@ def read_question(
     from ..study.whole import files_of
 
     asked = load(file, settings or ())
-    if files.paths:
-        refuse_clashes(files.paths, files_of(file, settings or ()))
-    files.need(force=force)
+    if figure is not None:
+        figure_format(figure)
+    if paths := [*files.paths, *([] if figure is None else [figure])]:
+        refuse_clashes(paths, files_of(file, settings or ()))
+    files.need(figure, force=force)
     return asked
 
 
@@ -53,18 +66,23 @@ def give_answer(
     last: Sequence[str],
     more: Sequence[More] = (),
     times: Sequence[float] | None = None,
+    draw: Callable[[], Figure] | None = None,
+    figure: Path | None = None,
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end.
 
     ``more`` are tables that follow the first one, each with the sentence above it. With the times
-    of its rows, the first table shows more of the beginning.
+    of its rows, the first table shows more of the beginning. What ``draw`` makes goes into the
+    workbook, and into the file ``figure`` where there is one.
     """
     files.write(
         *found.table(),
-        sheets=partial(_sheets, found, answer, (heads, rows), last, more),
+        sheets=partial(_sheets, found, answer, (heads, rows), last, more, draw),
         data=found.to_dict,
     )
     tell_written(*files.paths)
+    if draw is not None and figure is not None:
+        write_figure(figure, draw())
     if files.json != STDOUT:
         console = terminal()
         console.print(f"{found.title} (thirdbody {__version__})\n")
@@ -97,19 +115,21 @@ def _sheets(
     table: tuple[Sequence[str], Sequence[Sequence[str]]],
     last: Sequence[str],
     more: Sequence[More],
+    draw: Callable[[], Figure] | None,
 ) -> list[Sheet]:
+    from ..views.figure_files import png_of
     from ..views.printed_tables import grid_of_words
     from ..views.question_sheets import inputs_of, question_sheets
 
     given = found.asked.described
-    below: list[str | Grid] = []
+    below: list[str | Grid | bytes] = []
     for sentence, heads, rows, _ in more:
         below += [sentence, grid_of_words(heads, rows)]
     return question_sheets(
         found.title,
         answer,
         table,
-        [*below, *last],
+        [*below, *last, *([] if draw is None else [png_of(draw())])],
         states=found.table(),
         meanings=found.meanings,
         inputs=inputs_of(given.values, given.bodies, given.numbers),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
 from collections.abc import Iterable
 
@@ -15,7 +16,10 @@ from .load import pressed
 from .results import Entrained, FilmResult, Passing, StudyResult
 from .whole import Study
 
-__all__ = ["run_film", "run_study"]
+__all__ = ["MOST_SPEEDS", "run_film", "run_film_curve", "run_study"]
+
+MOST_SPEEDS, REACH = 80, 100.0
+"""Speeds of a curve that is drawn, and how far it goes beyond one speed."""
 
 
 def run_study(study: Study) -> StudyResult:
@@ -113,6 +117,32 @@ def run_film(study: Study) -> FilmResult:
         entrainment=brought,
         run_warnings=_new_sentences(study, sentences),
     )
+
+
+def run_film_curve(study: Study) -> tuple[FilmResult, int]:
+    """What `run_film` finds over the speeds of a study, and which of them is its own or middle.
+
+    One speed is shown with others around it, of many speeds some.
+
+    Parameters
+    ----------
+    study : Study
+        With a table [film].
+    """
+    film = study.film
+    if film is None:
+        return run_film(study), 0
+    speeds = np.unique(film.speed)
+    if len(speeds) == 1:
+        at = MOST_SPEEDS // 2
+        around = speeds[0] * REACH ** np.linspace(-1, 1, MOST_SPEEDS + 1)
+        around[at] = speeds[0]
+        speeds = around
+    elif len(speeds) > MOST_SPEEDS:
+        some = np.linspace(0, len(speeds) - 1, MOST_SPEEDS).round().astype(int)
+        speeds = speeds[np.unique(some)]
+    at_these = film.replace(speed=tuple(speeds.tolist()))
+    return run_film(dataclasses.replace(study, film=at_these)), len(speeds) // 2
 
 
 def _new_sentences(study: Study, sentences: Iterable[str]) -> tuple[str, ...]:

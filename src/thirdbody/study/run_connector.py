@@ -24,6 +24,8 @@ __all__ = ["ConnectorResult", "load_connector", "run_connector"]
 NEEDED = frozenset({"surfaces", "particles", "connector"})
 AROUND = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Forces of the table over the one that is asked for."""
+REACH, POINTS = 20.0, 41
+"""The curve goes so far below and above the forces, by so many points."""
 SIZES = 1.25
 """What sizes may be off by, as a factor."""
 VAGUE = 0.2
@@ -79,6 +81,13 @@ class ConnectorResult(AskedResult):
         """The connector, and the forces that are asked for."""
         connector = self.asked.connector.to_dict()
         return {"connector": connector, "force": plain_data(self.asked.forces)}
+
+    def curve(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Forces around those of the study, and how often one spot and the connector stay open."""
+        plug, asked = self.asked.connector, self.asked.forces
+        forces = np.geomspace(asked[0] / REACH, asked[-1] * REACH, POINTS)
+        one = plug.failures(forces)
+        return forces, one, np.array([plug.of_all(float(each)) for each in one])
 
     def numbers(self) -> dict[str, object]:
         """Numbers that hold for every force."""

@@ -26,6 +26,8 @@ __all__ = ["PlateResult", "load_plate", "run_plate"]
 NEEDED = frozenset({"surfaces", "particles", "plate"})
 QUANTILES = (0.5, 0.9, 0.99, 0.999)
 """Particles of the table where no diameters are asked for, by number."""
+REACH, POINTS = 10.0, 33
+"""The curve goes so far below and above the particles, by so many points."""
 THICKNESS = 1.1
 
 
@@ -82,6 +84,15 @@ class PlateResult(AskedResult):
     def inputs(self) -> dict[str, object]:
         """The plate on its chuck."""
         return {"plate": self.asked.chuck.to_dict()}
+
+    def curve(self) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Diameters around those of the table, and heights over particles of each kind."""
+        chuck = self.asked.chuck
+        sizes = np.geomspace(self.grain.min() / REACH, self.grain.max() * REACH, POINTS)
+        return sizes, {
+            name_of(dust, i): np.array([chuck.over(float(x), dust).height for x in sizes])
+            for i, dust in enumerate(chuck.particles)
+        }
 
     def numbers(self) -> dict[str, object]:
         """Number of bumps above the limit, and the particles that lift the plate to it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from typing import IO, TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -9,7 +10,10 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-__all__ = ["lay_out", "save_figure"]
+__all__ = ["lay_out", "png_of", "save_figure"]
+
+DPI = 150
+"""Of a picture in a workbook."""
 
 
 def lay_out(drawing: Figure, kind: str, *, dpi: float | None = None) -> None:
@@ -47,3 +51,10 @@ def save_figure(
     """Save a figure in a format, with further options of `matplotlib.figure.Figure.savefig`."""
     lay_out(drawing, kind, dpi=options.get("dpi"))
     drawing.savefig(file, format=kind, **options)
+
+
+def png_of(drawing: Figure) -> bytes:
+    """A figure as the bytes of a PNG, to be placed in a workbook."""
+    out = io.BytesIO()
+    save_figure(drawing, out, "png", dpi=DPI, metadata={"Software": "thirdbody"})
+    return out.getvalue()

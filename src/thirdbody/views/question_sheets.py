@@ -26,7 +26,7 @@ def question_sheets(
     title: str,
     answer: Sequence[str],
     table: tuple[Sequence[str], Sequence[Sequence[str]]] | None,
-    last: Sequence[str | Grid],
+    last: Sequence[str | Grid | bytes],
     *,
     states: tuple[Mapping[str, Sequence[object]], Mapping[str, str]],
     meanings: Mapping[str, str],
@@ -41,8 +41,8 @@ def question_sheets(
     title : str
     answer : sequence of str
         Sentences above the table.
-    last : sequence of str or Grid
-        Sentences and tables below it.
+    last : sequence of str, Grid or bytes
+        Sentences, tables and pictures below it.
     table : (heads, rows), optional
         As it is printed.
     states : (columns, units)
@@ -54,7 +54,7 @@ def question_sheets(
     warnings, citations : iterable of str
     """
     columns, units = states
-    found: list[str | Grid] = [*answer]
+    found: list[str | Grid | bytes] = [*answer]
     if table is not None:
         found.append(grid_of_words(*table))
     told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -20,10 +19,11 @@ from ..errors import Note, RangeWarning, ranked
 from ..populations.materials import NUMBERS
 from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
 from ..study.load import FORCE
+from ..study.run import run_film_curve
 from ..study.vocabulary import LOADS
 from ..version import __version__
 from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
-from .figure_files import save_figure
+from .figure_files import png_of
 from .film_words import point
 from .report.figures import first_figure
 from .report.found import Found, some_of
@@ -40,13 +40,13 @@ if TYPE_CHECKING:
 
 __all__ = [
     "amount_cells",
+    "draw_film",
     "film_sheets",
     "grid_of",
     "note_line",
     "state_sheets",
 ]
 
-CHART_DPI = 150
 MOST_ROWS = 100
 """States on the sheet of the answer."""
 MOST_LOADS = 6
@@ -67,7 +67,7 @@ def state_sheets(result: StudyResult) -> list[Sheet]:
     if contact.outputs:
         found.append(_output_grid(result))
     found += details(result)
-    found.append(_png(_figure_of_states(result)))
+    found.append(png_of(_figure_of_states(result)))
     meanings = _meanings_of_states(result)
     return _sheets(result, found, _rows_of_study(result), meanings)
 
@@ -82,7 +82,6 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
         The answer in words and tables, as the command prints it.
     """
     from ..systems.mixed_film import COLUMNS
-    from .plot.film import stribeck
 
     states = result.states
     found: list[str | Grid | bytes] = [*sentences]
@@ -93,7 +92,7 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
     else:
         table = grid_of(film_columns(result), states)
         found += _some_rows(_with_column(table, "regime", states["regime"].tolist()))
-        found.append(_png(stribeck(states, result.regime_speeds)))
+    found.append(png_of(draw_film(result)))
     meanings = {name: COLUMNS[name].meaning for name in states if name in COLUMNS}
     meanings |= {"hersey": "Hersey number", "largest": "largest particle dragged in"}
     for part in result.passing:
@@ -103,6 +102,19 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
     inputs = [] if body is None else [*value_rows(body, "body.")]
     inputs += [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
     return _sheets(result, found, inputs, meanings)
+
+
+def draw_film(result: FilmResult) -> Figure:
+    """Figure of a film over its speeds, or over others around the only one, which is marked."""
+    from .plot.film import stribeck
+
+    speeds = result.states["speed"]
+    if len(speeds) > 1:
+        return stribeck(result.states, result.regime_speeds)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)  # the answer has told of its own speed
+        curve, _ = run_film_curve(result.study)
+    return stribeck(curve.states, curve.regime_speeds, speed=float(speeds[0]))
 
 
 def _some_rows(grid: Grid) -> list[str | Grid]:
@@ -172,12 +184,6 @@ def _figure_of_states(result: StudyResult) -> Figure:
     )
     axes, _ = first_figure(found)
     return axes.figure  # type: ignore[return-value]
-
-
-def _png(drawing: Figure) -> bytes:
-    out = io.BytesIO()
-    save_figure(drawing, out, "png", dpi=CHART_DPI, metadata={"Software": "thirdbody"})
-    return out.getvalue()
 
 
 # -------------------------------------------------------------------------- the others

@@ -11,6 +11,7 @@ from ...study.connector import AskedConnector
 from ...study.run_connector import run_connector
 from ...systems.connector import Connector
 from ...views.connector_words import HEADS, answer, facts, rows, uncertainty
+from ...views.plot.questions import SELDOM
 from ..fields import Field
 from ..figures import figure, line, mark
 from ..question import Question, QuestionTab, Shown
@@ -20,8 +21,6 @@ __all__ = ["START", "TITLE", "build", "contents_of"]
 
 TITLE = "Connector"
 START: dict[str, Any] = {"radius": "2 mm", "force": "0.5 N", "contacts": 20}
-REACH, POINTS, LEAST = 20.0, 41, 1e-12
-"""The curve goes so far below and above the force, with so many points, and down to this."""
 FORCE = Field(
     name="force",
     kind="text",
@@ -49,12 +48,10 @@ def contents_of(answer_of_study: Answer) -> Shown:
     """The answer in words, numbers and a curve over the force."""
     asked = _question_of(answer_of_study)
     found, plug = run_connector(asked), asked.connector
-    forces = np.geomspace(asked.forces[0] / REACH, asked.forces[-1] * REACH, POINTS)
-    one = plug.failures(forces)
-    every = np.array([plug.of_all(float(each)) for each in one])
-    traces = [line(forces, np.where(one > LEAST, one, np.nan), "one contact", 0)]
+    forces, one, every = found.curve()
+    traces = [line(forces, np.where(one > SELDOM, one, np.nan), "one contact", 0)]
     if plug.contacts > 1 or plug.parallel > 1:
-        traces.append(line(forces, np.where(every > LEAST, every, np.nan), "connector", 1))
+        traces.append(line(forces, np.where(every > SELDOM, every, np.nan), "connector", 1))
     made = figure(
         traces,
         x="contact force [N]",

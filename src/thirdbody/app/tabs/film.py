@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import dataclasses
 from collections.abc import Awaitable, Callable
 from typing import NamedTuple
 
@@ -12,9 +11,10 @@ from nicegui import ui
 
 from ...errors import ThirdBodyError
 from ...quantities.say import value_of
-from ...study import FilmResult, Study, run_film
+from ...study import FilmResult
 from ...study.dirty_oil import dirty_oil, read_filter
 from ...study.film import SHAPES, SPEED
+from ...study.run import MOST_SPEEDS, run_film_curve
 from ...systems.film_conditions import Entrainment, FilmConditions
 from ...systems.film_formulas import Oil as OilProperties
 from ...views import oil_words
@@ -31,7 +31,7 @@ from ..text import as_shown
 from ..widgets import Facts, Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 
-__all__ = ["START", "TITLE", "build", "film_figures", "solved"]
+__all__ = ["START", "TITLE", "build", "film_figures"]
 
 TITLE = "Film"
 START: dict[str, object] = {
@@ -53,8 +53,6 @@ DIRT = {"concentration": 1e-6, "entry_ratio": 1.0, "friction": 0.1}
 FILTER = "as on a data sheet, e.g. 5=75, 10=1000; left out: the oil as it is"
 UNKNOWN = "not known"
 """A number that is not there: it is left out."""
-MOST, REACH = 80, 100.0
-"""Speeds of the curves, and how far they go beyond one speed."""
 SHADE = {"boundary": 0.35, "mixed": 0.15, "full film": 0.0}
 CURVES: dict[str, dict[str, tuple[str, int]]] = {
     "film friction": {
@@ -81,24 +79,8 @@ AXES = {
 }
 
 
-def solved(study: Study) -> tuple[FilmResult, int]:
-    """What `run_film` finds over the speeds of the study, and which speed is its own or middle."""
-    given = study.film
-    assert given is not None
-    speeds = np.unique(given.speed)
-    if len(speeds) == 1:
-        at = MOST // 2
-        around = speeds[0] * REACH ** np.linspace(-1, 1, MOST + 1)
-        around[at] = speeds[0]
-        speeds = around
-    elif len(speeds) > MOST:
-        speeds = speeds[np.unique(np.linspace(0, len(speeds) - 1, MOST).round().astype(int))]
-    found = run_film(dataclasses.replace(study, film=given.replace(speed=tuple(speeds.tolist()))))
-    return found, len(speeds) // 2
-
-
 def _solved(answer: Answer) -> tuple[FilmResult, int]:
-    return solved(answer.study)
+    return run_film_curve(answer.study)
 
 
 class Oil(NamedTuple):
@@ -209,7 +191,7 @@ class Film:
 
     def _results(self) -> None:
         self.said = ui.label().classes("hint").props('data-fact="film speed"')
-        self.slider = Slider(min=0, max=MOST, step=1, value=0)
+        self.slider = Slider(min=0, max=MOST_SPEEDS, step=1, value=0)
         self.slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
         self.slider.on_value_change(self._moved)
         self.facts = Facts(kind="film: ")

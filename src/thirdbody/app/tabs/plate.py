@@ -10,7 +10,6 @@ import numpy as np
 from ...study.plate import AskedPlate
 from ...study.run_plate import run_plate
 from ...systems.chuck import Chuck
-from ...systems.connector import name_of
 from ...systems.plate_over_particle import ATOM
 from ...views.plate_words import answer, facts, heads, rows, uncertainty
 from ..fields import Field
@@ -22,7 +21,6 @@ __all__ = ["START", "TITLE", "build", "contents_of"]
 
 TITLE = "Wafer"
 START: dict[str, Any] = {"thickness": "775 um", "pressure": "80 kPa"}
-REACH, POINTS = 10.0, 33
 GRAIN = Field(
     name="grain",
     kind="text",
@@ -50,12 +48,11 @@ def contents_of(answer_of_study: Answer) -> Shown:
     """The answer in words, numbers and a curve over the size of the particle."""
     asked = _question_of(answer_of_study)
     found, chuck = run_plate(asked), asked.chuck
-    sizes = np.geomspace(found.grain.min() / REACH, found.grain.max() * REACH, POINTS)
+    sizes, kinds = found.curve()
     traces = []
-    for i, dust in enumerate(chuck.particles):
-        heights = np.array([chuck.over(float(x), dust).height for x in sizes])
-        heights[heights < ATOM] = np.nan
-        traces.append(line(1e6 * sizes, 1e9 * heights, plain(name_of(dust, i)), i))
+    for i, (name, heights) in enumerate(kinds.items()):
+        seen = np.where(heights < ATOM, np.nan, heights)
+        traces.append(line(1e6 * sizes, 1e9 * seen, plain(name), i))
     traces.append(line(1e6 * sizes, 1e9 * sizes, "as high as the particle", 5))
     if chuck.limit is not None:
         level = np.full(2, 1e9 * chuck.limit)

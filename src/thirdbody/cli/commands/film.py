@@ -57,7 +57,7 @@ class Options:
     parquet: ParquetFile = None
     force: Force = False
     figure: Path | None = option(
-        "--figure", "Draw the curve over speed, as .png, .svg or .pdf.", "FILE"
+        "--figure", "Draw the film over speed, as .png, .svg or .pdf.", "FILE"
     )
     filter_text: FilterText = None
     settings: Settings = None
@@ -89,9 +89,9 @@ def command(options: Options) -> None:
     found = _Found(result, oil, filtered, what_ifs)
     drawn = None
     if options.figure is not None:
-        from ...views.plot.film import stribeck
+        from ...views.study_sheets import draw_film
 
-        drawn = stribeck(result.states, result.regime_speeds)
+        drawn = draw_film(result)
     files.write(
         *result.table(),
         sheets=partial(_sheets, found),

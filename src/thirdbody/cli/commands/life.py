@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
@@ -20,7 +21,12 @@ from ..options import (
     argument,
     option,
 )
-from ..streams import TableFiles, figure_format, warn_of, write_figure
+from ..streams import TableFiles, warn_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ...views.plot.life import Histories
 
 __all__ = ["command", "warn_of"]
 
@@ -91,7 +97,14 @@ def _tell_history(options: Options) -> None:
         read_iso4406(options.flow_for)
     fine = None if options.filter_text is None else read_filter(options.filter_text)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_question(load_life, options.study, options.settings, files, force=options.force)
+    asked = read_question(
+        load_life,
+        options.study,
+        options.settings,
+        files,
+        figure=options.figure,
+        force=options.force,
+    )
     if isinstance(asked, AskedDry):
         if options.flow_for is not None:
             raise InvalidValue("--flow-for sizes the filters of an oil; [life.dry] has none")
@@ -100,9 +113,6 @@ def _tell_history(options: Options) -> None:
     elif fine is not None and (asked.rolling is None or not asked.circuit.filters):
         lacks = "[[life.filters]]" if asked.rolling is not None else FILM_TABLES
         raise InvalidValue(f"--filter asks for dents with another filter; the study has no {lacks}")
-    if options.figure is not None:
-        figure_format(options.figure)
-        files.need(options.figure, force=options.force)
     bands = bool(asked.uncertainty)
     contact = isinstance(asked, AskedDry) or asked.contact is not None
     if options.keep is not None and not (bands or contact):
@@ -113,11 +123,6 @@ def _tell_history(options: Options) -> None:
     of = "histories" if bands else "steps"
     with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep, of=of):
         found = run_life(asked, progress=bands, keep=options.keep, filter=fine)
-    drawn = None
-    if options.figure is not None:
-        from ...views.plot.life import life
-
-        drawn = life(found.history)
     words: Any = life_dry_words if isinstance(found, DryResult) else life_words
     sized = []
     if options.flow_for is not None and isinstance(found, LifeResult):
@@ -132,9 +137,15 @@ def _tell_history(options: Options) -> None:
         last=words.last_words(found),
         times=found.history.times.tolist(),
         more=tables_of_dents(found.dents) if isinstance(found, LifeResult) else (),
+        draw=partial(_draw, found.history),
+        figure=options.figure,
     )
-    if options.figure is not None and drawn is not None:
-        write_figure(options.figure, drawn)
+
+
+def _draw(history: Histories) -> Figure:
+    from ...views.plot.life import life
+
+    return life(history)
 
 
 def _tell_reports(options: Options, reports: Path) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +12,11 @@ from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
 from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile
 from ..streams import TableFiles, warn_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ...study.run_plate import PlateResult
 
 __all__ = ["command", "warn_of"]
 
@@ -33,6 +39,14 @@ def command(
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            "--figure",
+            metavar="FILE",
+            help="Draw the height over the diameter, as .png, .svg or .pdf.",
+        ),
+    ] = None,
     force: Force = False,
     settings: Settings = None,
 ) -> None:
@@ -44,7 +58,7 @@ def command(
     from ...views.plate_words import MEANS, answer, heads, rows, uncertainty
 
     files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    asked = read_question(load_plate, study, settings, files, force=force)
+    asked = read_question(load_plate, study, settings, files, figure=figure, force=force)
     with heartbeat("plate"):
         found = run_plate(asked)
     give_answer(
@@ -55,4 +69,12 @@ def command(
         rows=rows(found),
         means=MEANS,
         last=uncertainty(found),
+        draw=partial(_draw, found),
+        figure=figure,
     )
+
+
+def _draw(found: PlateResult) -> Figure:
+    from ...views.plot.questions import draw_heights
+
+    return draw_heights(found)

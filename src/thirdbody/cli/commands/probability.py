@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +12,11 @@ from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
 from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile
 from ..streams import TableFiles, warn_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ...study.run_connector import ConnectorResult
 
 __all__ = ["command", "warn_of"]
 
@@ -31,6 +37,14 @@ def command(
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            "--figure",
+            metavar="FILE",
+            help="Draw how often it fails over the force, as .png, .svg or .pdf.",
+        ),
+    ] = None,
     force: Force = False,
     settings: Settings = None,
 ) -> None:
@@ -39,7 +53,7 @@ def command(
     from ...views.connector_words import HEADS, MEANS, answer, rows, uncertainty
 
     files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    asked = read_question(load_connector, study, settings, files, force=force)
+    asked = read_question(load_connector, study, settings, files, figure=figure, force=force)
     with heartbeat("probability"):
         found = run_connector(asked)
     give_answer(
@@ -50,4 +64,12 @@ def command(
         rows=rows(found),
         means=MEANS,
         last=uncertainty(found),
+        draw=partial(_draw, found),
+        figure=figure,
     )
+
+
+def _draw(found: ConnectorResult) -> Figure:
+    from ...views.plot.questions import draw_failures
+
+    return draw_failures(found)

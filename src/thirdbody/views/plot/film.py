@@ -56,6 +56,8 @@ def bands_of(u: Any, changes: RegimeSpeeds | Mapping[str, float | None]) -> list
 def stribeck(
     curve: xarray.Dataset | Mapping[str, Any],
     changes: RegimeSpeeds | Mapping[str, float | None],
+    *,
+    speed: float | None = None,
 ) -> Figure:
     """Friction, load shares and film thickness over speed, with the regimes behind them.
 
@@ -67,6 +69,8 @@ def stribeck(
         From `thirdbody.stribeck`, or its columns.
     changes : RegimeSpeeds or mapping
         From `lubrication.regime_speeds`.
+    speed : float, optional
+        One to mark [m/s].
 
     Returns
     -------
@@ -104,6 +108,8 @@ def stribeck(
     every = figure.subplots(len(panels), 1, sharex=True)
     for panel, ax in zip(panels, every, strict=True):
         _draw(ax, panel, u, columns, bands_of(u, changes))
+        if speed is not None:
+            ax.axvline(speed, color="0.25", linewidth=1.0, linestyle=(0, (1, 1)))
     _name_regimes(every[0], bands_of(u, changes))
     every[-1].set_xlabel("Entrainment speed $u$ [m/s]")
     return figure
