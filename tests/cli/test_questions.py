@@ -52,8 +52,8 @@ def test_how_often_a_connector_fails_to_close():
 def test_how_high_a_wafer_stands_over_a_grain():
     done = run("plate", "wafer-chuck.toml")
     told = said(done)
-    assert "The plate stands 410 nm high over a particle of 10 µm (quartz)" in told
-    assert "Above the limit of 50 nm there are 1.78 bumps on a plate" in told
+    assert "The plate stands at most 410 nm high over a particle of 10 µm (quartz)" in told
+    assert "Above the limit of 50 nm there are at most 1.78 bumps on a plate" in told
     assert "16.8 % of the plates have none" in told
     assert done.stderr.count("warning: ") == 2
 

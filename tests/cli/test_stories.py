@@ -157,8 +157,8 @@ def test_how_often_does_this_connector_fail_to_close(run):
 def test_how_high_does_a_wafer_stand_over_a_grain(run):
     assert run("new", "wafer-chuck").strip() == "thirdbody plate wafer-chuck.toml"
     told = " ".join(run("plate", "wafer-chuck.toml").split())
-    assert "The plate stands 410 nm high over a particle of 10 µm (quartz)" in told
-    assert "1.78 bumps on a plate, and 16.8 % of the plates have none" in told
+    assert "The plate stands at most 410 nm high over a particle of 10 µm (quartz)" in told
+    assert "1.78 bumps on a plate, and at least 16.8 % of the plates have none" in told
     pins = json.loads(run("plate", "wafer-chuck.toml", "--json", "--set", "plate.touching=0.02"))
     assert pins["bumps"] == pytest.approx(0.02 * 1.78, rel=0.01)
 
@@ -184,11 +184,10 @@ def test_dust_or_steel_in_my_bearing_and_would_a_finer_filter_help(run):
     assert whole.count("No particle is narrower than the gap of 288.3 nm") == 1
     assert "e_C = 0.073, and the life factor a_ISO is 1.6 (50 in clean oil)" in told
     most = (
-        r"Most uncertain: the hardness of dust\. With 10 GPa and 14\.4 GPa, one in twenty of the "
+        r"Most uncertain: the hardness of dust\. With 10 GPa and 14\.4 GPa, one in twenty dents of "
     )
-    assert re.search(
-        most + r"deepest dents is beyond \d+ nm to [\d.]+ µm;", " ".join(shown.split())
-    )
+    assert re.search(most + r"the deepest kind is beyond \d+ nm to [\d.]+ µm;", whole)
+    assert "For the life: the number of particles. With half and twice as many" in whole
     told = first_sentences(run("film", "ball-bearing.toml", "--filter", "5=75, 10=1000"))
     assert told.startswith("The filter takes the dents from 25000 to 760 an hour, 33 times fewer")
     assert "a_ISO from 1.6 to 50, 31 times the life" in told
@@ -201,7 +200,7 @@ def test_the_connector_and_the_wafer_answer_on_the_first_two_lines(run):
     assert told.startswith("Under 0.5 N the connector fails to close once in 210 closings")
     run("new", "wafer-chuck")
     told = first_sentences(run("plate", "wafer-chuck.toml"))
-    assert told.startswith("The plate stands 410 nm high over a particle of 10 µm (quartz)")
+    assert told.startswith("The plate stands at most 410 nm high over a particle of 10 µm (quartz)")
 
 
 NOTEBOOK = """

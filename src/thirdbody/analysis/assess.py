@@ -422,8 +422,16 @@ def _outside(found: Propagation) -> list[str]:
         f"{words_of(found.contact, label)} lies outside what its range says; nominal results and "
         "bands do not belong together."
         for label, known in found.inputs.items()
-        if not TINY < known.cdf(_nominal(found, label)) < 1 - TINY
+        if _is_beyond(known, _nominal(found, label))
     ]
+
+
+def _is_beyond(known: Uncertain, value: float) -> bool:
+    """Whether a value is none that a range has; its ends are."""
+    low, high = known.quantile(0.0), known.quantile(1.0)
+    if math.isfinite(low) and math.isfinite(high):
+        return not low <= value <= high
+    return not TINY < known.cdf(value) < 1 - TINY
 
 
 def _decisive(found: Propagation) -> str:

@@ -39,6 +39,15 @@ JSON_KEYS = (
     {"title", "objectives", "values", "tolerance"},
 )
 """Keys by which JSON is known: of surface; of solve, film; of design."""
+NAMED = {
+    ".csv": "table",
+    ".xlsx": "workbook",
+    ".parquet": "Parquet file",
+    ".json": "JSON",
+    ".html": "page",
+    ".pdf": "PDF",
+}
+"""Ends of names, and the kinds of files that have them."""
 FIRST = 65536
 """Bytes in which a file of text says what it is."""
 
@@ -63,7 +72,12 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
     for path, kind in places:
         if path is None:
             continue
-        if why := hindrance(path):
+        if (other := NAMED.get(path.suffix.lower(), kind)) != kind and kind in NAMED.values():
+            end = next(end for end, each in NAMED.items() if each == kind)
+            rule = f"cannot write {path}: that is the name of a {other}, and a {kind} goes into it"
+            hint = f"give a name that ends in {end}"
+            problems.append(Problem("", rule, hint=hint, code=Mistake.UNWRITABLE))
+        elif why := hindrance(path):
             problems.append(Problem("", f"cannot write {path}: {why}", code=Mistake.UNWRITABLE))
         elif not force and not _may_go(path, kind):
             problems.append(

@@ -79,6 +79,8 @@ class Life(Record):
         Contamination factor, life factor, and that of clean oil, e_C = 1 [1]; NaN with ``why``.
     hours : float
         Rating life a_ISO L_10 [h].
+    load_over_rating : float
+        Equivalent load over the basic dynamic load rating, P/C [1].
     why : str
         Why there is no factor.
     """
@@ -90,6 +92,7 @@ class Life(Record):
     a_ISO: float = math.nan
     clean: float = math.nan
     hours: float = math.nan
+    load_over_rating: float = math.nan
     why: str = ""
 
 
@@ -271,4 +274,5 @@ def _life(
         return Life(**known, why=error.problems[0])
     exponent = 3.0 if body.rated_as == "ball" else 10 / 3
     hours = float(a_ISO * (body.rating / P) ** exponent * 1e6 / (turns * HOUR))
-    return Life(**known, e_C=e_C, a_ISO=a_ISO, clean=clean, hours=hours)
+    known |= {"e_C": e_C, "a_ISO": a_ISO, "clean": clean}
+    return Life(**known, hours=hours, load_over_rating=P / body.rating)

@@ -51,6 +51,11 @@ class OilWhatIf(Record):
         """The largest of the three, high over low."""
         return max(_ratio(each) for each in (self.dents, self.depth, self.a_ISO))
 
+    @property
+    def life_ratio(self) -> float:
+        """Life factor, high over low; 1 where there is none."""
+        return _ratio(self.a_ISO)
+
 
 def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
     """What dents and life hang on, the most first: number and hardness of particles, viscosity.

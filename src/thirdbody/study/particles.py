@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.distributions import Histogram
 from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
@@ -193,7 +193,37 @@ def _particles(reader: Reader, path: str, data: object) -> object:
         if isinstance(name, str) and name and named.setdefault(name, i) != i:
             rule = f"is the name of {path}.{named[name]} as well; results could not tell them apart"
             reader.mistakes.append(Problem(f"{path}.{i}.name", rule, say(name), code=Mistake.CLASH))
+    _note_counts(reader, path, data)
     return reader.read_each({f"{path}.{i}": table for i, table in enumerate(data)}, _population)
+
+
+def _note_counts(reader: Reader, path: str, data: list[Any]) -> None:
+    """Note kinds of particles that are no parts of one count of an oil."""
+    counted = [table for table in data if isinstance(get(table, "iso4406"), str)]
+    codes = list(dict.fromkeys(table["iso4406"] for table in counted))
+    if len(codes) > 1:
+        reader.notes.append(
+            Note(
+                f"{path} have the codes {' and '.join(codes)}: the oil holds them all together",
+                code="counts",
+                action="where one count of the oil saw all of them, give each its code and a share",
+            )
+        )
+        return
+    shares = [1.0 if (part := get(table, "share")) is None else part for table in counted]
+    if len(shares) > 1 and all(map(_is_number, shares)) and sum(shares) > 1 + 1e-9:
+        reader.notes.append(
+            Note(
+                f"{path} hold {sum(shares):.3g} times what code {codes[0]} counts together: the "
+                "oil is dirtier than its code",
+                code="counts",
+                action="let the shares add up to 1",
+            )
+        )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _population(reader: Reader, path: str, data: Any) -> object:

@@ -82,12 +82,18 @@ class ConnectorResult(AskedResult):
         connector = self.asked.connector.to_dict()
         return {"connector": connector, "force": plain_data(self.asked.forces)}
 
+    @property
+    def failure_of_contact(self) -> np.ndarray:
+        """How often one contact stays open: all of its spots do [1]."""
+        return self.failure**self.asked.connector.parallel
+
     def curve(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Forces around those of the study, and how often one spot and the connector stay open."""
+        """Forces around those of the study, and how often one contact and all of them stay open."""
         plug, asked = self.asked.connector, self.asked.forces
         forces = np.geomspace(asked[0] / REACH, asked[-1] * REACH, POINTS)
         one = plug.failures(forces)
-        return forces, one, np.array([plug.of_all(float(each)) for each in one])
+        every = np.array([plug.of_all(float(each)) for each in one])
+        return forces, one**plug.parallel, every
 
     def numbers(self) -> dict[str, object]:
         """Numbers that hold for every force."""

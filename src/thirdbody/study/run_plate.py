@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,6 +29,8 @@ QUANTILES = (0.5, 0.9, 0.99, 0.999)
 REACH, POINTS = 10.0, 33
 """The curve goes so far below and above the particles, by so many points."""
 THICKNESS = 1.1
+CLOSE = 1e-4
+"""How near the diameter from which particles break is sought, over itself."""
 
 
 def load_plate(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedPlate:
@@ -62,6 +64,9 @@ class PlateResult(AskedResult):
         Mean number of bumps above the limit [1], and how often there is none [1].
     lifting : tuple of float
         Diameter of the particle of each kind that lifts the plate to the limit [m].
+    breaking : tuple of float
+        Diameter of each kind from which on most particles would break [m]; infinite where none
+        of the table would.
     what_ifs
         Of heights [m], or of bumps above the limit.
     """
@@ -77,6 +82,7 @@ class PlateResult(AskedResult):
     bumps: float | None = None
     none: float | None = None
     lifting: tuple[float, ...] = ()
+    breaking: tuple[float, ...] = ()
 
     title_without = "Plate"
     citations = ("Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed., ch. 3",)
@@ -135,6 +141,10 @@ def run_plate(asked: AskedPlate) -> PlateResult:
     lifting = () if chuck.limit is None else tuple(
         chuck.lifting(chuck.limit, dust) for dust in chuck.particles
     )  # fmt: skip
+    breaking = tuple(
+        _breaks_from(chuck, dust, [x for own, _, x in wanted if own is dust])
+        for dust in chuck.particles
+    )
     return PlateResult(
         asked=asked,
         at=at,
@@ -144,11 +154,12 @@ def run_plate(asked: AskedPlate) -> PlateResult:
         width=np.array([2 * bump.radius for bump in found]),
         force=np.array([bump.force for bump in found]),
         thin=np.array([bump.thin for bump in found]),
+        breaking=breaking,
         bumps=bumps,
         none=None if bumps is None else math.exp(-bumps),
         lifting=lifting,
         what_ifs=_what_ifs(chuck, wanted[at][0], wanted[at][2], counted=bumps is not None),
-        run_warnings=(*_warnings(chuck, found), *_breaking(chuck, wanted, found)),
+        run_warnings=(*_warnings(chuck, found), *_breaking(chuck, breaking)),
     )
 
 
@@ -242,20 +253,34 @@ def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
     return out
 
 
-def _breaking(
-    chuck: Chuck, wanted: list[tuple[Particles, str, float]], found: list[Bump]
-) -> list[Note]:
-    """Particles that would break under the plate: the smallest of each kind."""
-    smallest: dict[str, float] = {}
-    for (dust, name, x), bump in zip(wanted, found, strict=True):
-        if chuck.breaks(bump, dust):
-            smallest[name] = min(x, smallest.get(name, math.inf))
+def _breaks_from(chuck: Chuck, dust: Particles, grains: Sequence[float]) -> float:
+    """Diameter from which on most particles would break [m]; infinite where none of these would.
+
+    Larger ones are weaker, and are pressed harder.
+    """
+
+    def breaks(x: float) -> bool:
+        return chuck.breaks(chuck.over(x, dust), dust)
+
+    high = next((x for x in sorted(grains) if breaks(x)), math.inf)
+    if not math.isfinite(high):
+        return high
+    low = ATOM
+    while high > low * (1 + CLOSE):
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if breaks(middle) else (middle, high)
+    return high
+
+
+def _breaking(chuck: Chuck, sizes: Sequence[float]) -> list[Note]:
+    """Notes on particles that would break under the plate."""
     return [
         Note(
-            f"most particles of {name} from {value_of(x, 'm', 3)} on would break: their pieces are "
-            "smaller, and the plate stands lower than computed",
+            f"most particles of {name_of(dust, i)} from {value_of(x, 'm', 3)} on would break: "
+            "their pieces are smaller, and the plate stands lower than computed",
             code="brittle",
             action="take heights from there on as an upper end",
         )
-        for name, x in smallest.items()
+        for i, (dust, x) in enumerate(zip(chuck.particles, sizes, strict=True))
+        if math.isfinite(x)
     ]

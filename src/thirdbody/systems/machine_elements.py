@@ -137,7 +137,11 @@ class RadialBearing(Body):
         return self.bodies * self.shaft_speed / (4 * math.pi) * (1 + sign * self.gamma)
 
     def swept_area(self, share: RadialShare, ring: Ring, E_star: float) -> float:
-        """Area that all rolling bodies sweep while each rolls by unit length [m²/m]."""
+        """Area that all rolling bodies sweep while each rolls by unit length [m²/m].
+
+        One of them stands under the load. Averaged over the turning cage it is 7 % less to 14 %
+        more, by the number of bodies and the clearance.
+        """
         loads: NDArray[np.float64] = share.loads[share.loads > 0]
         return float(np.sum(self.widths(loads, ring, E_star)))
 

@@ -39,7 +39,8 @@ def sharing(study: Study) -> str:
     name = body.rolling_bodies
     parts = [number(each.largest * body.bodies / force, 3) for each in (found, even)]
     return (
-        f"Of {number(body.bodies)} {name} {found.carrying} carry, the most loaded "
+        f"Of {number(body.bodies)} {name} {found.carrying} "
+        f"{'carries' if found.carrying == 1 else 'carry'}, the most loaded "
         f"{value_of(found.largest, 'N')}, {parts[0]} F_r/Z "
         f"(Sjövall's integral with {value_of(body.clearance, 'm')} clearance, epsilon = "
         f"{number(found.eps, 3)}; without clearance {parts[1]} "

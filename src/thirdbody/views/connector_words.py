@@ -39,6 +39,17 @@ def once_in(failure: float) -> str:
     return f"once in {_count(failure)} closings ({percent(failure)})"
 
 
+def _between(low: float, high: float) -> str:
+    """How often, between two ends.
+
+    >>> _between(0.0048, 0.35), _between(0.35, 1.0)
+    ('once in 208 closings (0.48 %) to in 35 % of all closings', 'in 35 to 100 % of all closings')
+    """
+    if low >= OFTEN:
+        return f"in {percent(low).removesuffix(' %')} to {percent(high)} of all closings"
+    return f"{once_in(low)} to {once_in(high)}"
+
+
 def _count(failure: float) -> str:
     """Closings for one failure, to three digits.
 
@@ -57,10 +68,9 @@ def answer(found: ConnectorResult) -> list[str]:
     plug = found.asked.connector
     many = _makes(found)
     out: list[str] = []
+    of_each = found.failure if plug.contacts == 1 else found.failure_of_contact
     for i in sorted({found.places[0], found.places[-1]}):
-        force, one, every = (
-            float(c[i]) for c in (found.force, found.failure, found.failure_of_all)
-        )
+        force, one, every = (float(c[i]) for c in (found.force, of_each, found.failure_of_all))
         what = "connector" if many else "contact"
         often = f"fails to close {once_in(every)}" if every > 0 else "never fails to close"
         said = f"Under {value_of(force, 'N')} the {what} {often}"
@@ -93,8 +103,8 @@ def uncertainty(found: ConnectorResult) -> list[str]:
     every = [each for each in found.what_ifs if each.ratio > 1]
     heads = ["Most uncertain"] + ["Besides"] * len(every)
     return [
-        f"{head}: {each.what}. With {each.between} it fails {once_in(each.low)} to "
-        f"{once_in(each.high)}; {each.action}."
+        f"{head}: {each.what}. With {each.between} it fails {_between(each.low, each.high)}; "
+        f"{each.action}."
         for head, each in zip(heads, every, strict=False)
         if each is every[0] or each.code == "wipe"
     ]
@@ -106,7 +116,7 @@ def rows(found: ConnectorResult) -> list[list[str]]:
     for i, force in enumerate(found.force):
         every = float(found.failure_of_all[i])
         turns = "-" if every < RARE else _count(every)
-        shown = [percent(float(each), least=RARE) for each in (found.failure[i], every)]
+        shown = [percent(float(each), least=RARE) for each in (found.failure_of_contact[i], every)]
         out.append([value_of(float(force), "N"), *shown, turns])
     return out
 
@@ -116,7 +126,7 @@ def facts(found: ConnectorResult) -> dict[str, str]:
     i = found.places[0]
     return {
         "connector open": percent(float(found.failure_of_all[i]), least=RARE),
-        "one contact open": percent(float(found.failure[i]), least=RARE),
+        "one contact open": percent(float(found.failure_of_contact[i]), least=RARE),
         "particles in the way": number(found.in_the_way, 3),
         "force that presses the mean one in": value_of(found.threshold, "N", 3),
         "they lie within": value_of(found.asked.connector.reach, "m", 3),

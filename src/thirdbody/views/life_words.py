@@ -328,7 +328,7 @@ def report_answer(found: OilReports) -> list[str]:
 
 def _misfit(found: OilReports) -> str:
     chi2, more = number(found.chi2, 3), f"{found.degrees} degrees of freedom"
-    return f"χ² = {chi2} with {more}, as large by chance {number(100 * found.probability, 2)} %"
+    return f"χ² = {chi2} with {more}, as large by chance {percent(found.probability, digits=2)}"
 
 
 def report_rows(found: OilReports) -> list[list[str]]:

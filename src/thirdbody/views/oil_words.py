@@ -33,6 +33,12 @@ MEANS = {
     "width": "mean diameter of the dents",
 }
 """What the heads mean."""
+PLACES = {"bath": "oil bath", "filter": "oil that a filter in the line cleans"}
+"""Diagrams of the contamination factor."""
+HEAVY = 0.5
+"""Load over the dynamic rating up to which ISO 281 holds."""
+LITTLE = 1.2
+"""Factor of the life up to which an input is not named for it."""
 DROP = ("width", "per mm²", "deepest", "load")
 """Columns in the order in which they go where the width is small."""
 
@@ -50,19 +56,26 @@ def uncertainty(what_ifs: Sequence[OilWhatIf]) -> list[str]:
     if not what_ifs or not what_ifs[0].ratio > 1:
         return []
     most = what_ifs[0]
+    out = [f"Most uncertain: {most.what}. {_effects(most)}."]
+    for_life = max(what_ifs, key=lambda each: each.life_ratio)
+    if for_life is not most and for_life.life_ratio > max(most.life_ratio, LITTLE):
+        out.append(f"For the life: {for_life.what}. {_effects(for_life)}.")
+    return out
+
+
+def _effects(one: OilWhatIf) -> str:
+    """What an input between its ends does, and what to do about it."""
     clauses = {
-        "there are {} dents an hour": [_count(each) for each in most.dents],
-        "one in twenty of the deepest dents is beyond {}": [
-            value_of(each, "m", 3) for each in most.depth
+        "there are {} dents an hour": [_count(each) for each in one.dents],
+        "one in twenty dents of the deepest kind is beyond {}": [
+            value_of(each, "m", 3) for each in one.depth
         ],
-        "a_ISO is {}": [number(each, 2) for each in most.a_ISO],
+        "a_ISO is {}": [number(each, 2) for each in one.a_ISO],
     }
     moved = [
         clause.format(" to ".join(ends)) for clause, ends in clauses.items() if ends[0] != ends[1]
     ]
-    return [
-        f"Most uncertain: {most.what}. With {most.between}, {join_words(moved)}; {most.action}."
-    ]
+    return f"With {one.between}, {join_words(moved)}; {one.action}"
 
 
 def _dents(parts: Sequence[PopulationDents], where: str) -> str:
@@ -123,8 +136,19 @@ def _life(life: Life) -> str:
     )
     hours = "" if math.isnan(life.hours) else f", {_count(life.hours)} h of rating life"
     return (
-        f"By ISO 281 oil {life.code} with {kappa} has e_C = {number(life.e_C, 2)}, and the life "
-        f"factor a_ISO is {number(life.a_ISO, 2)} ({lost}){hours}."
+        f"By ISO 281 ({PLACES[life.place]}) oil {life.code} with {kappa} has e_C = "
+        f"{number(life.e_C, 2)}, and the life factor a_ISO is {number(life.a_ISO, 2)} ({lost})"
+        f"{hours}{_beyond(life)}."
+    )
+
+
+def _beyond(life: Life) -> str:
+    """That the load is beyond what the life is known for, where it is."""
+    if not life.load_over_rating > HEAVY:
+        return ""
+    return (
+        f"; but the load is {number(life.load_over_rating, 2)} C, and ISO 281 holds up to C/2: "
+        "check the load and the rating"
     )
 
 
@@ -162,6 +186,8 @@ def filter_answer(before: DirtyOil, after: DirtyOil) -> str:
         if all(map(math.isfinite, a)):
             told += f", and a_ISO from {number(a[0], 2)} to {number(a[1], 2)}"
             told += f", {number(a[1] / a[0], 2)} times the life"
+        if lives[0].place != lives[1].place:
+            told += f"; ISO 281 has its own factors for {PLACES[lives[1].place]}"
     return f"{told}."
 
 

@@ -27,8 +27,10 @@ def answer(found: PlateResult) -> list[str]:
     i, chuck = found.at, found.asked.chuck
     height, grain = float(found.height[i]), float(found.grain[i])
     of = f"a particle of {value_of(grain, 'm', 3)} ({found.particles[i]})"
+    names = [name_of(dust, n) for n, dust in enumerate(chuck.particles)]
+    whole = grain < found.breaking[names.index(found.particles[i])]
     out = [
-        f"The plate stands {value_of(height, 'm', 3)} high over {of}, "
+        f"The plate stands {'' if whole else 'at most '}{value_of(height, 'm', 3)} high over {of}, "
         f"{percent(height / grain, digits=2)} of "
         f"its diameter, on a bump {value_of(float(found.width[i]), 'm', 3)} wide."
     ]
@@ -41,17 +43,17 @@ def answer(found: PlateResult) -> list[str]:
     if chuck.limit is None:
         return out
     limit = value_of(chuck.limit, "m")
-    kinds = zip(found.lifting, chuck.particles, strict=True)
-    sizes = ", ".join(
-        f"{value_of(x, 'm', 3)} ({name_of(dust, i)})" for i, (x, dust) in enumerate(kinds)
-    )
+    kinds = zip(found.lifting, names, strict=True)
+    sizes = ", ".join(f"{value_of(x, 'm', 3)} ({name})" for x, name in kinds)
     if found.bumps is None or found.none is None:
         return [*out, f"Particles from {sizes} on lift it above the limit of {limit}."]
+    pairs = zip(found.lifting, found.breaking, strict=True)
+    most, least = ("at most ", "at least ") if any(x >= end for x, end in pairs) else ("", "")
     return [
         *out,
-        f"Above the limit of {limit} there are {number(found.bumps, 3, least=FEW)} bumps on a "
-        f"plate, and {percent(found.none, least=FEW)} of the plates have none: particles from "
-        f"{sizes} on lift it so high.",
+        f"Above the limit of {limit} there are {most}{number(found.bumps, 3, least=FEW)} bumps on "
+        f"a plate, and {least}{percent(found.none, least=FEW)} of the plates have none: particles "
+        f"from {sizes} on lift it so high.",
     ]
 
 

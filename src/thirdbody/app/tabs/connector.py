@@ -50,7 +50,7 @@ def contents_of(answer_of_study: Answer) -> Shown:
     found, plug = run_connector(asked), asked.connector
     forces, one, every = found.curve()
     traces = [line(forces, np.where(one > SELDOM, one, np.nan), "one contact", 0)]
-    if plug.contacts > 1 or plug.parallel > 1:
+    if plug.contacts > 1:
         traces.append(line(forces, np.where(every > SELDOM, every, np.nan), "connector", 1))
     made = figure(
         traces,

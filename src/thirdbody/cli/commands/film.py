@@ -42,6 +42,7 @@ MEANS = {
     "friction": "coefficient mu, no unit",
 }
 """What the heads of the curve mean."""
+WORKBOOK = "--xlsx FILE has all of it"
 DROP = ("lambda", "on film")
 """Columns in the order in which they go where the width is small."""
 
@@ -225,7 +226,7 @@ def _show_bearing(console: Any, result: FilmResult) -> None:
     if not words.shares_load(result.study):
         return
     console.print(words.sharing(result.study))
-    table = Table(words.HEADS, right=True, drop=words.DROP, more=ALL, legend=words.MEANS)
+    table = Table(words.HEADS, right=True, drop=words.DROP, more=WORKBOOK, legend=words.MEANS)
     for row in words.rows(result.study):
         table.add_row(*row)
     console.print(table)

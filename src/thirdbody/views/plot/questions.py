@@ -35,18 +35,17 @@ def draw_failures(found: ConnectorResult) -> Figure:
     ax = _axes(None)
     plug, (forces, one, every) = found.asked.connector, found.curve()
     curves = {"one contact": one}
-    if plug.contacts > 1 or plug.parallel > 1:
+    if plug.contacts > 1:
         curves["connector"] = every
     for i, (label, values) in enumerate(curves.items()):
         _draw_curve(ax, i, forces, np.where(values > SELDOM, values, np.nan), label)
     for i in found.places:
         force = float(found.force[i])
-        last = found.failure_of_all if len(curves) > 1 else found.failure
-        ax.plot(force, last[i], "o", color="black", markersize=4)
+        ax.plot(force, found.failure_of_all[i], "o", color="black", markersize=4)
         if len(found.places) == 1:
             ax.annotate(
                 value_of(force, "N"),
-                (force, last[i]),
+                (force, found.failure_of_all[i]),
                 xytext=(5, 5),
                 textcoords="offset points",
                 fontsize="small",

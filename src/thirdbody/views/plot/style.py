@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -165,10 +166,29 @@ class PlainPowers(LogFormatterSciNotation):
         return re.sub(r"\$|\\mathdefault|[{}]", "", raised).replace(r"\times", "×")
 
 
+class FewPowers(PlainPowers):
+    """Numbers between powers of ten: of many only 2 and 5, so that they stand apart."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        low, high = sorted(self.axis.get_view_interval())  # type: ignore[union-attr]
+        powers = _powers(low, high)
+        leads = {lead for lead in (2, 5) for power in powers if low <= lead * power <= high}
+        lead = round(x / 10.0 ** math.floor(math.log10(x) + 1e-9)) if x > 0 else 0
+        return super().__call__(x, pos) if not leads or lead in leads else ""
+
+
+def _powers(low: float, high: float) -> list[float]:
+    """Powers of ten from the one below to the one above."""
+    if not 0 < low <= high < math.inf:
+        return []
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    return [10.0**k for k in range(first, last + 1)]
+
+
 def plain_powers(axis: Axis) -> None:
     """The numbers of a logarithmic axis in plain letters."""
     axis.set_major_formatter(PlainPowers())
-    axis.set_minor_formatter(PlainPowers(labelOnlyBase=False))
+    axis.set_minor_formatter(FewPowers(labelOnlyBase=False))
 
 
 def _dress(ax: Axes, x: str, y: str, *, xlog: bool = True, ylog: bool = False) -> Axes:
