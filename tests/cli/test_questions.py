@@ -5,6 +5,7 @@ import json
 import math
 import tomllib
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from thirdbody.study import check, load_study, run_film
 from thirdbody.study.run import run_film_curve
 from thirdbody.study.run_connector import load_connector, run_connector
 from thirdbody.study.run_plate import load_plate, run_plate
+from thirdbody.views.plate_words import answer
 
 FILES = {"probability": "connector", "plate": "wafer-chuck"}
 
@@ -239,10 +241,20 @@ def test_the_curve_of_a_connector_goes_through_its_table():
 def test_the_curve_of_a_plate_goes_through_its_table():
     found = run_plate(load_plate("wafer-chuck.toml"))
     sizes, kinds = found.curve()
-    (heights,) = kinds.values()
+    ((_, heights),) = kinds
     for grain, height in zip(found.grain, found.height, strict=True):
         at = np.interp(math.log(grain), np.log(sizes), np.log(heights))
         assert math.log(height) == pytest.approx(at, abs=0.05)
+
+
+def test_kinds_of_one_name_have_a_curve_each():
+    asked = load_plate("wafer-chuck.toml")
+    (dust,) = asked.chuck.particles
+    both = (dust, dust.replace(areal_density=2 * dust.areal_density))
+    found = run_plate(replace(asked, chuck=asked.chuck.replace(particles=both)))
+    assert [name for name, _ in found.curve()[1]] == ["quartz", "quartz"]
+    assert len(found.breaking) == 2
+    assert answer(found)[0].startswith("The plate stands at most 410 nm high")
 
 
 @pytest.mark.parametrize(("command", "kind"), FILES.items())

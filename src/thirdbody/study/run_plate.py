@@ -91,14 +91,14 @@ class PlateResult(AskedResult):
         """The plate on its chuck."""
         return {"plate": self.asked.chuck.to_dict()}
 
-    def curve(self) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Diameters around those of the table, and heights over particles of each kind."""
+    def curve(self) -> tuple[np.ndarray, list[tuple[str, np.ndarray]]]:
+        """Diameters around those of the table [m]; name and heights [m] of each kind."""
         chuck = self.asked.chuck
         sizes = np.geomspace(self.grain.min() / REACH, self.grain.max() * REACH, POINTS)
-        return sizes, {
-            name_of(dust, i): np.array([chuck.over(float(x), dust).height for x in sizes])
+        return sizes, [
+            (name_of(dust, i), np.array([chuck.over(float(x), dust).height for x in sizes]))
             for i, dust in enumerate(chuck.particles)
-        }
+        ]
 
     def numbers(self) -> dict[str, object]:
         """Number of bumps above the limit, and the particles that lift the plate to it."""

@@ -28,7 +28,8 @@ def answer(found: PlateResult) -> list[str]:
     height, grain = float(found.height[i]), float(found.grain[i])
     of = f"a particle of {value_of(grain, 'm', 3)} ({found.particles[i]})"
     names = [name_of(dust, n) for n, dust in enumerate(chuck.particles)]
-    whole = grain < found.breaking[names.index(found.particles[i])]
+    kinds_of_name = zip(names, found.breaking, strict=True)
+    whole = grain < min(end for name, end in kinds_of_name if name == found.particles[i])
     out = [
         f"The plate stands {'' if whole else 'at most '}{value_of(height, 'm', 3)} high over {of}, "
         f"{percent(height / grain, digits=2)} of "

@@ -50,7 +50,7 @@ def contents_of(answer_of_study: Answer) -> Shown:
     found, chuck = run_plate(asked), asked.chuck
     sizes, kinds = found.curve()
     traces = []
-    for i, (name, heights) in enumerate(kinds.items()):
+    for i, (name, heights) in enumerate(kinds):
         seen = np.where(heights < ATOM, np.nan, heights)
         traces.append(line(1e6 * sizes, 1e9 * seen, plain(name), i))
     traces.append(line(1e6 * sizes, 1e9 * sizes, "as high as the particle", 5))

@@ -67,7 +67,7 @@ def draw_heights(found: PlateResult) -> Figure:
     """
     ax = _axes(None)
     sizes, kinds = found.curve()
-    for i, (name, heights) in enumerate(kinds.items()):
+    for i, (name, heights) in enumerate(kinds):
         _draw_curve(ax, i, 1e6 * sizes, 1e9 * np.where(heights < ATOM, np.nan, heights), name)
     ax.plot(1e6 * sizes, 1e9 * sizes, color="0.6", linewidth=1.0, label="as high as the particle")
     if (limit := found.asked.chuck.limit) is not None:
