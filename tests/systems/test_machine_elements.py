@@ -204,6 +204,21 @@ def test_rollers_on_both_rings():
     assert swept / area == pytest.approx(ROLLER.overrollings("inner"), rel=1e-9)
 
 
+@pytest.mark.parametrize("clearance", [-20e-6, 0.0, 10e-6, 40e-6])
+@pytest.mark.parametrize("ring", ["inner", "outer"])
+@pytest.mark.parametrize("body", [BEARING, ROLLER], ids=["balls", "rollers"])
+def test_what_is_swept_is_the_mean_over_places_of_the_cage(body, ring, clearance):
+    """Bodies at their places, the cage turned little by little, and the tracks of all of them."""
+    bearing = body.replace(clearance=clearance)
+    share = bearing.share_load(1000.0, E_STAR)
+    steps, count = 4000, round(bearing.bodies)
+    angles = 2 * np.pi * (np.arange(count * steps) + 0.5) / (count * steps)
+    level = np.maximum(1 - (1 - np.cos(angles)) / (2 * share.eps), 0)
+    loads = share.largest * level[level > 0] ** body.exponent
+    mean = np.sum(bearing.widths(loads, ring, E_STAR)) / steps
+    assert bearing.swept_area(share, ring, E_STAR) == pytest.approx(mean, rel=1e-4)
+
+
 def test_rollers_are_rated():
     """C_0 = 44 (1 − γ) Z l D_w [N, mm]: 4000 MPa below the most loaded roller, ISO 76."""
     steel = 2.07e11 / 2 / (1 - 0.3**2)

@@ -23,7 +23,11 @@ from ..quantities.carried import takes_units
 from ..quantities.record import Record
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 __all__ = ["BALLS", "ROLLERS", "RadialShare", "radial_integral", "share_radial_load"]
 
@@ -74,19 +78,22 @@ def radial_integral(eps: float, *, exponent: float = BALLS) -> float:
         raise InvalidValue(
             Problem("eps", "must be a finite number above 0", repr(eps), code=Mistake.RANGE)
         )
+    psi, w, level = _load_zone(eps)
+    return float(np.sum(w * level**exponent * np.cos(psi)) / math.pi)
+
+
+def _load_zone(eps: float) -> tuple[Array, Array, Array]:
+    """Angles of one side of the load zone, their weights [rad], and approach over the largest."""
     t, w = gauss_legendre(NODES)
     if eps >= 1:
-        psi = 0.5 * math.pi * (1 + t)
         # near 1 the load falls to nothing at the far side, as a power of the distance from there
         psi, w = math.pi * (1 - ((1 - t) / 2) ** 2), w * math.pi * (1 - t) / 2
-        level = (1 - 1 / eps) + np.cos(psi / 2) ** 2 / eps
-    else:
-        last = 2 * math.asin(math.sqrt(eps))
-        # ψ = ψ_l sin θ: the n-th power ends smoothly
-        theta = 0.25 * math.pi * (1 + t)
-        psi, w = last * np.sin(theta), w * 0.25 * math.pi * last * np.cos(theta)
-        level = np.sin((last - psi) / 2) * np.sin((last + psi) / 2) / eps
-    return float(np.sum(w * level**exponent * np.cos(psi)) / math.pi)
+        return psi, w, (1 - 1 / eps) + np.cos(psi / 2) ** 2 / eps
+    last = 2 * math.asin(math.sqrt(eps))
+    # ψ = ψ_l sin θ: powers of the approach end smoothly
+    theta = 0.25 * math.pi * (1 + t)
+    psi, w = last * np.sin(theta), w * 0.25 * math.pi * last * np.cos(theta)
+    return psi, w, np.sin((last - psi) / 2) * np.sin((last + psi) / 2) / eps
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -106,14 +113,17 @@ class RadialShare(Record):
     angles, loads : array (Z,)
         Places of the bodies from the direction of the load ψ [rad], one straight in it, and what
         each carries [N].
+    exponent : float
+        n of load over approach [1].
     """
 
     force: float
     largest: float
     eps: float
     shift: float
-    angles: NDArray[np.float64]
-    loads: NDArray[np.float64]
+    angles: Array
+    loads: Array
+    exponent: float
 
     @property
     def carrying(self) -> int:
@@ -124,6 +134,23 @@ class RadialShare(Record):
     def balance(self) -> float:
         """Σ Q cos ψ over F_r [1]: 1 but for the places of few bodies."""
         return float(self.loads @ np.cos(self.angles) / self.force)
+
+    def over_a_turn(self, quantity: Callable[[Array], Array]) -> float:
+        r"""What a body has of a quantity on average over a turn of the cage.
+
+        .. math:: \frac1\pi\int_0^{\psi_l} q(Q_\psi)\,d\psi
+
+        Parameters
+        ----------
+        quantity : callable
+            q of the loads of bodies [N], an array; 0 without load.
+
+        Notes
+        -----
+        Exact to 1e-9 for powers of the load.
+        """
+        _, w, level = _load_zone(self.eps)
+        return float(np.sum(w * quantity(self.largest * level**self.exponent)) / math.pi)
 
 
 @takes_units
@@ -214,4 +241,5 @@ def share_radial_load(
         shift=pressed + half,
         angles=angles,
         loads=largest * level**exponent,
+        exponent=exponent,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
+from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 
@@ -15,9 +15,6 @@ from ..quantities.value import choice, quantity
 from .body_shapes import BallInGroove, Body, Ring
 from .conjunctions import Hertz, Line, Point
 from .load_sharing import BALLS, ROLLERS, RadialShare, share_radial_load
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = [
     "BallBearing",
@@ -137,13 +134,13 @@ class RadialBearing(Body):
         return self.bodies * self.shaft_speed / (4 * math.pi) * (1 + sign * self.gamma)
 
     def swept_area(self, share: RadialShare, ring: Ring, E_star: float) -> float:
-        """Area that all rolling bodies sweep while each rolls by unit length [m²/m].
+        r"""Area that all rolling bodies sweep while each rolls by unit length [m²/m].
 
-        One of them stands under the load. Averaged over the turning cage it is 7 % less to 14 %
-        more, by the number of bodies and the clearance.
+        .. math:: \frac Z\pi\int_0^{\psi_l} w(Q_\psi)\,d\psi
+
+        on average over a turn of the cage, with the widths w of their tracks.
         """
-        loads: NDArray[np.float64] = share.loads[share.loads > 0]
-        return float(np.sum(self.widths(loads, ring, E_star)))
+        return self.bodies * share.over_a_turn(lambda loads: self.widths(loads, ring, E_star))
 
     def track_area(self, share: RadialShare, ring: Ring, E_star: float) -> float:
         """Area of the track below the most loaded rolling body, all around the ring [m²]."""
