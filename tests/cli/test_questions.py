@@ -155,7 +155,7 @@ def test_a_plate_without_a_limit_tells_its_height_alone():
         ("probability", "connector.force=2 mm", "connector.force"),
         ("probability", "connector.contacts=2.5", "connector.contacts = 2.5 must be a whole"),
         ("probability", "connector.pushed_aside=3", "connector.pushed_aside"),
-        ("probability", "connector.radius=5 um", "above the largest particle"),
+        ("probability", "connector.radius=5 um", "come down on dust"),
         ("probability", "connector.wiping=1 mm", "did you mean wipe?"),
         ("probability", 'connector.conducting="gold"', "must name particles"),
         ("probability", "particles.strength=material", "break"),

@@ -10,7 +10,7 @@ import thirdbody as tb
 from thirdbody.study.connector import AskedConnector
 from thirdbody.study.run_connector import run_connector
 from thirdbody.systems import connector
-from thirdbody.systems.compound_sums import expand_sum
+from thirdbody.systems.compound_sums import expand_sum, fill_squeezes, sum_squeezes
 from thirdbody.systems.connector import Connector, overlap
 from thirdbody.systems.contact_probability import ContactProbability
 
@@ -201,7 +201,7 @@ def test_dust_that_conducts_closes_more_often_than_dust_that_does_not():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"radius": 5e-6}, "above the largest particle"),
+        ({"radius": 5e-6}, "of which 100 % reach it"),
         ({"contacts": 2.5}, "must be a whole number"),
         ({"pushed_aside": 1.2}, "pushed_aside"),
         ({"conducting": ("gold",)}, "must name particles"),
@@ -210,6 +210,15 @@ def test_dust_that_conducts_closes_more_often_than_dust_that_does_not():
 def test_what_is_no_connector(changes, words):
     with pytest.raises(tb.InvalidValue, match=words):
         plug(dust(1.0), **changes)
+
+
+def test_a_tail_that_hardly_any_particle_has_is_no_boulder():
+    """A log-normal has no largest size: one in 1e11 of those in the way is as large as the sphere."""
+    broad = tb.LogNormal(median=8e-6, gsd=2.0)
+    assert broad.support[1] > RADIUS
+    assert 0 < plug(dust(0.1, broad)).failure(0.5) < 0.1
+    with pytest.raises(tb.InvalidValue, match=r"of which 0\.\d+ % reach it"):
+        plug(dust(0.1, tb.LogNormal(median=20e-6, gsd=3.0)))
 
 
 def test_particles_that_break_are_refused():
@@ -251,7 +260,7 @@ def test_what_is_certain_is_what_the_sums_say(monkeypatch, number, height):
     """Chernoff's bounds against the sums, which without them are computed under every load."""
     kinds = plug(dust(number, tb.LogNormal(median=8e-6, gsd=1.4)))._kinds()
     mean = sum(float(kind.each @ (kind.most * kind.x**2)) for kind in kinds)
-    loads = np.geomspace(1e-3 * mean, 300 * max(mean, kinds[0].most * (8e-6) ** 2), 40)
+    loads = np.geomspace(1e-3 * mean, 1000 * max(mean, kinds[0].most * (8e-6) ** 2), 40)
     more, less = connector._certain(kinds, loads, height)
     assert less.any()
     assert more.any() == (number * (1 - height / 9.4e-6) > 42)  # e^-N is 1e-18
@@ -262,20 +271,80 @@ def test_what_is_certain_is_what_the_sums_say(monkeypatch, number, height):
     np.testing.assert_allclose(sums[less], 0.0, rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize("pushed_aside", [0.0, 0.6])
 @pytest.mark.parametrize("height", [0.0, 4e-6, 9e-6])
-def test_particles_below_a_load_are_those_that_the_law_says(height):
-    """Against the share of an even spread of places whose single particle carries no more."""
-    sizes = tb.LogNormal(median=8e-6, gsd=1.3)
-    (kind,) = plug(dust(2.0, sizes))._kinds()
+@pytest.mark.parametrize(
+    "sizes",
+    [
+        tb.LogNormal(median=8e-6, gsd=1.3),
+        tb.LogNormal(median=8e-6, gsd=1.02),
+        tb.Uniform(low=5e-6, high=12e-6),
+        tb.Monodisperse(mean=9.5e-6),
+    ],
+    ids=["broad", "narrow", "uniform", "one size"],
+)
+def test_particles_below_a_load_are_those_that_the_law_says(height, sizes, pushed_aside):
+    """Against the share of an even spread of places and sizes that carries no more alone."""
+    wiped = plug(dust(2.0, sizes), wipe=0.1e-3, pushed_aside=pushed_aside)
+    (kind,) = wiped._kinds()
     loads = kind.most * (8e-6) ** 2 * np.array([0.0, 1e-3, 0.03, 0.2, 0.7, 1.0, 1.6, 4.0])
-    places = (np.arange(4000) + 0.5) / 4000  # r²/(2 R_s x), of all that touch at height 0
+    places = (np.arange(1000) + 0.5) / 1000  # r²/(2 R_s x), of all that touch at height 0
+    quantiles = (np.arange(1000) + 0.5) / 1000
     expected = np.zeros(len(loads))
-    for x, each in zip(kind.x, kind.each, strict=True):
+    for x in np.atleast_1d(sizes.ppf(quantiles)):
         gap = height + places * x
         force = LAW.single(np.full_like(gap, x), gap, surfaces=PAIR, particle=kind.material)
-        lies = gap < x
-        expected += each * np.mean((force["force"][:, None] <= loads) & lies[:, None], axis=0)
-    np.testing.assert_allclose(kind.number_below(loads, height), expected, rtol=0, atol=1.5e-3)
+        ends = 1 - height / x - places
+        k = 0.1e-3 / math.sqrt(2 * RADIUS * x)
+        begins = np.maximum(0, np.linspace(0, 1, 1001))
+        stays = 1 - pushed_aside * (1 - np.diff(overlap(begins, np.full(1001, k))) * 1000)
+        below = (force["force"][:, None] <= loads) & (ends > 0)[:, None]
+        expected += x * np.mean(stays[:, None] * below, axis=0)
+    expected *= 2.0 / (len(quantiles) * sizes.moment(1))
+    np.testing.assert_allclose(kind.number_below(loads, height), expected, rtol=0, atol=6e-3)
+
+
+@pytest.mark.parametrize(
+    "sizes",
+    [
+        tb.LogNormal(median=8e-6, gsd=1.6),
+        tb.LogNormal(median=8e-6, gsd=1.05),
+        tb.LogNormal(median=3e-6, gsd=2.2),
+        tb.TruncatedGaussian(mean=8e-6, std=0.4e-6),
+        tb.Weibull(scale=8e-6, shape=2.0),
+    ],
+)
+def test_the_classes_of_size_leave_less_than_the_bounds(monkeypatch, sizes):
+    """Ten times as many classes, by the sizes that matter under each load."""
+    plugs = plug(dust(0.1, sizes))
+    loads = np.array([0.02, 0.1, 0.5]) * (1.0 if sizes.moment(1) > 5e-6 else 0.3)
+    found = [plugs.bounds(load) for load in loads]
+    monkeypatch.setattr(connector, "STEP", 0.002)
+    monkeypatch.setattr(connector, "FEWEST", 1000)
+    connector._classes.cache_clear()
+    for (low, high), load in zip(found, loads, strict=True):
+        finer = plugs.failure(load)
+        assert low <= finer <= high
+        assert 0.5 * (low + high) == pytest.approx(finer, rel=1e-3)
+    connector._classes.cache_clear()
+
+
+def test_the_mean_squeeze_between_two_sizes():
+    """Against Gauss points between the sizes, with a load that rests while ε goes on."""
+    eps = np.array([0.0, 0.0, 0.1, 0.4, 0.7, 1.0])
+    load = np.array([0.0, 1.0, 2.0, 7.0, 7.0, 9.0])
+    x = np.exp(np.linspace(math.log(0.8), math.log(1.3), 200_001))
+    forces = np.array([0.0, 0.5, 1.0, 3.0, 6.5, 8.0, 14.0, 20.0])
+    out = np.empty(len(forces))
+    fill_squeezes(forces, 0.8, 1.3, eps, load, sum_squeezes(eps, load), out)
+    for f, mean in zip(forces, out, strict=True):
+        p = f / x**2
+        k = np.searchsorted(load, p, side="right") - 1
+        inside = np.clip(k, 0, 4)
+        step = np.maximum(load[inside + 1] - load[inside], 1e-300)
+        slope = (eps[inside + 1] - eps[inside]) / step
+        squeeze = np.where(k == 5, 1.0, eps[inside] + slope * (p - load[inside]))
+        assert mean == pytest.approx(np.mean(squeeze), abs=1e-5)
 
 
 def test_the_masses_of_a_sum_are_those_of_exact_fractions():

@@ -37,7 +37,14 @@ from ..populations.particles import Particles
 from ..quantities.say import value_of
 from ..quantities.units import say
 from ..quantities.value import Value, items_of, quantity
-from .contact_probability import CELLS, MOST_CELLS, PER_PARTICLE, SURE, compound
+from .contact_probability import (
+    CELLS,
+    MOST_CELLS,
+    PER_PARTICLE,
+    SURE,
+    boulders_among,
+    compound,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -45,14 +52,17 @@ if TYPE_CHECKING:
     from ..laws.base import AbstractParticleLaw
 
     Array = NDArray[np.float64]
-    Curve = tuple[Array, Array]
+    Curve = tuple[Array, Array, Array]
     Yes = NDArray[np.bool_]
 
 __all__ = ["Connector"]
 
 BY_MATERIAL = "by material"
-CLASSES = 300
-"""Classes of size, equally wide in ln x."""
+STEP, FEWEST, ROUGHLY = 0.02, 100, 100
+"""Widths of classes of size in ln x, how many there are at least, and to see what sizes occur."""
+WIDE = 1.5
+"""Particles of a class between sizes this far apart, or as good as equal, have one size."""
+EQUAL = 1 + 1e-6
 SHARED = 20.0
 """Loads of a curve within this factor share their steps."""
 APART = 1e-3, 0.05
@@ -103,7 +113,7 @@ class Connector(Value):
     Raises
     ------
     InvalidValue
-        A radius that is not above the largest particle, particles that break, names that no dust
+        A radius that is not above the particles, particles that break, names that no dust
         has, or numbers of contacts that are not whole.
 
     Notes
@@ -182,14 +192,14 @@ class Connector(Value):
                         code=Mistake.BEYOND,
                     )
                 )
-            largest = dust.diameter.support[1]
-            if self.radius <= largest:
+            if boulders := boulders_among(dust.diameter, self.radius):
                 out.append(
                     Problem(
                         "radius",
-                        f"must be above the largest particle of {name}, "
-                        f"{value_of(largest, 'm')}: contacts come down on dust, not on boulders",
+                        f"must be above the particles of {name}, of which {boulders} reach it: "
+                        "contacts come down on dust, not on boulders",
                         value_of(self.radius, "m"),
+                        hint="give the sizes an end, or take a larger radius",
                         code=Mistake.ORDER,
                     )
                 )
@@ -297,9 +307,6 @@ class Connector(Value):
     def bounds(self, load: float) -> tuple[float, float]:
         """Bounds of the failure of one pair, the load of each particle rounded.
 
-        Sizes stand in classes, which leaves up to 1 % of the failure beside the bounds, and up to
-        5 % where sizes are narrow and a failure is rare.
-
         Parameters
         ----------
         load : float
@@ -318,7 +325,7 @@ class Connector(Value):
             return float(low[0]), float(high[0])
         if not insulating:
             return 0.0, 0.0
-        largest = max(float(kind.x.max()) for kind in insulating)
+        largest = max(float(kind.high.max()) for kind in insulating)
         heights = np.array([0.0, *np.geomspace(largest / 300, largest, HEIGHTS)])
         one = np.array([load])
         above = np.array([_open(insulating, one, h) for h in heights])[:, :, 0]
@@ -341,7 +348,7 @@ class _Kind:
         self.name, self.material = name, dust.material
         law: Any = (dust.law or plug.law).of_shape(dust.shape)  # type: ignore[attr-defined]
         self.one, self.curve = _loads_of_one(law, plug.surfaces, dust.material)
-        self.x, weight = _classes(dust.diameter)
+        self.x, self.low, self.high, weight = _classes(dust.diameter)
         self.each = 2 * math.pi * plug.radius * dust.areal_density * weight
         """In the way before the wipe, at touch."""
         self.k = plug.wipe / np.sqrt(2 * plug.radius * self.x)
@@ -358,12 +365,18 @@ class _Kind:
         """Load over x² of a particle squeezed to its diameter [Pa]."""
         return float(self.curve[1][-1])
 
-    def within(self, u: Array) -> Array:
-        """Particles of each class nearer than u = r²/(2 R_s x)."""
+    @property
+    def heaviest(self) -> float:
+        """Load of the largest particle, squeezed to its diameter [N]."""
+        return self.most * float(self.high.max()) ** 2
+
+    def within(self, u: Array, of: Any = ...) -> Array:
+        """Particles of each class, or of one, nearer than u = r²/(2 R_s x)."""
         inside = np.maximum(u, 0.0)
         if not self.aside:
-            return self.each * inside
-        return self.each * ((1 - self.aside) * inside + self.aside * overlap(inside, self.k))
+            return self.each[of] * inside
+        shared = overlap(inside, self.k[of])
+        return self.each[of] * ((1 - self.aside) * inside + self.aside * shared)
 
     def number(self, height: float) -> float:
         """Particles in the way while the contacts stand at this height [m]."""
@@ -371,51 +384,67 @@ class _Kind:
 
     def number_below(self, loads: Array, height: float) -> Array:
         """Number of particles that carry at most these loads [N]."""
-        from .compound_sums import add_numbers_below
+        from .compound_sums import add_numbers_below, fill_squeezes
 
-        eps, load = self.curve
         reach = 1 - height / self.x
         sure = loads * (1 + SURE)
         out = np.zeros(len(loads))
         if not self.aside:
-            add_numbers_below(sure, self.x, self.each, reach, eps, load, out)
+            add_numbers_below(sure, self.low, self.high, self.each, reach, *self.curve, out)
             return out
-        all_ = self.within(reach)
-        few = int(np.searchsorted(sure, load[-1] * self.x.max() ** 2))  # beyond are all of them
-        out[few:] = (all_ - self.within(reach - 1)).sum()
-        for i in range(0, few, 256):
-            here = slice(i, min(i + 256, few))
-            squeeze = np.interp(sure[here, None] / self.x**2, load, eps, right=1.0)
-            out[here] = (all_ - self.within(reach - squeeze)).sum(axis=1)
+        squeeze = np.empty(len(loads))
+        for i, ends in enumerate(zip(self.low, self.high, strict=True)):
+            fill_squeezes(sure, *ends, *self.curve, squeeze)
+            out += self.within(reach[i], i) - self.within(reach[i] - squeeze, i)
         return out
 
 
 @lru_cache(maxsize=64)
 def _loads_of_one(law: Any, surfaces: MaterialPair, material: Any) -> tuple[Any, Curve]:
-    """What one particle does, and its curve: squeezes ε, and load over x² [Pa], never falling."""
+    """What one particle does, and its curve: squeezes ε, loads over x² [Pa] that never fall, and
+    the integral of ε over their logarithm."""
+    from .compound_sums import sum_squeezes
+
     one = law.one(surfaces=surfaces, particle=material)
     kinks = np.asarray(one.kinks)
     eps = np.unique([*np.linspace(0, 1, SQUEEZES + 1), *kinks[kinks < 1]])
-    return one, (eps, np.maximum.accumulate(np.asarray(one.at(eps).load, float)))
+    load = np.maximum.accumulate(np.asarray(one.at(eps).load, float))
+    return one, (eps, load, sum_squeezes(eps, load))
 
 
 @lru_cache(maxsize=64)
-def _classes(diameter: Any) -> tuple[Array, Array]:
-    """Diameters, and what each adds to the mean diameter."""
-    x, weight = [], []
+def _classes(diameter: Any) -> tuple[Array, Array, Array, Array]:
+    """Mean sizes of classes, between which sizes each is spread [m], and its part of the mean."""
+    parts = []
     for share, each in diameter.components:
         if isinstance(each, Monodisperse):
-            x.append(np.array([each.mean]))
-            weight.append(np.array([share * each.mean]))
+            size = np.array([each.mean])
+            parts.append((size, size, size, share * size))
             continue
         low, high = each.support
         low = max(low, float(each.ppf(1e-9)), 1e-4 * high)
-        edges = np.unique([each.support[0], *np.geomspace(low, high, CLASSES + 1), *each.kinks])
+        roughly = _edges(each, low, high, ROUGHLY)
+        amount = each.partial_moment(1, roughly[:-1], roughly[1:])
+        some = np.flatnonzero(amount > NONE * amount.sum())
+        low, high = max(low, roughly[some[0]]), roughly[some[-1] + 1]
+        edges = _edges(each, low, high, max(FEWEST, math.ceil(math.log(high / low) / STEP)))
         first, second = (each.partial_moment(n, edges[:-1], edges[1:]) for n in (1, 2))
         some = first > NONE * first.sum()
-        x.append(second[some] / first[some])
-        weight.append(share * first[some])
-    return np.concatenate(x), np.concatenate(weight)
+        x = second[some] / first[some]
+        wide = (edges[1:] / np.maximum(edges[:-1], 1e-300))[some]
+        wide = np.where((wide > EQUAL) & (wide < WIDE), wide, 1.0)
+        # spread evenly over ln x, about the same mean
+        begins = x * np.where(wide > 1, np.log(wide) / np.maximum(wide - 1, EQUAL - 1), 1.0)
+        parts.append((x, begins, begins * wide, share * first[some]))
+    x, low, high, weight = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return x, low, high, weight
+
+
+def _edges(diameter: Any, low: float, high: float, count: int) -> Array:
+    """Edges of classes that are equally wide in ln x, with the kinks of the sizes among them."""
+    first, last = diameter.support
+    edges = np.unique([first, *np.geomspace(low, high, count + 1), last, *diameter.kinks])
+    return np.asarray(edges, float)
 
 
 def _open(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array]:
@@ -431,7 +460,7 @@ def _open(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array
         return certain, certain
     step = top / min(max(CELLS if height == 0 else COARSE, PER_PARTICLE * number), MOST_CELLS)
     if len(kinds) == 1 and len(kinds[0].x) == 1 and height == 0:
-        jump = kinds[0].most * float(kinds[0].x[0]) ** 2
+        jump = kinds[0].heaviest
         if jump < top + step:  # the jumps of one size lie on multiples of the step
             step = jump / math.ceil(jump / step)
     places = np.asarray(step * np.arange(math.floor(top / step * (1 + SURE)) + 1), float)
@@ -457,7 +486,7 @@ def _certain(kinds: list[_Kind], loads: Array, height: float) -> tuple[Yes, Yes]
     known = [kind for kind in kinds if kind.number(height) > 0]
     if not known:
         return loads < 0, loads >= 0
-    most = max(kind.most * float(kind.x.max()) ** 2 for kind in known)
+    most = max(kind.heaviest for kind in known)
     ends = most * np.geomspace(1e-5, 1, ENDS)
     count = np.diff(np.sum([kind.number_below(ends, height) for kind in known], axis=0), prepend=0)
     low = np.geomspace(1e-3, 1e8, TILTS) / most

@@ -25,10 +25,10 @@ import numpy as np
 from ..errors import InvalidValue, Mistake, Problem
 from ..laws.particle.series import Series
 from ..numerics.quadrature import panel_rule
-from ..populations.distributions import Monodisperse
+from ..populations.distributions import Distribution, Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
-from ..quantities.say import value_of
+from ..quantities.say import percent, value_of
 from ..quantities.value import Value, quantity
 
 if TYPE_CHECKING:
@@ -49,6 +49,8 @@ NODES = 4
 PANELS, FINE = 32, 20_000
 """Panels of the squeeze in sums over sizes, and steps where there is one size."""
 LARGE = 1e200
+RARE = 1e-6
+"""So few of the particles in the way may be as large as the solids."""
 SURE = 1e-12
 """A load that differs by less, relatively, is the same."""
 
@@ -76,7 +78,7 @@ class ContactProbability(Value):
     Raises
     ------
     InvalidValue
-        A radius that is not above the largest particle, or particles that break.
+        A radius that is not above the particles, or particles that break.
 
     Notes
     -----
@@ -121,14 +123,14 @@ class ContactProbability(Value):
                 "particles.strength must be left out: particles that break are not followed here",
                 code=Mistake.BEYOND,
             )
-        largest = self.particles.diameter.support[1]
-        if self.radius <= largest:
+        if boulders := boulders_among(self.particles.diameter, self.radius):
             raise InvalidValue(
                 Problem(
                     "radius",
-                    f"must be above the largest particle, {value_of(largest, 'm')}: the sphere "
-                    "comes down on dust, not on a boulder",
+                    f"must be above the particles, of which {boulders} reach it: the sphere "
+                    "comes down on dust, not on boulders",
                     f"{value_of(self.radius, 'm')}",
+                    hint="give the sizes an end, or take a larger radius",
                     code=Mistake.ORDER,
                 )
             )
@@ -249,3 +251,18 @@ def compound(N: float, mass: Array) -> Array:
     log_scale = scaled * math.log(LARGE) - N * (1 - mass[0])
     with np.errstate(divide="ignore"):
         return np.minimum(np.exp(np.minimum(np.log(np.cumsum(g)) + log_scale, 0.0)), 1.0)
+
+
+def boulders_among(diameter: Distribution, radius: float) -> str:
+    """Which part of the particles in the way is as large as the solids [m]; "" where too few are.
+
+    >>> boulders_among(Monodisperse(mean=2e-3), 1e-3)
+    '100 %'
+    """
+    last = diameter.support[1]
+    if last < radius:
+        return ""
+    if diameter.support[0] >= radius:
+        return "100 %"
+    part = float(diameter.partial_moment(1, radius, last)) / diameter.moment(1)
+    return percent(part) if part > RARE else ""
