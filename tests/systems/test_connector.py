@@ -10,7 +10,7 @@ import thirdbody as tb
 from thirdbody.study.connector import AskedConnector
 from thirdbody.study.run_connector import run_connector
 from thirdbody.systems import connector
-from thirdbody.systems.compound_sums import expand_sum, fill_squeezes, sum_squeezes
+from thirdbody.systems.compound_sums import expand_sum, fill_squeezes, tabulate_squeezes
 from thirdbody.systems.connector import Connector, overlap
 from thirdbody.systems.contact_probability import ContactProbability
 
@@ -320,7 +320,7 @@ def test_the_classes_of_size_leave_less_than_the_bounds(monkeypatch, sizes):
     loads = np.array([0.02, 0.1, 0.5]) * (1.0 if sizes.moment(1) > 5e-6 else 0.3)
     found = [plugs.bounds(load) for load in loads]
     monkeypatch.setattr(connector, "STEP", 0.002)
-    monkeypatch.setattr(connector, "FEWEST", 1000)
+    monkeypatch.setattr(connector, "FEWEST", 2500)
     connector._classes.cache_clear()
     for (low, high), load in zip(found, loads, strict=True):
         finer = plugs.failure(load)
@@ -336,7 +336,8 @@ def test_the_mean_squeeze_between_two_sizes():
     x = np.exp(np.linspace(math.log(0.8), math.log(1.3), 200_001))
     forces = np.array([0.0, 0.5, 1.0, 3.0, 6.5, 8.0, 14.0, 20.0])
     out = np.empty(len(forces))
-    fill_squeezes(forces, 0.8, 1.3, eps, load, sum_squeezes(eps, load), out)
+    logs = np.log(np.where(forces > 0, forces, 1.0))
+    fill_squeezes(forces, logs, 0.8, 1.3, tabulate_squeezes(eps, load), out)
     for f, mean in zip(forces, out, strict=True):
         p = f / x**2
         k = np.searchsorted(load, p, side="right") - 1

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["add_numbers_below", "expand_sum", "fill_squeezes", "sum_squeezes"]
+__all__ = ["add_numbers_below", "expand_sum", "fill_squeezes", "tabulate_squeezes"]
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
@@ -55,82 +55,101 @@ def expand_sum(weight: Array, last: int, large: float, g: Array) -> int:
     return scaled
 
 
+LOAD, LOG, RATE, REST, SUM = range(5)
+"""Columns of a table of squeezes."""
+SAME = 1e-12
+"""Loads that differ by less, relatively, are one."""
+
+
+def tabulate_squeezes(eps: Array, load: Array) -> Array:
+    r"""Squeezes ε as a function that is linear in the load p between its rows, with its integral.
+
+    .. math:: \varepsilon = r_k\,p + s_k, \qquad \int\varepsilon\,d\ln p
+
+    Parameters
+    ----------
+    eps : array (n,)
+        Squeezes ε [1].
+    load : array (n,)
+        Loads over x² p that never fall, from 0 on [Pa].
+
+    Returns
+    -------
+    array (m, 5)
+        Load, its logarithm, r and s from there on, and the integral up to there. Rows with
+        the same load, but for rounding, are one, at which ε jumps. The logarithm of a load of 0
+        is 0, and is not used.
+    """
+    rises = np.diff(load) > SAME * load[1:]
+    arrives, leaves = eps[np.append(True, rises)], eps[np.append(rises, True)]
+    load = load[np.append(True, rises)]
+    rate = np.append((arrives[1:] - leaves[:-1]) / np.diff(load), 0.0)
+    rest = leaves - rate * load
+    log = np.log(np.where(load > 0, load, 1.0))
+    part = rest[:-1] * np.diff(log) + arrives[1:] - leaves[:-1]
+    sums = np.cumsum(np.append(0.0, np.where(load[:-1] > 0, part, 0.0)))
+    return np.ascontiguousarray(np.transpose([load, log, rate, rest, sums]))
+
+
 @njit(cache=True, error_model="numpy", nogil=True)
-def find_cell(p: float, load: Array, k: int) -> int:
-    """The last place of a table, not before k, whose load is at most p; -1 below all of them."""
-    top = len(load) - 1
-    if k < 0:
-        if p < load[0]:
-            return -1
-        k = 0
+def find_row(p: float, table: Array, k: int) -> int:
+    """The last row of a table, not before k, whose load is at most p."""
+    top = len(table) - 1
     step = 1
-    while k + step <= top and load[k + step] <= p:  # the next load may be near, or far
+    while k + step <= top and table[k + step, LOAD] <= p:  # the next load may be near, or far
         k += step
         step *= 2
     while step > 1:
         step //= 2
-        if k + step <= top and load[k + step] <= p:
+        if k + step <= top and table[k + step, LOAD] <= p:
             k += step
     return k
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
-def squeeze_below(p: float, k: int, eps: Array, load: Array) -> float:
-    """Squeeze ε at a load over x² p [Pa], in cell k of a table that is linear between its rows."""
-    if k < 0 or k == len(load) - 1:
-        return eps[max(k, 0)]
-    return eps[k] + (eps[k + 1] - eps[k]) / (load[k + 1] - load[k]) * (p - load[k])
-
-
-@njit(cache=True, error_model="numpy", nogil=True)
-def sum_below(p: float, k: int, eps: Array, load: Array, sums: Array) -> float:
-    r"""The integral of ``squeeze_below`` over ln p, from the first row of the table [1]."""
-    if k < 0:
-        return sums[0] - eps[0] * math.log(load[0] / p)
-    if k == len(load) - 1:
-        return sums[k] + eps[k] * math.log(p / load[k])
-    slope = (eps[k + 1] - eps[k]) / (load[k + 1] - load[k])
-    rest = (eps[k] - slope * load[k]) * math.log(load[k + 1] / p) + slope * (load[k + 1] - p)
-    return sums[k + 1] - rest
-
-
-@njit(cache=True, error_model="numpy", nogil=True)
-def sum_squeezes(eps: Array, load: Array) -> Array:
-    """``sum_below`` at the rows of a table; 0 where the load is 0."""
-    sums = np.zeros(len(load))
-    for k in range(1, len(load)):
-        if load[k - 1] > 0.0 and load[k] > load[k - 1]:
-            slope = (eps[k] - eps[k - 1]) / (load[k] - load[k - 1])
-            log = math.log(load[k] / load[k - 1])
-            sums[k] = (eps[k - 1] - slope * load[k - 1]) * log + eps[k] - eps[k - 1]
-        sums[k] += sums[k - 1]
-    return sums
+def sum_below(p: float, log: float, k: int, table: Array) -> float:
+    """The integral of the squeeze over ln p up to a load p over x² [Pa], in row k of a table."""
+    if k == len(table) - 1:
+        return table[k, SUM] + table[k, REST] * (log - table[k, LOG])
+    up = k + 1
+    rest = table[k, REST] * (table[up, LOG] - log) + table[k, RATE] * (table[up, LOAD] - p)
+    return table[up, SUM] - rest
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def fill_squeezes(
-    loads: Array, low: float, high: float, eps: Array, load: Array, sums: Array, out: Array
+    loads: Array, logs: Array, low: float, high: float, table: Array, out: Array
 ) -> None:
     r"""Mean squeeze of particles between two sizes [m] under loads that rise [N], into out.
 
     .. math:: \frac1{\ln(b/a)}\int_a^b \varepsilon(f/x^2)\,d\ln x
 
-    with the squeeze ε(p) of ``squeeze_below``, and the ``sums`` of ``sum_squeezes``.
+    Parameters
+    ----------
+    loads, logs : array (n,)
+        Loads f from 0 on [N], and their logarithms.
+    low, high : float
+        The sizes a and b [m], which may be equal.
+    table : array (m, 5)
+        Of `tabulate_squeezes`, whose first load is 0.
+    out : array (n,)
+        Squeezes [1].
     """
-    top = len(load) - 1
-    first = last = -1  # cells of the smallest particle, which is squeezed most, and the largest
+    top = len(table) - 1
+    first = last = 0  # rows of the smallest particle, which is squeezed most, and the largest
     width = 2 * math.log(high / low)
     before = 0.0
     for j in range(len(loads)):
         p, q = loads[j] / low**2, loads[j] / high**2
-        first, last = find_cell(p, load, first), find_cell(q, load, last)
+        first, last = find_row(p, table, first), find_row(q, table, last)
         if last == top:
-            out[j:] = eps[top]
+            out[j:] = table[top, REST]
             return
         if width == 0.0 or p == 0.0:
-            mean = squeeze_below(p, first, eps, load)
+            mean = table[first, RATE] * p + table[first, REST]
         else:
-            over = sum_below(p, first, eps, load, sums) - sum_below(q, last, eps, load, sums)
+            log = logs[j] - 2 * math.log(low)
+            over = sum_below(p, log, first, table) - sum_below(q, log - width, last, table)
             mean = over / width
         before = max(before, mean)  # rounding never makes it fall
         out[j] = before
@@ -138,19 +157,19 @@ def fill_squeezes(
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def add_numbers_below(
-    loads: Array, low: Array, high: Array, each: Array, reach: Array,
-    eps: Array, load: Array, sums: Array, out: Array,
+    loads: Array, logs: Array, low: Array, high: Array, each: Array, reach: Array, table: Array,
+    out: Array,
 ) -> None:  # fmt: skip
     """Add to out how many particles carry at most these loads [N], which rise.
 
     Particles of class i have sizes from ``low[i]`` to ``high[i]``, are squeezed as
-    ``fill_squeezes`` says, and ``each[i]`` of them lie in the way per unit of ``reach[i]``, which
+    `fill_squeezes` says, and ``each[i]`` of them lie in the way per unit of ``reach[i]``, which
     is ε at the middle.
     """
     squeezes = np.empty(len(loads))
     for i in range(len(low)):
         if reach[i] <= 0.0:
             continue
-        fill_squeezes(loads, low[i], high[i], eps, load, sums, squeezes)
+        fill_squeezes(loads, logs, low[i], high[i], table, squeezes)
         for j in range(len(loads)):
             out[j] += each[i] * min(squeezes[j], reach[i])

@@ -52,13 +52,12 @@ if TYPE_CHECKING:
     from ..laws.base import AbstractParticleLaw
 
     Array = NDArray[np.float64]
-    Curve = tuple[Array, Array, Array]
     Yes = NDArray[np.bool_]
 
 __all__ = ["Connector"]
 
 BY_MATERIAL = "by material"
-STEP, FEWEST, ROUGHLY = 0.02, 100, 100
+STEP, FEWEST, ROUGHLY = 0.02, 250, 100
 """Widths of classes of size in ln x, how many there are at least, and to see what sizes occur."""
 WIDE = 1.5
 """Particles of a class between sizes this far apart, or as good as equal, have one size."""
@@ -347,7 +346,7 @@ class _Kind:
     def __init__(self, plug: Connector, dust: Particles, name: str) -> None:
         self.name, self.material = name, dust.material
         law: Any = (dust.law or plug.law).of_shape(dust.shape)  # type: ignore[attr-defined]
-        self.one, self.curve = _loads_of_one(law, plug.surfaces, dust.material)
+        self.one, self.table = _loads_of_one(law, plug.surfaces, dust.material)
         self.x, self.low, self.high, weight = _classes(dust.diameter)
         self.each = 2 * math.pi * plug.radius * dust.areal_density * weight
         """In the way before the wipe, at touch."""
@@ -363,7 +362,7 @@ class _Kind:
     @property
     def most(self) -> float:
         """Load over x² of a particle squeezed to its diameter [Pa]."""
-        return float(self.curve[1][-1])
+        return float(self.table[-1, 0])
 
     @property
     def heaviest(self) -> float:
@@ -388,28 +387,29 @@ class _Kind:
 
         reach = 1 - height / self.x
         sure = loads * (1 + SURE)
+        logs = np.log(np.where(sure > 0, sure, 1.0))
         out = np.zeros(len(loads))
         if not self.aside:
-            add_numbers_below(sure, self.low, self.high, self.each, reach, *self.curve, out)
+            classes = self.low, self.high, self.each, reach
+            add_numbers_below(sure, logs, *classes, self.table, out)
             return out
         squeeze = np.empty(len(loads))
         for i, ends in enumerate(zip(self.low, self.high, strict=True)):
-            fill_squeezes(sure, *ends, *self.curve, squeeze)
+            fill_squeezes(sure, logs, *ends, self.table, squeeze)
             out += self.within(reach[i], i) - self.within(reach[i] - squeeze, i)
         return out
 
 
 @lru_cache(maxsize=64)
-def _loads_of_one(law: Any, surfaces: MaterialPair, material: Any) -> tuple[Any, Curve]:
-    """What one particle does, and its curve: squeezes ε, loads over x² [Pa] that never fall, and
-    the integral of ε over their logarithm."""
-    from .compound_sums import sum_squeezes
+def _loads_of_one(law: Any, surfaces: MaterialPair, material: Any) -> tuple[Any, Array]:
+    """What one particle does, and the table of its squeezes under loads over x² [Pa]."""
+    from .compound_sums import tabulate_squeezes
 
     one = law.one(surfaces=surfaces, particle=material)
     kinks = np.asarray(one.kinks)
     eps = np.unique([*np.linspace(0, 1, SQUEEZES + 1), *kinks[kinks < 1]])
     load = np.maximum.accumulate(np.asarray(one.at(eps).load, float))
-    return one, (eps, load, sum_squeezes(eps, load))
+    return one, tabulate_squeezes(eps, load)
 
 
 @lru_cache(maxsize=64)
