@@ -41,14 +41,20 @@ def refuses(
 
 
 @contextmanager
-def warns_of(code: str, *, effect: float | None = None, says: str = "") -> Iterator[None]:
+def warns_of(
+    code: str,
+    *,
+    effect: float | None = None,
+    says: str = "",
+    kind: type[Warning] = tb.RangeWarning,
+) -> Iterator[pytest.WarningsRecorder]:
     """Context in which a note with this code is told, with this effect on the answer.
 
     ``says`` is a number or a name that its sentence has to state.
     """
-    with pytest.warns(tb.RangeWarning) as told:
-        yield
-    notes = [each.message.args[0] for each in told if isinstance(each.message, tb.RangeWarning)]
+    with pytest.warns(kind) as told:
+        yield told
+    notes = [each.message.args[0] for each in told if isinstance(each.message, kind)]
     codes = [getattr(note, "code", "") for note in notes]
     assert code in codes, f"{code} is not among {codes}"
     same = [note for note in notes if getattr(note, "code", "") == code]

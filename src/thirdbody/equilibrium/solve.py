@@ -168,9 +168,13 @@ def solve(
     need_one("branch", branch, *get_args(LoadBranch))
     if branch == "unloading" and any(each.strength is not None for each in contact.populations):
         raise InvalidValue(
-            "branch = 'unloading' has no meaning with particles that break (strength): what is "
-            "broken does not heal; use branch = 'loading'",
-            code=Mistake.IDLE,
+            Problem(
+                "branch",
+                "has no meaning with particles that break (strength): what is broken does not heal",
+                repr(branch),
+                hint="use branch = 'loading'",
+                code=Mistake.IDLE,
+            )
         )
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
