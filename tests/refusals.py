@@ -9,9 +9,22 @@ from contextlib import contextmanager
 import pytest
 
 import thirdbody as tb
+from thirdbody.equilibrium.status import Status
 from thirdbody.errors import Mistake
 
-__all__ = ["Mistake", "refuses", "warns_of"]
+__all__ = ["Mistake", "Status", "balances_not", "refuses", "warns_of"]
+
+
+@contextmanager
+def balances_not(status: Status | None, *, says: str = "") -> Iterator[None]:
+    """Context whose end finds no equilibrium, with the status of such a state.
+
+    ``says`` is a number or a name that its sentence has to state.
+    """
+    with pytest.raises(tb.NoEquilibrium) as told:
+        yield
+    assert told.value.status is status
+    assert says in str(told.value)
 
 
 @contextmanager
@@ -22,13 +35,13 @@ def refuses(
     value: str | None = None,
     meant: str | None = None,
     says: str = "",
-) -> Iterator[None]:
+) -> Iterator[pytest.ExceptionInfo[tb.InvalidValue]]:
     """Context whose end refuses an input: the kind of mistake, its dotted place, its value.
 
     ``says`` is a number or a name that its sentence has to state.
     """
     with pytest.raises(tb.InvalidValue) as refusal:
-        yield
+        yield refusal
     wanted = (code, place)
     told = [(each.code, each.place) for each in refusal.value.problems]
     assert wanted in told, f"{wanted} is not among {told}"

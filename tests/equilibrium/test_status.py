@@ -6,6 +6,7 @@ from unittest import mock
 import numpy as np
 import oracle
 import pytest
+from refusals import balances_not
 from twins import base, material
 
 import thirdbody as tb
@@ -224,7 +225,7 @@ class TestChi:
 def test_a_pressure_below_hardness_is_no_wrong_unit():
     """Hertz pressures of hard bodies are more than summits carry, and less than the hardness."""
     contact = rough(H=7e9)
-    with pytest.raises(tb.NoEquilibrium, match=r"its unit may be right.* a film carries it"):
+    with balances_not(Status.TOO_MUCH, says="below the hardness, 7 GPa"):
         tb.solve(contact, pressure=6.5e9)
-    with pytest.raises(tb.NoEquilibrium, match="check the unit of the load"):
+    with balances_not(Status.TOO_MUCH, says="hardness, 7 GPa; check the unit"):
         tb.solve(contact, pressure=6.5e12)
