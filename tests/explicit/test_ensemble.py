@@ -388,7 +388,7 @@ def test_a_measured_surface_is_pressed_itself():
     assert result.data["table"]["h_raw"] == alone.h.tolist()
     shared = run_explicit(asked, workers=2)
     assert json.dumps(shared.data) == json.dumps(result.data)
-    with pytest.raises(tb.InvalidValue, match="gives one surface, which is not shared"):
+    with refuses(Mistake.BEYOND, "scheduler", value="'tcp://127.0.0.1:9'"):
         run_explicit(asked, scheduler="tcp://127.0.0.1:9")
 
 

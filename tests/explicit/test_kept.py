@@ -7,6 +7,7 @@ from itertools import product
 
 import pytest
 from damage import another_number, empty, missing, truncated
+from refusals import warns_of
 from typer.testing import CliRunner
 
 from thirdbody import cli
@@ -51,7 +52,7 @@ def test_surfaces_of_an_earlier_version_are_taken_and_told(tmp_path):
         assert set(said) == RECORD | {"sha256"}
         del said["sha256"]
         file.write_text(json.dumps(said))
-    with pytest.warns(UserWarning, match="2 surfaces of an earlier version"):
+    with warns_of("kept.unchecked", kind=UserWarning, says=": 2 surfaces "):
         again = function(CONTACT, **ASKED, folder=tmp_path)
     assert again.to_dict() == wanted.to_dict()
 

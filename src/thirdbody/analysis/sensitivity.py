@@ -416,7 +416,13 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
             "of is empty; name a column of Equilibrium or a critical load", code=Mistake.EMPTY
         )
     if problems := [
-        f"of = {name!r} has no derivative; it must be one of {', '.join(known)}"
+        Problem(
+            "of",
+            "has no derivative",
+            repr(name),
+            hint=f"it must be one of {', '.join(known)}",
+            code=Mistake.OPTION,
+        )
         for name in names
         if name not in known
     ]:

@@ -99,14 +99,18 @@ class Uncertain:
                 swap = "; exchange them" if first > second else "; what is exact needs no range"
                 problems.append(
                     Problem(
-                        "", f"{shown} must be below high = {second:g}{swap}", code=Mistake.ORDER
+                        one,
+                        f"must be below high = {second:g}{swap}",
+                        f"{first:g}",
+                        code=Mistake.ORDER,
                     )
                 )
             elif self.kind == "log-uniform" and first <= 0:
                 problems.append(
                     Problem(
-                        "",
-                        f"{shown} must be > 0 for a range even in the logarithm",
+                        one,
+                        "must be > 0 for a range even in the logarithm",
+                        f"{first:g}",
                         code=Mistake.RANGE,
                     )
                 )
@@ -307,8 +311,12 @@ def _correlated(inputs: Mapping[str, object], where: str) -> list[str]:
     """Ufloats that rest on the same measurement, which no two inputs here may."""
     told = [(label, given) for label, given in inputs.items() if is_uncertain(given)]
     return [
-        f"{where.format(one)} and {where.format(other)} are correlated, and inputs are "
-        "independent here; join what is one thing by +, or take sensitivity(...).ufloats(...)"
+        Problem(
+            where.format(one),
+            f"and {where.format(other)} are correlated, and inputs are independent here",
+            hint="join what is one thing by +, or take sensitivity(...).ufloats(...)",
+            code=Mistake.CLASH,
+        )
         for (one, first), (other, second) in combinations(told, 2)
         if are_correlated(first, second)
     ]
