@@ -155,7 +155,7 @@ class Wear(AbstractOutput):
             "K_sa": "wear coefficient of the contacts of particles (0 where grooves are all)",
             "f_ab": "removed part of a groove, 0 to 1",
         }
-        out = [
+        out: list[str] = [
             self.problem(
                 f"needs {name}, the {what} [1]",
                 hint="it depends on the materials, and no value fits all",

@@ -16,7 +16,7 @@ from ..analysis.uncertainty.inputs import Uncertainty
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.measured.topography import Topography
 from ..quantities.arguments import names_arguments
 from ..quantities.value import slips_are_told
@@ -248,7 +248,15 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
         reader.notes.append("[body] has no effect, because [load] gives no force")
     if load == "separation" and asked is None and np.any(deep := loads < deepest(contact)):
         raise InvalidValue(
-            *(f"load.separation = {d:g} m is refused: {why_deep(contact)}" for d in loads[deep][:5])
+            *(
+                Problem(
+                    "load.separation",
+                    f"is refused: {why_deep(contact)}",
+                    f"{d:g} m",
+                    code=Mistake.RANGE,
+                )
+                for d in loads[deep][:5]
+            )
         )
     states = None if asked is None else plan(reader, contact, load, loads, asked)
     return Study(
