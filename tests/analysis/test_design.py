@@ -17,6 +17,7 @@ from thirdbody.analysis.design.equal_share import equal_share_size
 from thirdbody.analysis.design.front import front, hypervolume
 from thirdbody.analysis.design.problem import Limit, Objective, Suspension
 from thirdbody.equilibrium.states import state_columns
+from thirdbody.errors import code_of
 from thirdbody.numerics.sampling import Span
 from thirdbody.quantities import progress
 from thirdbody.views.plot.design import plot_trials
@@ -268,7 +269,7 @@ def test_an_end_of_the_range_is_told():
         points=8,
     )
     assert best.at_bound == (SIZE,)
-    assert any("end of its range" in text for text in best.warnings)
+    assert f"design.end.{SIZE}" in map(code_of, best.warnings)
     low, high = best.tolerance[SIZE]
     assert 5e-8 <= low <= best.values[SIZE] <= high <= 1e-7
 

@@ -110,7 +110,6 @@ def test_one_crowded_load_is_told_and_not_ok():
     state = tb.solve(rough(), F_star=1.4e-2)
     assert state.A_t > 0.5
     assert state.status_code == Status.CROWDED
-    assert state.status.startswith("crowded: more than 0.5")
 
 
 def test_real_areas_above_one_are_not_ok():
@@ -207,7 +206,7 @@ class TestChi:
         )
         state = tb.solve(contact, F_star=1e-3)
         assert 0.005 < state.A_t < 0.05
-        assert not any("point by point" in text for text in state.warnings)
+        assert not any(code_of(text).startswith("area") for text in state.warnings)
 
     def test_a_sweep_looks_at_all_its_contacts(self):
         """χ of the contact that the sweep starts from is small; that of the hard ones is not."""

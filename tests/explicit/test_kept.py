@@ -11,6 +11,7 @@ from refusals import warns_of
 from typer.testing import CliRunner
 
 from thirdbody import cli
+from thirdbody.errors import code_of, note_of
 from thirdbody.explicit import ensemble as function
 
 from .test_ensemble import CONTACT, EXAMPLE
@@ -40,9 +41,10 @@ def test_a_damaged_surface_is_pressed_again(tmp_path, damage, recwarn):
     assert pressed == [2]
     assert again.to_dict() == wanted.to_dict()
     assert contents(tmp_path) == before
-    told = [str(each.message) for each in recwarn if each.category is UserWarning]
+    told = [note_of(each.message) for each in recwarn if each.category is UserWarning]
     assert told == ([] if damage is missing else told[:1])
-    assert damage is missing or "is damaged (surface_001.json)" in told[0]
+    assert damage is missing or code_of(told[0]) == "kept.damaged"
+    assert damage is missing or "(surface_001.json)" in told[0]
 
 
 def test_surfaces_of_an_earlier_version_are_taken_and_told(tmp_path):

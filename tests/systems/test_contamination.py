@@ -314,7 +314,7 @@ def strong(fragments="footprint", **changes):
 
 
 def breaking(sizes, strength, **options):
-    with pytest.warns(tb.RangeWarning, match="strengths are extrapolated by a factor"):
+    with warns_of(f"strength.sizes.{HARD['material'].name}"):
         return oil_particles.FilmParticles(
             diameter=sizes, number=1e12, strength=strength, **(HARD | options)
         )
