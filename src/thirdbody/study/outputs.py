@@ -33,7 +33,8 @@ def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contac
         area = body.area
     elif body is not None and forces is not None and len(forces) == 1:
         area = float(body.hertz(forces[0], contact.E_ss).area)
-    out, notes = [], []
+    out: list[Any] = []
+    notes: list[str] = []
     each: Any
     for each in contact.outputs:
         unsaid = "A_n" in each.__dataclass_fields__ and get(get(data, each.name), "A_n") is None
