@@ -27,30 +27,45 @@ def balances_not(status: Status | None, *, says: str = "") -> Iterator[None]:
     assert says in str(told.value)
 
 
-@contextmanager
-def refuses(
-    code: Mistake,
-    place: str,
-    *,
-    value: str | None = None,
-    meant: str | None = None,
-    says: str = "",
-) -> Iterator[pytest.ExceptionInfo[tb.InvalidValue]]:
+class refuses:
     """Context whose end refuses an input: the kind of mistake, its dotted place, its value.
 
-    ``says`` is a number or a name that its sentence has to state.
+    ``says`` is a number or a name that its sentence has to state. It can be entered again, so
+    that a row of `parametrize` can hold one.
     """
-    with pytest.raises(tb.InvalidValue) as refusal:
-        yield refusal
-    wanted = (code, place)
-    told = [(each.code, each.place) for each in refusal.value.problems]
-    assert wanted in told, f"{wanted} is not among {told}"
-    same = [each for each in refusal.value.problems if (each.code, each.place) == wanted]
-    assert any(says in each for each in same), same
-    if value is not None:
-        assert value in [each.value for each in same]
-    if meant is not None:
-        assert meant in [each.meant for each in same]
+
+    def __init__(
+        self,
+        code: Mistake,
+        place: str,
+        *,
+        value: str | None = None,
+        meant: str | None = None,
+        says: str = "",
+    ):
+        self.wanted, self.value, self.meant, self.says = (code, place), value, meant, says
+
+    def __repr__(self) -> str:
+        return " ".join(filter(None, self.wanted))
+
+    def __enter__(self) -> pytest.ExceptionInfo[tb.InvalidValue]:
+        self.refusal = pytest.raises(tb.InvalidValue)
+        self.told = self.refusal.__enter__()
+        return self.told
+
+    def __exit__(self, *raised: object) -> bool:
+        if not self.refusal.__exit__(*raised):  # type: ignore[arg-type]
+            return False
+        problems = self.told.value.problems
+        told = [(each.code, each.place) for each in problems]
+        assert self.wanted in told, f"{self.wanted} is not among {told}"
+        same = [each for each in problems if (each.code, each.place) == self.wanted]
+        assert any(self.says in each for each in same), same
+        if self.value is not None:
+            assert self.value in [each.value for each in same]
+        if self.meant is not None:
+            assert self.meant in [each.meant for each in same]
+        return True
 
 
 @contextmanager

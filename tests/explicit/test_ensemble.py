@@ -320,17 +320,17 @@ def test_a_load_on_a_few_points_is_told():
 
 
 @pytest.mark.parametrize(
-    ("how", "words"),
+    ("how", "refusal"),
     [
-        (dict(count=0), "surfaces = 0 must be a whole number"),
-        (dict(F_star=[-1.0]), "must be finite and > 0"),
-        (dict(seats=[[0.0, 0.0]]), "positions belong to one surface"),
-        (dict(seats="nowhere"), "must be one of 'random'"),
-        (dict(workers=0), "workers = 0 must be a whole number, at least 1"),
+        (dict(count=0), refuses(Mistake.KIND, "surfaces", value="0")),
+        (dict(F_star=[-1.0]), refuses(Mistake.RANGE, "F_star", value="-1")),
+        (dict(seats=[[0.0, 0.0]]), refuses(Mistake.BEYOND, "", says="surfaces = 1")),
+        (dict(seats="nowhere"), refuses(Mistake.OPTION, "seats", value="'nowhere'")),
+        (dict(workers=0), refuses(Mistake.KIND, "workers", value="0")),
     ],
 )
-def test_bad_input_is_refused(how, words):
-    with pytest.raises(tb.InvalidValue, match=words):
+def test_bad_input_is_refused(how, refusal):
+    with refusal:
         many(**how)
 
 

@@ -163,7 +163,7 @@ def test_every_mistake_has_a_code():
         (lambda: to_si("3 GPa", "m"), Mistake.UNIT, ""),
         (lambda: to_si("3,5 mm", "m"), Mistake.FORM, ""),
         (lambda: to_si("thick", "m"), Mistake.KIND, ""),
-        (lambda: tb.Uncertain.uniform(low=2.0, high=1.0), Mistake.ORDER, ""),
+        (lambda: tb.Uncertain.uniform(low=2.0, high=1.0), Mistake.ORDER, "low"),
     ],
 )
 def test_the_code_of_a_mistake(make, code, place):

@@ -398,17 +398,17 @@ FRAGMENTS = ("gone", "footprint", "all")
 
 
 @pytest.mark.parametrize(
-    ("fields", "words"),
+    ("fields", "refusal"),
     [
-        ({"strength": "strong"}, "must be a WeibullStrength"),
+        ({"strength": "strong"}, refuses(Mistake.KIND, "FilmParticles.strength", value="'strong'")),
         (
             {"strength": strong(), "debris": "brittle", "fragment": 1e-6},
-            "would break the particles twice; remove one",
+            refuses(Mistake.CLASH, "FilmParticles.strength"),
         ),
     ],
 )
-def test_mistakes_in_a_strength(fields, words):
-    with pytest.raises(tb.InvalidValue, match=words):
+def test_mistakes_in_a_strength(fields, refusal):
+    with refusal:
         oil_particles.FilmParticles(
             diameter=tb.Monodisperse(mean=5e-6), number=1.0, **(HARD | fields)
         )

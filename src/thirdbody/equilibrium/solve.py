@@ -21,7 +21,7 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, Problem, tell_of_range
-from ..quantities.arguments import need_one, only_one
+from ..quantities.arguments import is_empty, need_one, only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
@@ -87,9 +87,7 @@ def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
         Problem(name, f"must {allowed}", f"{v:g}", code=Mistake.RANGE) for v in flat[~good][:5]
     ]
     if not problems and not values.size:
-        problems.append(
-            Problem("", f"{name} is empty; give at least one value", code=Mistake.EMPTY)
-        )
+        problems.append(is_empty(name, "give at least one value"))
     if problems:
         raise InvalidValue(*problems)
     return name, flat, values.ndim == 0

@@ -105,6 +105,15 @@ def only_one(**quantities: object) -> tuple[str, object]:
     return given.popitem()
 
 
+def is_empty(name: str, hint: str) -> Problem:
+    """Problem of an argument that holds nothing, and what to give.
+
+    >>> is_empty("laws", "give at least one law")
+    'laws is empty; give at least one law'
+    """
+    return Problem(name, "is empty", hint=hint, code=Mistake.EMPTY)
+
+
 def need_place(name: str, value: Any, count: int) -> None:
     """Refuse what is no place in a list, from the end too.
 

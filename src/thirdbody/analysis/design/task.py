@@ -14,6 +14,7 @@ from ...equilibrium.solve import given_load
 from ...errors import Advice, InvalidValue, Mistake, Problem
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
+from ...quantities.arguments import is_empty
 from ..inputs import input_of as moved_input
 from ..uncertainty.inputs import drawn_inputs
 from .problem import Limit, Objective, Suspension
@@ -115,11 +116,7 @@ def _choices(
             problems += error.problems
     if not vary:
         problems.append(
-            Problem(
-                "",
-                'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}',
-                code=Mistake.EMPTY,
-            )
+            is_empty("vary", 'say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}')
         )
     return variables, materials, problems
 
@@ -130,9 +127,7 @@ def _unknown(
     """Problems of objectives and limits: names of no column, or names given twice."""
     problems: list[str] = []
     if not objectives:
-        problems.append(
-            Problem("", "objective is empty; say what should be small or large", code=Mistake.EMPTY)
-        )
+        problems.append(is_empty("objective", "say what should be small or large"))
     known = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
     both: list[Objective | Limit] = [*objectives, *limits]
     problems += [

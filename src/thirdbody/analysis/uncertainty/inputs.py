@@ -12,6 +12,7 @@ import numpy as np
 
 from ...contact.contact import Contact
 from ...errors import Clause, InvalidValue, Mistake, Problem
+from ...quantities.arguments import is_empty
 from ...quantities.carried import takes_units
 from ...quantities.uncertain import are_correlated, is_uncertain
 from ...quantities.value import problem_with
@@ -362,11 +363,7 @@ def drawn_inputs(
     problems = _correlated(inputs, where)
     if not inputs:
         problems.append(
-            Problem(
-                "",
-                'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}',
-                code=Mistake.EMPTY,
-            )
+            is_empty("vary", 'say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}')
         )
     for label, given in inputs.items():
         place = where.format(label)

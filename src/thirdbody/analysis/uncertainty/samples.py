@@ -16,6 +16,7 @@ from ...equilibrium.states import carries, state_columns, tables_each
 from ...equilibrium.status import MOST_AREA
 from ...errors import InvalidValue, Mistake, Note, Problem
 from ...numerics.sampling import sobol
+from ...quantities.arguments import is_empty
 from ...quantities.record import Column
 from ...quantities.say import percent
 from ..inputs import NUMBERS
@@ -94,13 +95,7 @@ def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
         if name not in known
     ]
     if not names:
-        problems.append(
-            Problem(
-                "",
-                "outputs is empty; name a column of Equilibrium or a critical load",
-                code=Mistake.EMPTY,
-            )
-        )
+        problems.append(is_empty("outputs", "name a column of Equilibrium or a critical load"))
     if contact.two_body:
         problems += [
             Problem(
