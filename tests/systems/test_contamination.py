@@ -260,18 +260,18 @@ def test_steel_debris_is_flattened_and_says_so(ratio):
 
 
 @pytest.mark.parametrize(
-    ("options", "message"),
+    ("options", "refusal"),
     [
-        ({"debris": "brittle"}, "size of their fragments"),
-        ({"fragment": 1e-6}, "only those"),
-        ({"slip": 1e-6}, "f_ab is missing"),
-        ({"film": 0.0}, "must be > 0"),
-        ({"entry": -1.0}, "must be >= 0"),
-        ({"surfaces": STEEL}, "MaterialPair"),
+        ({"debris": "brittle"}, refuses(Mistake.MISSING, "FilmParticles.fragment", value="None")),
+        ({"fragment": 1e-6}, refuses(Mistake.MISSING, "FilmParticles.fragment", value="1e-06")),
+        ({"slip": 1e-6}, refuses(Mistake.MISSING, "FilmParticles.f_ab")),
+        ({"film": 0.0}, refuses(Mistake.RANGE, "FilmParticles.film", value="0.0")),
+        ({"entry": -1.0}, refuses(Mistake.RANGE, "FilmParticles.entry", value="-1.0")),
+        ({"surfaces": STEEL}, refuses(Mistake.KIND, "FilmParticles.surfaces")),
     ],
 )
-def test_refusals(options, message):
-    with pytest.raises(tb.InvalidValue, match=message):
+def test_refusals(options, refusal):
+    with refusal:
         oil(**options)
     with refuses(Mistake.OPTION, "side", value="3"):
         oil().dents(3)
