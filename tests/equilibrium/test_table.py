@@ -255,7 +255,7 @@ def test_attraction_is_refused():
         roughness=tb.Roughness(sigma=1e-6, R=100e-6),
         asperity_law=tb.asperity.DMT(w=0.05),
     )
-    with refuses(Mistake.BEYOND, "", says="h = 1e-06 m"):
+    with refuses(Mistake.BEYOND, "high", says="h = 1e-06 m"):
         tb.table(sticky, high=1e-6)
     made = tb.table(sticky, tolerance=1e-3)
     pull, d = tb.pull_off(sticky)
