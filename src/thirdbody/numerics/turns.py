@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["Stretch", "known_turn", "stretches_with_a_turn"]
 
 STEEP = 0.9
-"""Part of a step along the parameter from which nothing is looked at: with steps beside as steep."""
+"""Part of a step along the parameter from which, with steps beside as steep, no turn is sought."""
 FLAT = 0.3
 """Slope below which shorter stretches are looked at."""
 LONGEST, LONGEST_FLAT = 1.2, 0.6
