@@ -177,7 +177,13 @@ def test_a_filter_needs_something_that_rolls():
         Path(bare).read_text("utf-8").split("# The contact that")[0], "utf-8"
     )
     lacks = complained(run("life", "alone.toml", "--filter", "5=75"))
-    assert "--filter asks for dents with another filter; the study has no [surfaces]" in lacks
+    assert "another filter; the study lacks [surfaces], [roughness] and [film]" in lacks
+    without = Path(bare).read_text("utf-8").replace("[film]", "[film_of_another]")
+    assert without.count("[film_of_another]") == 1
+    only = without.split("[film_of_another]")[0] + "[life" + without.split("[life", 1)[1]
+    Path("filmless.toml").write_text(only if "[surfaces]" in only else without, "utf-8")
+    told = complained(run("life", "filmless.toml", "--filter", "5=75"))
+    assert "the study lacks [film]" in told
     study("dry-contact", file="dry.toml")
     assert "--filter is of an oil" in complained(run("life", "dry.toml", "--filter", "5=75"))
     assert "--filter" in complained(run("life", quarry(), "--filter", "5=x"))
