@@ -214,7 +214,12 @@ def _notes_of_filter(circuit: OilCircuit, filter: Filter) -> list[Note]:
         return []
     tried = _with_flow(filter, circuit.filters[0]).replace(name=filter.name or "--filter")
     every = circuit.replace(filters=(tried,)).notes()
-    return [each for each in every if each.code in ("clipped", "below the data sheet")]
+    # of a code of their own: the filter of the study may have the same doubts
+    return [
+        Note(each, code=f"{each.code}, tried")
+        for each in every
+        if each.code in ("clipped", "below the data sheet")
+    ]
 
 
 def _after(
