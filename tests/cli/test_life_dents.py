@@ -176,10 +176,20 @@ def test_a_filter_needs_something_that_rolls():
         Path(bare).read_text("utf-8").split("# The contact that")[0], "utf-8"
     )
     lacks = complained(run("life", "alone.toml", "--filter", "5=75"))
-    assert "--filter asks for dents with another filter; the study has no [surfaces]" in lacks
+    assert "another filter; the study lacks [surfaces], [roughness] and [film]" in lacks
+    told = complained(run("life", bare, "--filter", "5=75"))
+    assert told.rstrip().endswith("the study lacks [film]")
     study("dry-contact", file="dry.toml")
     assert "--filter is of an oil" in complained(run("life", "dry.toml", "--filter", "5=75"))
     assert "--filter" in complained(run("life", quarry(), "--filter", "5=x"))
+
+
+def test_a_filter_of_the_command_is_doubted_as_one_of_the_study():
+    done = run("life", quarry(), "--filter", "5=2, 10=75", "--verbose")
+    told = " ".join(done.stderr.split())
+    assert "--filter holds nothing below 5 µm, its smallest size with a β ratio" in told
+    assert "the β ratios of --filter rise so fast" in told
+    assert "--filter holds" not in run("life", quarry()).stderr
 
 
 def test_a_contact_takes_its_film_from_the_body():
