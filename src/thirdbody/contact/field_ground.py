@@ -73,6 +73,14 @@ FEWEST = 12
 """Separations that a table must keep."""
 
 
+def rows_between(lowest: Any, reach: Any, width: Any) -> Any:
+    """How many steps a table has from the lowest separation up, all over σ; the same after rounding.
+
+    Floats or arrays, for the lowest and highest separation and the width of the seat, at most 1.
+    """
+    return np.maximum(8, np.ceil((reach - lowest) / (STEP * width) - 1e-9)).astype(int)
+
+
 def heights(u: Array, zeta: Array) -> Array:
     """Σ u_n he_n at ζ (N, M) for u (N, 13), constant far from the mean plane."""
     x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
@@ -212,7 +220,7 @@ class Ground:
         reach = max((seat.average.high * seat.unit + field_offset(seat, field)) for seat in seats)
         reach += max(more, 0.0)
         width = min(1.0, *(seat.width for seat in seats))
-        count = max(8, math.ceil((reach - lowest) / (STEP * width)))
+        count = int(rows_between(lowest, reach, width))
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
         self.u, self.w = self._solved()
 

@@ -1,0 +1,505 @@
+"""Particles on the ground of one field of heights: one separation of a state.
+
+Particles press the ground under them down, and the ground of asperities: the equations are those of
+`thirdbody.contact.field_ground`, and so are the nodes over heights, the rows of separations and the
+splines between them. What particles carry under a gap stands in cells over the gap, once for states
+whose particles are alike.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...contact.field_ground import DENSITY as REACH
+from ...contact.field_ground import FAR, HIGHEST_SEAT, NODES, PANELS, SET_IN
+from ...laws.field.programme import MOMENTS
+from ...laws.field.table import FIRST, LOW, TAU
+from ...laws.field.table import COLUMNS as OF_SURFACE
+from ...numerics.quadrature import panel_rule
+from ..compiled.machine import apart, exp, normal_cdf
+from .curves import EDGE, ONE, TO, transform
+from .field import COUNTS, ENDS, PIECES, ROOT_2PI, TERMS, mean_pressure
+from .fields import (
+    CHI,
+    EQUAL,
+    F_SA,
+    HEIGHTS_OF_TABLE,
+    HIGH,
+    IS_SOFT,
+    KIND,
+    LOW as SMALLEST,
+    ONE_SIZE,
+)
+from .shares import particle_at
+from .sides import exact, scalar, summed
+from .sums import add_plane
+
+__all__ = ["lay_gaps", "lay_surface", "round_of"]
+
+BETA, UNKNOWNS = MOMENTS + 1, MOMENTS + 2
+"""β_n, and with them the shadow: what is found at a separation."""
+TAUS = 16
+K_PP, K_AS, K_ZS, OF_KERNELS = 0, BETA, BETA + TAUS * BETA, BETA + 2 * TAUS * BETA
+"""Of the displacements: k_n of particles, then series in τ of those of asperities under particles,
+and of particles under asperities."""
+LOWEST, STEP, ROWS, MEAN, SPREAD, TOP, SIGMA, DENSE, UNIT, DARK, FIXED, LEFT = range(12)
+POWER, CELLS, OF_GROUND = range(12, 15)
+"""Of a state: lowest row and distance of rows [σ], how many; mean and width of the seat [σ]; the
+largest size [σ], σ [m], particles per area, E*g [Pa], whether they shade by what they carry, and
+how much otherwise; what series leave out; power of the root of the distance from the largest size
+like which all sets in, and how many cells there are."""
+WAVES = 2 * math.sqrt(2)
+PLACES = NODES * (len(PANELS) - 1)
+_ROOTS, _WEIGHTS = panel_rule(np.sqrt(PANELS), NODES)
+ROOTS, WEIGHTS = np.array(_ROOTS), np.array(_WEIGHTS)
+AFTER = 1 / np.sqrt(np.arange(1.0, BETA + 1))
+LATER = np.sqrt(np.arange(1.0, BETA + 1) / np.arange(2.0, BETA + 2))
+ZETA, CUT, GAP, MASS, FIRST_OF, SECOND_OF, NOW, BEFORE = range(8)
+"""Rows of the nodes over heights."""
+GRID = 69
+FROM, UNTIL, ROOTED, START, RATE, SERIES = range(6)
+"""Of a cell: its gaps [m], whether its variable is the root of what the gap lacks to the largest
+size, where that starts, and its rate."""
+OF_CELL = 16
+COLUMNS = 6
+A_CELL = SERIES + COLUMNS * OF_CELL
+MOST_CELLS = 240
+SETTLED, THINNEST = 3e-12, 1e-6
+"""Last terms of a series over its largest value, at most; width of a cell over the largest size
+below which it is not halved."""
+CLOSEST, TRIES = 1e-13, 12
+VALUE, SLOPE, PRESSED, TURNED, BASIS, U = range(6)
+"""Rows of what asperities do at a separation."""
+
+
+# ------------------------------------------------------------------------------ cells over the gap
+@scalar
+def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, cell, values, terms):
+    """Fill a cell between two gaps; the last terms over the largest value, at most."""
+    apart()
+    rooted = a + b > top
+    low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
+    cell[FROM], cell[UNTIL], cell[ROOTED] = a, b, 1.0 if rooted else 0.0
+    cell[START], cell[RATE] = low, 2 / (high - low)
+    for j in range(OF_CELL):
+        place = low + 0.5 * (high - low) * (1 + places[0, j])
+        gap = top - place * place if rooted else place
+        for k in range(10):
+            terms[k] = 0.0
+        if not add_plane(given, sides, panels, 0, count, gap, rule, terms):
+            return math.nan
+        over = (top - gap) ** (-0.5 * power) if rooted else 1.0
+        for k in range(COLUMNS):
+            values[k, j] = terms[F_SA + k] * over
+    worst = wide = 0.0
+    for k in range(1, COLUMNS):
+        for j in range(OF_CELL):
+            wide = max(wide, abs(values[k, j]))
+    for k in range(COLUMNS):
+        most = wide
+        if k == 0:
+            most = 0.0
+            for j in range(OF_CELL):
+                most = max(most, abs(values[0, j]))
+        series = cell[SERIES + k * OF_CELL : SERIES + (k + 1) * OF_CELL]
+        transform(places, values[k], series)
+        if most > 0:
+            left = abs(series[OF_CELL - 1]) + abs(series[OF_CELL - 2])
+            worst = max(worst, left / most)
+    return worst
+
+
+@scalar
+def _note(edges, count, gap, low, high):
+    """Note a gap at which a cell ends, in falling order."""
+    apart()
+    if not low < gap < high or count == len(edges):
+        return count
+    place = count
+    while place > 0 and edges[place - 1] < gap:
+        place -= 1
+    if place > 0 and edges[place - 1] - gap < 1e-12 * high:
+        return count
+    if place < count and gap - edges[place] < 1e-12 * high:
+        return count
+    for j in range(count, place, -1):
+        edges[j] = edges[j - 1]
+    edges[place] = gap
+    return count + 1
+
+
+@scalar
+def _differs(given, sides, panels, n):
+    """Whether another of the two areas is the larger on panel n than on the one before."""
+    apart()
+    signs = 1.0
+    for m in range(n - 1, n + 1):
+        eps = 0.5 * (panels[0, m, EDGE] + panels[0, m, TO])
+        _, one, two = particle_at(given, sides, panels, 0, m, eps)
+        signs *= 1.0 if one > two else -1.0
+    return signs < 0
+
+
+@scalar
+def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, values, terms):
+    """Lay cells over the gap, from the largest size down; how many, and what they leave out.
+
+    −1 where there is no room, or where particles are squeezed by more than their size.
+    """
+    apart()
+    low, high, last = given[0, SMALLEST], given[0, HIGH], panels[0, count - 1, TO]
+    power = 2.0 if given[0, KIND] == ONE_SIZE else 4.0
+    if last >= 1:
+        return -1, 0.0
+    bottom = low * (1 - last)
+    edges[0], marked = high, 1
+    for n in range(count + 1):
+        eps = panels[0, n, EDGE] if n < count else last
+        if 0 < n < count and panels[0, n, ONE] < 0:
+            if given[0, EQUAL] == 1 or not _differs(given, sides, panels, n):
+                continue  # an end of panels alone: the formula is the same behind it
+        marked = _note(edges, marked, low * (1 - eps), bottom, high)
+        marked = _note(edges, marked, high * (1 - eps), bottom, high)
+    marked = _note(edges, marked, 0.5 * high, bottom, high)
+    if marked >= len(edges) - 1:
+        return -1, 0.0
+    edges[marked] = bottom
+    for k in range(10):
+        terms[k] = 0.0
+    add_plane(given, sides, panels, 0, count, bottom, rule, terms)
+    for k in range(COLUMNS):
+        floor[k] = terms[F_SA + k]
+    found, worst = 0, 0.0
+    for n in range(marked):
+        b, end = edges[n], edges[n + 1]
+        a = end
+        while True:
+            if found == MOST_CELLS:
+                return -1, 0.0
+            left = _fill_cell(
+                given, sides, panels, count, rule, places, high, power, a, b, cells[found],
+                values, terms,
+            )  # fmt: skip
+            if left != left:
+                return -1, 0.0
+            if left > SETTLED and b - a > THINNEST * high:
+                a = 0.5 * (a + b) if a + b <= high else high - 0.25 * (
+                    math.sqrt(high - a) + math.sqrt(high - b)
+                ) ** 2
+                continue
+            worst = max(worst, left)
+            found += 1
+            if a <= end:
+                break
+            a, b = max(end, a - 2 * (b - a)), a
+    return found, worst
+
+
+@exact
+def _read_cell(rooted, power, top, start, rate, first, second, gap, one, two):
+    """Two columns of a cell at gaps."""
+    for j in range(len(gap)):
+        lacks = max(top - gap[j], 0.0)
+        v = math.sqrt(lacks) if rooted else gap[j]
+        over = 1.0
+        if rooted:
+            over = lacks * lacks if power == 4 else lacks
+        x = rate * (v - start) - 1
+        twice = 2 * x
+        b_1, c_1, b_2, c_2 = 0.0, 0.0, 0.0, 0.0
+        for k in range(1, OF_CELL):
+            b_1, c_1 = first[OF_CELL - k] + twice * b_1 - c_1, b_1
+            b_2, c_2 = second[OF_CELL - k] + twice * b_2 - c_2, b_2
+        one[j] = max(over * (first[0] + x * b_1 - c_1), 0.0)
+        two[j] = max(over * (second[0] + x * b_2 - c_2), 0.0)
+
+
+@scalar
+def _read_gaps(own, cells, floor, k_1, k_2, nodes):
+    """Two columns under every gap of the nodes."""
+    apart()
+    count, gap = int(own[CELLS]), nodes[GAP]
+    one, two, n, j = nodes[FIRST_OF], nodes[SECOND_OF], 0, 0
+    top, bottom = cells[0, UNTIL], cells[count - 1, FROM]
+    while j < PLACES:
+        if gap[j] >= top:
+            one[j] = two[j] = 0.0
+            j += 1
+            continue
+        if gap[j] < bottom:
+            one[j], two[j] = floor[k_1], floor[k_2]
+            j += 1
+            continue
+        while n < count - 1 and gap[j] < cells[n, FROM]:
+            n += 1
+        while n > 0 and gap[j] >= cells[n, UNTIL]:
+            n -= 1
+        end = j + 1
+        while end < PLACES and cells[n, FROM] <= gap[end] < cells[n, UNTIL]:
+            end += 1
+        cell = cells[n]
+        _read_cell(
+            cell[ROOTED] == 1, own[POWER], top, cell[START], cell[RATE],
+            cell[SERIES + k_1 * OF_CELL : SERIES + (k_1 + 1) * OF_CELL],
+            cell[SERIES + k_2 * OF_CELL : SERIES + (k_2 + 1) * OF_CELL],
+            gap[j:end], one[j:end], two[j:end],
+        )  # fmt: skip
+        j = end
+
+
+# ------------------------------------------------------------------------------ asperities
+@scalar
+def lay_surface(skin, table, surface):
+    """Every piece of the splines over the separation, of all columns of a surface."""
+    apart()
+    soft = int(skin[0, IS_SOFT])
+    for n in range(COUNTS[soft]):
+        for k in range(TERMS):
+            row = surface[n, k]
+            for c in range(OF_SURFACE):
+                row[c] = 0.0
+            for i in range(HEIGHTS_OF_TABLE):
+                part = PIECES[soft, n, k, i]
+                if part != 0:
+                    for c in range(OF_SURFACE):
+                        row[c] += part * table[i, c]
+
+
+@scalar
+def _read_surface(skin, surface, h, value, slope):
+    """Columns of a surface at h [σ] and their slopes; the bend of the first."""
+    apart()
+    soft = int(skin[0, IS_SOFT])
+    last, n, bend = COUNTS[soft] - 1, 0, 0.0
+    while n < last and h >= ENDS[soft, n + 1]:
+        n += 1
+    top = ENDS[soft, last + 1]
+    x = min(h, top) - ENDS[soft, n]
+    for c in range(OF_SURFACE):
+        value[c] = slope[c] = 0.0
+    for k in range(TERMS):
+        bend = bend * x + slope[LOW]
+        for c in range(OF_SURFACE):
+            slope[c] = slope[c] * x + value[c]
+            value[c] = value[c] * x + surface[n, k, c]
+    bend *= 2
+    if h > top:
+        u, du = 1 - top / h, top / (h * h)
+        for c in range(OF_SURFACE):
+            first = slope[c] * top
+            second = 0.5 * (bend * top * top + 2 * first) if c == LOW else 0.0
+            value[c] += first * u + second * u * u
+            slope[c] = (first + 2 * second * u) * du
+            if c == LOW:
+                bend = -2 * (first + 2 * second * u) * du / h + 2 * second * du * du
+    return bend
+
+
+@scalar
+def _press(own, kernels, skin, surface, h, small):
+    """What asperities at h press down under particles, and what lifts them, into two rows."""
+    apart()
+    value, slope = small[VALUE], small[SLOPE]
+    h = min(max(h, own[LOWEST]), FAR)
+    bend = _read_surface(skin, surface, h, value, slope)
+    chi, raw = skin[0, CHI], math.exp(-0.5 * h * h)
+    density, bearing = raw / ROOT_2PI, normal_cdf(-h, raw)
+    P, P1, P2 = chi * (density - h * bearing), -chi * bearing, chi * density
+    y, y1 = value[LOW], slope[LOW]
+    load = mean_pressure(y, y1, P, -P1)
+    steep = -math.exp(y) * (P2 + 2 * P1 * y1 + P * (bend + y1 * y1))
+    over, x = load / steep, 2 * value[TAU] - 1
+    basis = small[BASIS]
+    basis[0], basis[1] = 1.0, x
+    for j in range(2, TAUS):
+        basis[j] = 2 * x * basis[j - 1] - basis[j - 2]
+    pressed, turned = small[PRESSED], small[TURNED]
+    for n in range(BETA):
+        pressed[n] = turned[n] = 0.0
+    for j in range(TAUS):
+        part, begin_as, begin_zs = basis[j], K_AS + j * BETA, K_ZS + j * BETA
+        for n in range(BETA):
+            turned[n] += part * kernels[begin_as + n]
+            pressed[n] += part * kernels[begin_zs + n]
+    pressed[0] *= load
+    for n in range(1, BETA):
+        ratio = value[FIRST + n - 1]
+        pressed[n] *= ratio * load
+        turned[n] *= ratio + slope[FIRST + n - 1] * over
+
+
+@scalar
+def lift_of(own, kernels, skin, surface, h, state, start, small):
+    """Lift of the asperities' ground [σ], by chords; what asperities press at h + w is in rows."""
+    apart()
+    w = before = start
+    miss = math.nan
+    found = w
+    for _ in range(TRIES):
+        _press(own, kernels, skin, surface, h + w, small)
+        total = 0.0
+        for n in range(BETA):
+            total += small[TURNED, n] * state[n]
+        found = max(WAVES * total, own[LOWEST] - h)
+        last, miss = miss, found - w
+        if abs(miss) < CLOSEST:
+            return found
+        chord = miss * (w - before) / (last - miss)
+        step = chord if abs(chord) <= 2 * abs(miss) else miss
+        before, w = w, w + step
+    return found
+
+
+# ------------------------------------------------------------------------------ seats
+@scalar
+def _ground_at(u, zeta):
+    """u at one height."""
+    x = min(max(zeta, -HIGHEST_SEAT), HIGHEST_SEAT)
+    after = later = 0.0
+    for n in range(MOMENTS, -1, -1):
+        later, after = after, after * AFTER[n] * x - LATER[n] * later + u[n]
+    return after
+
+
+@scalar
+def _first_squeezed(own, h, u, guess):
+    """The lowest ground on which the largest particle is squeezed [σ]."""
+    apart()
+    low, high = own[MEAN] - REACH * own[SPREAD], own[MEAN] + REACH * own[SPREAD]
+    lack = h - own[TOP]
+    if guess == guess:  # from one that is near; the ground is far less steep than ζ
+        a, f_a = guess, lack - guess + _ground_at(u, guess)
+        b = a + f_a
+        for _ in range(12):
+            f_b = lack - b + _ground_at(u, b)
+            if abs(f_b) <= SET_IN:
+                return b if low < b < high else math.nan
+            slope = (f_b - f_a) / (b - a)
+            if not -3 < slope < -0.3:
+                break
+            a, f_a, b = b, f_b, b - f_b / slope
+            if a == b:
+                return b if low < b < high else math.nan
+    step, left, f_left = (high - low) / (GRID - 1), low, lack - low + _ground_at(u, low)
+    if f_left < 0:
+        return low
+    for k in range(1, GRID):
+        right = low + k * step
+        f_right = lack - right + _ground_at(u, right)
+        if f_right < 0:
+            side = 0
+            for _ in range(60):
+                zeta = (left * f_right - right * f_left) / (f_right - f_left)
+                f = lack - zeta + _ground_at(u, zeta)
+                if abs(f) <= SET_IN:
+                    return zeta
+                if f < 0:
+                    f_left *= 0.5 if side == 1 else 1.0
+                    right, f_right, side = zeta, f, 1
+                else:
+                    f_right *= 0.5 if side == -1 else 1.0
+                    left, f_left, side = zeta, f, -1
+            return zeta
+        left, f_left = right, f_right
+    return high
+
+
+@exact
+def _place_heights(right, span, mean, width, zeta, cut, mass):
+    """Heights of the nodes, those within the heights of the ground, and weights dN."""
+    norm = 2 * span / (width * ROOT_2PI)
+    for j in range(PLACES):
+        zeta[j] = right + span * ROOTS[j] * ROOTS[j]
+        cut[j] = min(max(zeta[j], -HIGHEST_SEAT), HIGHEST_SEAT)
+        z = (zeta[j] - mean) / width
+        mass[j] = norm * ROOTS[j] * WEIGHTS[j] * exp(-0.5 * z * z)
+
+
+@exact
+def _find_gaps(h, sigma, u, zeta, cut, gap):
+    for j in range(PLACES):
+        x, after, later = cut[j], 0.0, 0.0
+        for n in range(MOMENTS + 1):
+            k = MOMENTS - n
+            value = after * AFTER[k] * x - LATER[k] * later + u[k]
+            later, after = after, value
+        gap[j] = sigma * (h - zeta[j] + after)
+
+
+@summed
+def _total(first, second):
+    total = 0.0
+    for j in range(PLACES):
+        total += first[j] * second[j]
+    return total
+
+
+@exact
+def _multiply(first, second, out, zero):
+    for j in range(PLACES):
+        out[j] = first[j] * second[j]
+        zero[j] = 0.0
+
+
+@exact
+def _next_moment(n, cut, now, before):
+    root, over = math.sqrt(n), 1 / math.sqrt(n + 1)
+    for j in range(PLACES):
+        value = (cut[j] * now[j] - root * before[j]) * over
+        before[j], now[j] = now[j], value
+
+
+@summed
+def _sum(values):
+    total = 0.0
+    for j in range(PLACES):
+        total += values[j]
+    return total
+
+
+@scalar
+def weigh_ground(own, cells, floor, h, u, guess, nodes, found, columns, whole):
+    """Loads' moments and the shadow at h [σ] on ground u, and all columns if the whole is asked.
+
+    The lowest ground on which a particle is squeezed.
+    """
+    apart()
+    right = _first_squeezed(own, h, u, guess)
+    if right != right:
+        right = _first_squeezed(own, h, u, math.nan)
+    span = max(own[MEAN] + REACH * own[SPREAD] - right, 0.0)
+    zeta, cut, gap, mass = nodes[ZETA], nodes[CUT], nodes[GAP], nodes[MASS]
+    _place_heights(right, span, own[MEAN], own[SPREAD], zeta, cut, mass)
+    _find_gaps(h, own[SIGMA], u, zeta, cut, gap)
+    if whole:
+        for k in range(1, 5, 2):
+            _read_gaps(own, cells, floor, k, k + 1, nodes)
+            columns[k] = _total(mass, nodes[FIRST_OF])
+            columns[k + 1] = _total(mass, nodes[SECOND_OF])
+    _read_gaps(own, cells, floor, 0, COLUMNS - 1, nodes)
+    columns[0] = _total(mass, nodes[FIRST_OF])
+    columns[COLUMNS - 1] = _total(mass, nodes[SECOND_OF])
+    now, before = nodes[NOW], nodes[BEFORE]
+    _multiply(mass, nodes[FIRST_OF], now, before)
+    over = own[DENSE] / own[UNIT]
+    for n in range(BETA):
+        found[n] = over * _sum(now)
+        _next_moment(float(n), cut, now, before)
+    found[BETA] = own[DENSE] * own[DARK] * columns[COLUMNS - 1]
+    return right
+
+
+@scalar
+def round_of(own, kernels, skin, surface, cells, floor, h, state, w, guess, small, nodes, found,
+             columns, whole):  # fmt: skip
+    """β_n and the shadow again, from those before, at h [σ]: the lift, and the lowest ground."""
+    apart()
+    w = lift_of(own, kernels, skin, surface, h, state, w, small)
+    # the rows hold what asperities do a last step before, some 1e-13 of σ away
+    bare, u = 1 - min(max(state[BETA], 0.0), 1.0), small[U]
+    for n in range(BETA):
+        u[n] = WAVES * (bare * small[PRESSED, n] + kernels[K_PP + n] * state[n])
+    right = weigh_ground(own, cells, floor, h, u, guess, nodes, found, columns, whole)
+    return w, right
