@@ -54,19 +54,43 @@ WAVES = 2 * math.sqrt(2)
 PLACES = NODES * (len(PANELS) - 1)
 _ROOTS, _WEIGHTS = panel_rule(np.sqrt(PANELS), NODES)
 ROOTS, WEIGHTS = np.array(_ROOTS), np.array(_WEIGHTS)
+HERMITE = np.zeros((BETA, BETA))
+"""Powers of each he_n."""
+for _n in range(BETA):
+    HERMITE[_n, : _n + 1] = np.polynomial.hermite_e.herme2poly([0.0] * _n + [1.0])
+    HERMITE[_n] /= math.sqrt(math.factorial(_n))
 AFTER = 1 / np.sqrt(np.arange(1.0, BETA + 1))
 LATER = np.sqrt(np.arange(1.0, BETA + 1) / np.arange(2.0, BETA + 2))
-ZETA, CUT, GAP, MASS, FIRST_OF, SECOND_OF, NOW, BEFORE = range(8)
+ZETA, CUT, GAP, MASS, LOADS, POLYNOMIALS, OF_NODES = range(7)
 """Rows of the nodes over heights."""
 GRID = 69
-FROM, UNTIL, ROOTED, START, RATE, SERIES = range(6)
-"""Of a cell: its gaps [m], whether its variable is the root of what the gap lacks to the largest
-size, where that starts, and its rate."""
-OF_CELL = 16
+FROM, UNTIL, ROOTED, START, RATE, POWERS = range(6)
+"""Of a part of a cell: its gaps [m], whether its variable is the root of what the gap lacks to the
+largest size, the middle of that and its rate; powers of load and shadow side by side, then of the
+others."""
+OF_CELL, CUTS, POWER_TERMS = 16, 4, 10
 COLUMNS = 6
-A_CELL = SERIES + COLUMNS * OF_CELL
-MOST_CELLS = 240
-SETTLED, THINNEST = 3e-12, 1e-6
+AREAS = POWERS + 2 * POWER_TERMS
+A_CELL = POWERS + COLUMNS * POWER_TERMS
+MOST_CELLS = 960
+
+
+def _conversion() -> tuple[np.ndarray, np.ndarray]:
+    """Powers on each part of a cell from its series, highest first; what they leave of a term."""
+    out, left = np.zeros((CUTS, POWER_TERMS, OF_CELL)), np.zeros(OF_CELL)
+    x, fine = np.cos((np.arange(POWER_TERMS) + 0.5) * math.pi / POWER_TERMS), np.linspace(-1, 1, 99)
+    powers = np.linalg.inv(np.vander(x))
+    for part in range(CUTS):
+        places = np.clip((2 * part + 1 + np.stack([x])) / CUTS - 1, -1, 1)[0]
+        terms = np.cos(np.arange(OF_CELL) * np.arccos(places)[:, None])
+        out[part] = powers @ terms
+        exact_ = np.cos(np.arange(OF_CELL) * np.arccos((2 * part + 1 + fine) / CUTS - 1)[:, None])
+        left = np.maximum(left, np.abs(np.vander(fine, POWER_TERMS) @ out[part] - exact_).max(0))
+    return out, left
+
+
+CONVERT, LEAVES = _conversion()
+SETTLED, THINNEST = 1e-10, 1e-6
 """Last terms of a series over its largest value, at most; width of a cell over the largest size
 below which it is not halved."""
 CLOSEST, TRIES = 1e-13, 12
@@ -76,13 +100,11 @@ VALUE, SLOPE, PRESSED, TURNED, BASIS, U = range(6)
 
 # ------------------------------------------------------------------------------ cells over the gap
 @scalar
-def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, cell, values, terms):
-    """Fill a cell between two gaps; the last terms over the largest value, at most."""
+def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, values, series, terms):
+    """Fill series of all columns between two gaps; their last terms over the largest value."""
     apart()
     rooted = a + b > top
     low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
-    cell[FROM], cell[UNTIL], cell[ROOTED] = a, b, 1.0 if rooted else 0.0
-    cell[START], cell[RATE] = low, 2 / (high - low)
     for j in range(OF_CELL):
         place = low + 0.5 * (high - low) * (1 + places[0, j])
         gap = top - place * place if rooted else place
@@ -93,22 +115,49 @@ def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, cell
         over = (top - gap) ** (-0.5 * power) if rooted else 1.0
         for k in range(COLUMNS):
             values[k, j] = terms[F_SA + k] * over
-    worst = wide = 0.0
-    for k in range(1, COLUMNS):
-        for j in range(OF_CELL):
+    worst = wide = load = 0.0
+    for j in range(OF_CELL):
+        load = max(load, abs(values[0, j]))
+        for k in range(1, COLUMNS):
             wide = max(wide, abs(values[k, j]))
     for k in range(COLUMNS):
-        most = wide
-        if k == 0:
-            most = 0.0
-            for j in range(OF_CELL):
-                most = max(most, abs(values[0, j]))
-        series = cell[SERIES + k * OF_CELL : SERIES + (k + 1) * OF_CELL]
-        transform(places, values[k], series)
+        transform(places, values[k], series[k])
+        most, left = wide if k > 0 else load, abs(series[k, OF_CELL - 1])
+        left += abs(series[k, OF_CELL - 2])
+        for j in range(POWER_TERMS, OF_CELL):
+            left += LEAVES[j] * abs(series[k, j])
         if most > 0:
-            left = abs(series[OF_CELL - 1]) + abs(series[OF_CELL - 2])
             worst = max(worst, left / most)
     return worst
+
+
+@scalar
+def _keep_cell(top, a, b, series, cells, found):
+    """Keep the parts of a cell, from its largest gap down."""
+    apart()
+    rooted = a + b > top
+    low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
+    ends = b
+    for m in range(CUTS):
+        part = m if rooted else CUTS - 1 - m
+        cell, step = cells[found + m], (high - low) / CUTS
+        cell[ROOTED] = 1.0 if rooted else 0.0
+        cell[START], cell[RATE] = low + (part + 0.5) * step, 2 / step
+        edge = low + (part + (1 if rooted else 0)) * step
+        cell[UNTIL] = ends
+        ends = top - edge * edge if rooted else edge
+        if m == CUTS - 1:
+            ends = a
+        cell[FROM] = ends
+        for j in range(POWER_TERMS):
+            for k in range(COLUMNS):
+                total = 0.0
+                for i in range(OF_CELL):
+                    total += CONVERT[part, j, i] * series[k, i]
+                place = 2 * j + (1 if k > 0 else 0)
+                if 0 < k < COLUMNS - 1:
+                    place = 2 * POWER_TERMS + 4 * j + k - 1
+                cell[POWERS + place] = total
 
 
 @scalar
@@ -143,7 +192,16 @@ def _differs(given, sides, panels, n):
 
 
 @scalar
-def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, values, terms):
+def _middle(a, b, high):
+    """The middle of a cell in its variable."""
+    if a + b <= high:
+        return 0.5 * (a + b)
+    return high - 0.25 * (math.sqrt(high - a) + math.sqrt(high - b)) ** 2
+
+
+@scalar
+def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, values,
+             series, terms):  # fmt: skip
     """Lay cells over the gap, from the largest size down; how many, and what they leave out.
 
     −1 where there is no room, or where particles are squeezed by more than their size.
@@ -171,82 +229,90 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
     add_plane(given, sides, panels, 0, count, bottom, rule, terms)
     for k in range(COLUMNS):
         floor[k] = terms[F_SA + k]
-    found, worst = 0, 0.0
-    for n in range(marked):
-        b, end = edges[n], edges[n + 1]
-        a = end
+    found, n, many, worst = 0, 0, 1, 0.0
+    while n < marked:
+        # where formulas change little at their ends, one series does over several of them
+        b, last_n, alone = edges[n], min(n + many, marked), False
+        a = edges[last_n]
         while True:
-            if found == MOST_CELLS:
+            if found + CUTS > MOST_CELLS:
                 return -1, 0.0
             left = _fill_cell(
-                given, sides, panels, count, rule, places, high, power, a, b, cells[found],
-                values, terms,
-            )  # fmt: skip
+                given, sides, panels, count, rule, places, high, power, a, b, values, series, terms
+            )
             if left != left:
                 return -1, 0.0
             if left > SETTLED and b - a > THINNEST * high:
-                a = 0.5 * (a + b) if a + b <= high else high - 0.25 * (
-                    math.sqrt(high - a) + math.sqrt(high - b)
-                ) ** 2
+                if last_n > n + 1:
+                    last_n = many = n + (last_n - n) // 2
+                    many -= n
+                    a = edges[last_n]
+                else:
+                    alone = True
+                    a = _middle(a, b, high)
                 continue
             worst = max(worst, left)
-            found += 1
-            if a <= end:
+            _keep_cell(high, a, b, series, cells, found)
+            found += CUTS
+            if a <= edges[last_n]:
                 break
-            a, b = max(end, a - 2 * (b - a)), a
+            a, b = max(edges[last_n], a - 2 * (b - a)), a
+        many = 1 if alone else min(2 * many, 2)
+        n = last_n
     return found, worst
 
 
-@exact
-def _read_cell(rooted, power, top, start, rate, first, second, gap, one, two):
-    """Two columns of a cell at gaps."""
-    for j in range(len(gap)):
-        lacks = max(top - gap[j], 0.0)
-        v = math.sqrt(lacks) if rooted else gap[j]
-        over = 1.0
-        if rooted:
-            over = lacks * lacks if power == 4 else lacks
-        x = rate * (v - start) - 1
-        twice = 2 * x
-        b_1, c_1, b_2, c_2 = 0.0, 0.0, 0.0, 0.0
-        for k in range(1, OF_CELL):
-            b_1, c_1 = first[OF_CELL - k] + twice * b_1 - c_1, b_1
-            b_2, c_2 = second[OF_CELL - k] + twice * b_2 - c_2, b_2
-        one[j] = max(over * (first[0] + x * b_1 - c_1), 0.0)
-        two[j] = max(over * (second[0] + x * b_2 - c_2), 0.0)
-
-
 @scalar
-def _read_gaps(own, cells, floor, k_1, k_2, nodes):
-    """Two columns under every gap of the nodes."""
+def _read_gaps(own, cells, floor, whole, nodes, columns):
+    """Sums of the columns over the nodes, or of load and shadow; the load at each."""
     apart()
-    count, gap = int(own[CELLS]), nodes[GAP]
-    one, two, n, j = nodes[FIRST_OF], nodes[SECOND_OF], 0, 0
-    top, bottom = cells[0, UNTIL], cells[count - 1, FROM]
-    while j < PLACES:
-        if gap[j] >= top:
-            one[j] = two[j] = 0.0
-            j += 1
-            continue
-        if gap[j] < bottom:
-            one[j], two[j] = floor[k_1], floor[k_2]
-            j += 1
-            continue
-        while n < count - 1 and gap[j] < cells[n, FROM]:
-            n += 1
-        while n > 0 and gap[j] >= cells[n, UNTIL]:
-            n -= 1
-        end = j + 1
-        while end < PLACES and cells[n, FROM] <= gap[end] < cells[n, UNTIL]:
-            end += 1
-        cell = cells[n]
-        _read_cell(
-            cell[ROOTED] == 1, own[POWER], top, cell[START], cell[RATE],
-            cell[SERIES + k_1 * OF_CELL : SERIES + (k_1 + 1) * OF_CELL],
-            cell[SERIES + k_2 * OF_CELL : SERIES + (k_2 + 1) * OF_CELL],
-            gap[j:end], one[j:end], two[j:end],
-        )  # fmt: skip
-        j = end
+    count, gap, mass, loads = int(own[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
+    top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], own[POWER] == 4
+    s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = 0.0
+    n = 0
+    for j in range(PLACES):
+        g, m, load = gap[j], mass[j], 0.0
+        if g < bottom:
+            load = floor[0]
+            s_1 += m * floor[1]
+            s_2 += m * floor[2]
+            s_3 += m * floor[3]
+            s_4 += m * floor[4]
+            s_5 += m * floor[5]
+        elif g < top:
+            while g < cells[n, FROM]:
+                n += 1
+            while g >= cells[n, UNTIL]:
+                n -= 1
+            cell, v, over = cells[n], g, 1.0
+            if cell[ROOTED] == 1:
+                over = top - g
+                v = math.sqrt(over)
+                if squared:
+                    over *= over
+            x = cell[RATE] * (v - cell[START])
+            a_0, a_5 = cell[POWERS], cell[POWERS + 1]
+            for k in range(1, POWER_TERMS):
+                i = POWERS + 2 * k
+                a_0, a_5 = a_0 * x + cell[i], a_5 * x + cell[i + 1]
+            load = max(over * a_0, 0.0)
+            over *= m
+            s_5 += max(over * a_5, 0.0)
+            if whole:
+                a_1, a_2, a_3, a_4 = cell[AREAS], cell[AREAS + 1], cell[AREAS + 2], cell[AREAS + 3]
+                for k in range(1, POWER_TERMS):
+                    i = AREAS + 4 * k
+                    a_1, a_2 = a_1 * x + cell[i], a_2 * x + cell[i + 1]
+                    a_3, a_4 = a_3 * x + cell[i + 2], a_4 * x + cell[i + 3]
+                s_1 += max(over * a_1, 0.0)
+                s_2 += max(over * a_2, 0.0)
+                s_3 += max(over * a_3, 0.0)
+                s_4 += max(over * a_4, 0.0)
+        loads[j] = load
+        s_0 += m * load
+    columns[0], columns[5] = s_0, s_5
+    if whole:
+        columns[1], columns[2], columns[3], columns[4] = s_1, s_2, s_3, s_4
 
 
 # ------------------------------------------------------------------------------ asperities
@@ -418,45 +484,49 @@ def _place_heights(right, span, mean, width, zeta, cut, mass):
 
 
 @exact
-def _find_gaps(h, sigma, u, zeta, cut, gap):
+def _find_gaps(h, sigma, p, zeta, cut, gap):
+    """Gaps of nodes on ground that is a polynomial of the height."""
+    p_0, p_1, p_2, p_3, p_4, p_5, p_6 = p[0], p[1], p[2], p[3], p[4], p[5], p[6]
+    p_7, p_8, p_9, p_10, p_11, p_12 = p[7], p[8], p[9], p[10], p[11], p[12]
     for j in range(PLACES):
-        x, after, later = cut[j], 0.0, 0.0
-        for n in range(MOMENTS + 1):
-            k = MOMENTS - n
-            value = after * AFTER[k] * x - LATER[k] * later + u[k]
-            later, after = after, value
-        gap[j] = sigma * (h - zeta[j] + after)
+        x = cut[j]
+        u = (((p_12 * x + p_11) * x + p_10) * x + p_9) * x + p_8
+        u = ((((u * x + p_7) * x + p_6) * x + p_5) * x + p_4) * x + p_3
+        gap[j] = sigma * (h - zeta[j] + ((u * x + p_2) * x + p_1) * x + p_0)
 
 
 @summed
-def _total(first, second):
-    total = 0.0
+def _take_powers(mass, load, cut, p):
+    """Sums of the loads times powers of the height."""
+    s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = s_6 = s_7 = s_8 = s_9 = s_10 = s_11 = s_12 = 0.0
     for j in range(PLACES):
-        total += first[j] * second[j]
-    return total
-
-
-@exact
-def _multiply(first, second, out, zero):
-    for j in range(PLACES):
-        out[j] = first[j] * second[j]
-        zero[j] = 0.0
-
-
-@exact
-def _next_moment(n, cut, now, before):
-    root, over = math.sqrt(n), 1 / math.sqrt(n + 1)
-    for j in range(PLACES):
-        value = (cut[j] * now[j] - root * before[j]) * over
-        before[j], now[j] = now[j], value
-
-
-@summed
-def _sum(values):
-    total = 0.0
-    for j in range(PLACES):
-        total += values[j]
-    return total
+        x, v = cut[j], mass[j] * load[j]
+        s_0 += v
+        v *= x
+        s_1 += v
+        v *= x
+        s_2 += v
+        v *= x
+        s_3 += v
+        v *= x
+        s_4 += v
+        v *= x
+        s_5 += v
+        v *= x
+        s_6 += v
+        v *= x
+        s_7 += v
+        v *= x
+        s_8 += v
+        v *= x
+        s_9 += v
+        v *= x
+        s_10 += v
+        v *= x
+        s_11 += v
+        s_12 += v * x
+    p[0], p[1], p[2], p[3], p[4], p[5], p[6] = s_0, s_1, s_2, s_3, s_4, s_5, s_6
+    p[7], p[8], p[9], p[10], p[11], p[12] = s_7, s_8, s_9, s_10, s_11, s_12
 
 
 @scalar
@@ -472,21 +542,19 @@ def weigh_ground(own, cells, floor, h, u, guess, nodes, found, columns, whole):
     span = max(own[MEAN] + REACH * own[SPREAD] - right, 0.0)
     zeta, cut, gap, mass = nodes[ZETA], nodes[CUT], nodes[GAP], nodes[MASS]
     _place_heights(right, span, own[MEAN], own[SPREAD], zeta, cut, mass)
-    _find_gaps(h, own[SIGMA], u, zeta, cut, gap)
-    if whole:
-        for k in range(1, 5, 2):
-            _read_gaps(own, cells, floor, k, k + 1, nodes)
-            columns[k] = _total(mass, nodes[FIRST_OF])
-            columns[k + 1] = _total(mass, nodes[SECOND_OF])
-    _read_gaps(own, cells, floor, 0, COLUMNS - 1, nodes)
-    columns[0] = _total(mass, nodes[FIRST_OF])
-    columns[COLUMNS - 1] = _total(mass, nodes[SECOND_OF])
-    now, before = nodes[NOW], nodes[BEFORE]
-    _multiply(mass, nodes[FIRST_OF], now, before)
+    p = nodes[POLYNOMIALS]
+    for n in range(BETA):
+        p[n] = 0.0
+        for k in range(n, BETA):
+            p[n] += HERMITE[k, n] * u[k]
+    _find_gaps(h, own[SIGMA], p, zeta, cut, gap)
+    _read_gaps(own, cells, floor, whole, nodes, columns)
+    _take_powers(mass, nodes[LOADS], cut, p)
     over = own[DENSE] / own[UNIT]
     for n in range(BETA):
-        found[n] = over * _sum(now)
-        _next_moment(float(n), cut, now, before)
+        found[n] = 0.0
+        for k in range(n + 1):
+            found[n] += over * HERMITE[n, k] * p[k]
     found[BETA] = own[DENSE] * own[DARK] * columns[COLUMNS - 1]
     return right
 

@@ -40,6 +40,7 @@ from .ground import (
     LOWEST,
     MOST_CELLS,
     OF_CELL,
+    OF_NODES,
     PLACES,
     ROWS,
     SIGMA,
@@ -59,7 +60,7 @@ from .squeeze import lay_panels
 
 __all__ = ["SPLINES", "solve_grounded"]
 
-BESIDE = 14
+BESIDE = 17
 """Rows beside a cell that decide what the spline is there: others change it by 1e-5 of what cells
 of the table leave out."""
 MOST_ROWS = 600
@@ -76,8 +77,9 @@ BALANCED, STEPS = 4e-13, 60
 ASKED = 1e-9
 SAFE, FADES = 10.0, 0.43
 """Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
-FEWER = 3
-"""So many rows less on either side say how much the others leave out."""
+FEWER, PART = 3, 0.3
+"""So many rows less on either side say how much the others leave out: this part of the difference,
+where each row fades to 0.43 (0.43³ is 0.08)."""
 SETTLED = 1.5e-10
 """What the ground of the slow path is iterated to."""
 DONE, GUESSED, NONE = 2, 1, 0
@@ -426,7 +428,7 @@ def _left_out(field, held, splines, k, t, low, high, last, rows, poly, row, out)
         if c == F_SS or c == F_SA:
             unit = load
         worst = max(worst, abs(out[c] - row[c]) / unit)
-    return worst
+    return PART * worst
 
 
 @scalar
@@ -524,7 +526,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, series, which, basis, 
     sides = np.zeros((2, SIDE))
     panels = np.empty((1, MOST_PANELS + ROOM, PANEL))
     cells, floor = np.zeros((MOST_CELLS, A_CELL)), np.zeros(COLUMNS)
-    edges, values = np.empty(MOST_CELLS), np.empty((COLUMNS, OF_CELL))
+    edges, values = np.empty(MOST_CELLS), np.empty((2, COLUMNS, OF_CELL))
     surface, held = np.zeros((HEIGHTS_OF_TABLE, TERMS, OF_SURFACE)), np.zeros((2, 2 * OF_SURFACE))
     kernels, out, poly = np.empty(series.shape[2]), np.zeros(10), np.zeros((TERMS, COLUMNS + 1))
     lines = (
@@ -532,7 +534,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, series, which, basis, 
         np.zeros(MOST_ROWS), np.zeros(MOST_ROWS), np.zeros(MOST_ROWS, np.int64),
     )  # fmt: skip
     work = (
-        np.zeros((6, max(OF_SURFACE, TAUS))), np.zeros((8, PLACES)),
+        np.zeros((6, max(OF_SURFACE, TAUS))), np.zeros((OF_NODES, PLACES)),
         np.zeros((2, KEPT, UNKNOWNS)), np.zeros(1), np.zeros((3, KEPT + 1, UNKNOWNS)),
         np.zeros((5, UNKNOWNS)),
     )  # fmt: skip
@@ -550,7 +552,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, series, which, basis, 
             if laid > 0:
                 laid, left = lay_gaps(
                     parts[i], sides, panels, laid, rules[1], rules[0, POLYNOMIAL:], cells, floor,
-                    edges, values, out,
+                    edges, values[0], values[1], out,
                 )  # fmt: skip
         if laid <= 0:
             fate[i], error[i] = TOO_LONG, math.inf
