@@ -53,6 +53,8 @@ STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
 ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
 """Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
+FINE, MORE = 1e-12, 6
+"""Change of u/σ that is aimed at, in so many more rounds."""
 CHORDS, SET_IN = 40, 1e-14
 """Of the search for the ground on which particles begin to be squeezed, and how near [σ]."""
 SPOTS = 0.25
@@ -287,21 +289,23 @@ class Ground:
         state = kept[rest]
         states: list[Array] = []
         misses: list[Array] = []
-        for _ in range(ROUNDS):
+        left = np.full(len(rest), MORE)
+        for _ in range(ROUNDS + MORE):
             found, now = self._round(self.h[rest], state)
             misses = [*misses, found - state][-MEMORY:]
             states = [*states, state][-MEMORY:]
             change = np.max(np.abs(now - u[rest]), axis=1)
             u[rest], kept[rest] = now, state
             w[rest, 0] = self._lift(self.h[rest], state[:, :-1])
-            more = (change >= CLOSE) | (len(states) < 2)
-            rest = rest[more]
+            left = np.where((change < CLOSE) | (left < MORE), left - 1, left)
+            more = ((change >= FINE) & (left > 0)) | (len(states) < 2)
+            rest, left = rest[more], left[more]
             if not len(rest):
                 break
             states = [each[more] for each in states]
             misses = [each[more] for each in misses]
             state = _accelerated(states, misses)
-        return rest
+        return rest[left == MORE]
 
     def _above(self, first: Any, u: Array, w: Array) -> tuple[Array, Array]:
         """The table without separations where particles, all but grown together, find no ground."""

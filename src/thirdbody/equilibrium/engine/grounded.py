@@ -60,7 +60,7 @@ from .squeeze import lay_panels
 
 __all__ = ["SPLINES", "solve_grounded"]
 
-BESIDE = 17
+BESIDE = 22
 """Rows beside a cell that decide what the spline is there: others change it by 1e-5 of what cells
 of the table leave out."""
 MOST_ROWS = 600
@@ -75,13 +75,13 @@ SAME = 1e-4
 """Of a pair, what must be left beside the others."""
 BALANCED, STEPS = 4e-13, 60
 ASKED = 1e-9
-SAFE, FADES = 10.0, 0.43
+SAFE, FADES = 20.0, 0.43
 """Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
-FEWER, PART = 3, 0.3
-"""So many rows less on either side say how much the others leave out: this part of the difference,
-where each row fades to 0.43 (0.43³ is 0.08)."""
-SETTLED = 1.5e-10
-"""What the ground of the slow path is iterated to."""
+FEWER, PART = 3, 1.0
+"""So many rows less on either side say how much the others leave out: this part of the difference at
+most, where each row fades to 0.43 (0.43³ is 0.08)."""
+SETTLED = 2e-10
+"""What the ground of tables is iterated to."""
 DONE, GUESSED, NONE = 2, 1, 0
 """Of a row: solved, guessed roughly, or neither."""
 

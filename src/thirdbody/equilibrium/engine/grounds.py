@@ -31,9 +31,11 @@ __all__ = ["Grounds", "check_grounded", "mean_diameters"]
 
 WIDTH, NODES = 0.5, 16
 """Of cells over the distance from which others are felt, and nodes of their series."""
-BANDWIDTHS, WAVES = (2.5, 5.0, 8.4), 16
+BANDWIDTHS, WAVES = (2.5, 3.3, 4.4, 6.2, 8.4), 16
 """Ends of cells over the bandwidth, and nodes over ln(α − 2); beyond, integrals over distances end
 where their panels do, and jump."""
+FELT = 0.5
+"""Of what series leave out in ground over σ: loads are some hundredths of E*g, at most tenths."""
 FARTHEST = 40.0
 """Distance up to which 40 nodes do."""
 SHORT = "the ground of particles on a field of heights is a table of its own"
@@ -239,4 +241,4 @@ class Grounds:
         apart = np.broadcast_to(diameter * rough.slope / (math.sqrt(2) * rough.sigma), count)
         known = displacements_of(alpha, np.array(apart), np.ndim(alpha) > 0)
         self.displacements = known
-        self.numbers[:, g.LEFT] = g.WAVES * known.tails
+        self.numbers[:, g.LEFT] = FELT * known.tails
