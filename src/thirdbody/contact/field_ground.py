@@ -76,9 +76,9 @@ FEWEST = 12
 
 
 def rows_between(lowest: Any, reach: Any, width: Any) -> Any:
-    """How many steps a table has from the lowest separation up, all over σ; the same after rounding.
+    """How many steps a table has from the lowest separation up; the same whatever is rounded.
 
-    Floats or arrays, for the lowest and highest separation and the width of the seat, at most 1.
+    Floats or arrays, for the lowest and highest separation and the width of the seat [σ].
     """
     return np.maximum(8, np.ceil((reach - lowest) / (STEP * width) - 1e-9)).astype(int)
 

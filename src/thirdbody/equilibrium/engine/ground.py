@@ -15,8 +15,8 @@ import numpy as np
 from ...contact.field_ground import DENSITY as REACH
 from ...contact.field_ground import FAR, HIGHEST_SEAT, NODES, PANELS, SET_IN
 from ...laws.field.programme import MOMENTS
-from ...laws.field.table import FIRST, LOW, TAU
 from ...laws.field.table import COLUMNS as OF_SURFACE
+from ...laws.field.table import FIRST, LOW, TAU
 from ...numerics.quadrature import panel_rule
 from ..compiled.machine import apart, exp, normal_cdf
 from .curves import EDGE, ONE, TO, transform
@@ -29,8 +29,10 @@ from .fields import (
     HIGH,
     IS_SOFT,
     KIND,
-    LOW as SMALLEST,
     ONE_SIZE,
+)
+from .fields import (
+    LOW as SMALLEST,
 )
 from .shares import particle_at
 from .sides import exact, scalar, summed
@@ -215,9 +217,10 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
     edges[0], marked = high, 1
     for n in range(count + 1):
         eps = panels[0, n, EDGE] if n < count else last
-        if 0 < n < count and panels[0, n, ONE] < 0:
-            if given[0, EQUAL] == 1 or not _differs(given, sides, panels, n):
-                continue  # an end of panels alone: the formula is the same behind it
+        # an end of panels alone: the formula is the same behind it
+        alone = 0 < n < count and panels[0, n, ONE] < 0
+        if alone and (given[0, EQUAL] == 1 or not _differs(given, sides, panels, n)):
+            continue
         marked = _note(edges, marked, low * (1 - eps), bottom, high)
         marked = _note(edges, marked, high * (1 - eps), bottom, high)
     marked = _note(edges, marked, 0.5 * high, bottom, high)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numba import njit
@@ -46,10 +47,10 @@ from .ground import (
     SIGMA,
     STEP,
     TAUS,
-    U,
     UNIT,
     UNKNOWNS,
     WAVES,
+    U,
     lay_gaps,
     lay_surface,
     round_of,
@@ -57,6 +58,11 @@ from .ground import (
 )
 from .sides import scalar
 from .squeeze import lay_panels
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 __all__ = ["SPLINES", "solve_grounded"]
 
@@ -78,15 +84,15 @@ ASKED = 1e-9
 SAFE, FADES = 20.0, 0.43
 """Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
 FEWER, PART = 3, 1.0
-"""So many rows less on either side say how much the others leave out: this part of the difference at
-most, where each row fades to 0.43 (0.43³ is 0.08)."""
+"""So many rows less on either side say how much the others leave out: this part of the difference,
+at most, where each row fades to 0.43 (0.43³ is 0.08)."""
 SETTLED = 2e-10
 """What the ground of tables is iterated to."""
 DONE, GUESSED, NONE = 2, 1, 0
 """Of a row: solved, guessed roughly, or neither."""
 
 
-def _fill_splines() -> tuple[np.ndarray, np.ndarray]:
+def _fill_splines() -> Array:
     """Of quintic splines through rows below and above a cell: coefficients in the cell."""
     out = np.zeros((BESIDE + 1, BESIDE + 1, TERMS, 2 * BESIDE + 2))
     for below in range(BESIDE + 1):
@@ -425,7 +431,7 @@ def _left_out(field, held, splines, k, t, low, high, last, rows, poly, row, out)
         area += row[c] + row[F_SA + c]
     for c in range(10):
         unit = 1.0 if c == SHADE else area
-        if c == F_SS or c == F_SA:
+        if c in (F_SS, F_SA):
             unit = load
         worst = max(worst, abs(out[c] - row[c]) / unit)
     return PART * worst
@@ -445,56 +451,77 @@ def _error_of(field, k, low, high, rows):
 
 
 @scalar
-def _ground_state(field, held, splines, target, h, rows, work, poly, row, out):
-    """Separation [σ], rounds, fate and error of one state; its columns into ``row``."""
+def _begin(field, held, target, h, rows, work, out):
+    """The row from which to come down, evaluations, and whether there is one."""
     apart()
-    own, skin, columns, done = field[0], field[2], rows[2], rows[5]
-    count, rounds = int(own[ROWS]), 0
+    own, done = field[0], rows[5]
+    count = int(own[ROWS])
     work[3][0] = 0.0
-    if count > MOST_ROWS:
-        return h, 0, TOO_LONG, math.inf
     for k in range(count):
         done[k] = NONE
     if target > 0:
         k, rounds = _first_row(field, held, target, work, out)
-    else:
-        k = math.floor((h - own[LOWEST]) / own[STEP])
-        if not 0 <= k < count - 1:
-            return h, 0, UNSOLVED, math.inf
-        k = min(k + 1 + BESIDE, count - 1)
-    k, n, fate = _come_down(field, held, k, target, h, rows, work, out)
-    rounds += n
-    if fate != OK:
-        return h, rounds, fate, math.inf
-    t, slope, low, high, last = -1.0, 0.0, 0, 0, 0
+        return k, rounds, True
+    k = math.floor((h - own[LOWEST]) / own[STEP])
+    return min(k + 1 + BESIDE, count - 1), 0, 0 <= k < count - 1
+
+
+@scalar
+def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row):
+    """Find the part of a cell, from cell k on, at which the target is carried, or h is.
+
+    Fate, rounds, the cell, the part, the slope of ln F over the cell, and the window of rows.
+    """
+    apart()
+    own, skin, columns = field[0], field[2], rows[2]
+    count, rounds, t, slope, low, high, last = int(own[ROWS]), 0, -1.0, 0.0, 0, 0, 0
     for _ in range(3):
         if not 0 <= k < count - 1:
-            return h, rounds, UNSOLVED, math.inf
+            break
         low, high = max(k - BESIDE, 0), min(k + 1 + BESIDE, count - 1)
         n = _finish_rows(field, k, low, high, rows, work)
         if n < 0:
-            return h, rounds, UNSOLVED, math.inf
+            break
         rounds, last = rounds + n, low - 1
         while last < high and columns[last + 1, 0] > TINIEST * own[SIGMA] ** 2:
             last += 1
         if not _lay_cell(splines, k, low, high, last, rows, poly):
-            return h, rounds, UNSOLVED, math.inf
+            break
         if target > 0:
             t, slope = _root_in(own, skin, held, poly, k, target, row)
         else:
             t = (h - own[LOWEST]) / own[STEP] - k
-            load = _read_cell(own, skin, held, poly, k, t, row)
-            if load != load:
-                return h, rounds, UNSOLVED, math.inf
+            if not _read_cell(own, skin, held, poly, k, t, row) >= 0:
+                break
         if 0 <= t <= 1:
-            break
+            fate = OK if target <= 0 or slope < 0 else NOT_MONOTONE
+            return fate, rounds, k, t, slope, low, high, last
         k += -1 if t < 0 else 1
-    if not 0 <= t <= 1:
+    return UNSOLVED, rounds, k, t, slope, low, high, last
+
+
+@scalar
+def _ground_state(field, held, splines, target, h, rows, work, poly, row, out):
+    """Separation [σ], rounds, fate and error of one state; its columns into ``row``."""
+    apart()
+    own = field[0]
+    if own[ROWS] > MOST_ROWS:
+        return h, 0, TOO_LONG, math.inf
+    k, rounds, good = _begin(field, held, target, h, rows, work, out)
+    if not good:
         return h, rounds, UNSOLVED, math.inf
+    k, n, fate = _come_down(field, held, k, target, h, rows, work, out)
+    rounds += n
+    if fate != OK:
+        return h, rounds, fate, math.inf
+    fate, n, k, t, slope, low, high, last = _settle_cell(
+        field, held, splines, k, target, h, rows, work, poly, row
+    )
+    rounds += n
+    if fate != OK:
+        return h, rounds, fate, math.inf
     if target > 0:
         h = own[LOWEST] + (k + t) * own[STEP]
-        if not slope < 0:
-            return h, rounds, NOT_MONOTONE, math.inf
     error = own[LEFT] + SETTLED + _error_of(field, k, low, high, rows)
     error += _left_out(field, held, splines, k, t, low, high, last, rows, poly, row, out)
     if slope < 0:

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...contact.field_ground import STEP as FRACTION
 from ...contact.field_ground import TERMS, rows_between
 from ...contact.particle_averages import NORMAL_REACH, WIDEST
 from ...errors import NotCompiled
 from ...laws.field.programme import MOMENTS
 from ...laws.field.spectrum import _powers, rolled_off
-from ...laws.field.table import SOFT, rows_of, separations
+from ...laws.field.table import COLUMNS, rows_of, separations
 from ...numerics.chebyshev import chebyshev_transform
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
@@ -233,7 +232,7 @@ class Grounds:
         }.items():
             self.numbers[:, column] = value
         every = np.broadcast_to(np.asarray(alpha, float), count)
-        self.tables = np.zeros((count, f.HEIGHTS_OF_TABLE, g.OF_SURFACE))
+        self.tables = np.zeros((count, f.HEIGHTS_OF_TABLE, COLUMNS))
         for some in (soft, ~soft):
             if some.any():
                 rows = rows_of(chi[some], every[some], soft=bool(soft[some][0]))
