@@ -400,12 +400,14 @@ def _press(own, kernels, skin, surface, h, small):
 
 
 @scalar
-def lift_of(own, kernels, skin, surface, h, state, start, small):
-    """Lift of the asperities' ground [σ], by chords; what asperities press at h + w is in rows."""
+def lift_of(own, kernels, skin, surface, h, state, small):
+    """Lift of the asperities' ground [σ], by chords, and how far it is off.
+
+    From none, as there may be several. What asperities press at h + w is left in the rows.
+    """
     apart()
-    w = before = start
+    w = before = found = 0.0
     miss = math.nan
-    found = w
     for _ in range(TRIES):
         _press(own, kernels, skin, surface, h + w, small)
         total = 0.0
@@ -414,11 +416,11 @@ def lift_of(own, kernels, skin, surface, h, state, start, small):
         found = max(WAVES * total, own[LOWEST] - h)
         last, miss = miss, found - w
         if abs(miss) < CLOSEST:
-            return found
+            break
         chord = miss * (w - before) / (last - miss)
         step = chord if abs(chord) <= 2 * abs(miss) else miss
         before, w = w, w + step
-    return found
+    return found, abs(miss)
 
 
 # ------------------------------------------------------------------------------ seats
@@ -563,14 +565,17 @@ def weigh_ground(own, cells, floor, h, u, guess, nodes, found, columns, whole):
 
 
 @scalar
-def round_of(own, kernels, skin, surface, cells, floor, h, state, w, guess, small, nodes, found,
+def round_of(own, kernels, skin, surface, cells, floor, h, state, guess, small, nodes, found,
              columns, whole):  # fmt: skip
-    """β_n and the shadow again, from those before, at h [σ]: the lift, and the lowest ground."""
+    """β_n and the shadow again, from those before, at h [σ].
+
+    The lift and how far it is off, and the lowest ground on which a particle is squeezed.
+    """
     apart()
-    w = lift_of(own, kernels, skin, surface, h, state, w, small)
+    w, off = lift_of(own, kernels, skin, surface, h, state, small)
     # the rows hold what asperities do a last step before, some 1e-13 of σ away
     bare, u = 1 - min(max(state[BETA], 0.0), 1.0), small[U]
     for n in range(BETA):
         u[n] = WAVES * (bare * small[PRESSED, n] + kernels[K_PP + n] * state[n])
     right = weigh_ground(own, cells, floor, h, u, guess, nodes, found, columns, whole)
-    return w, right
+    return w, off, right

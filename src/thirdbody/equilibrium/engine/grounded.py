@@ -176,11 +176,10 @@ def _solve_row(field, k, accuracy, whole, rows, work):
     h, state, close = own[LOWEST] + k * own[STEP], states[k], False
     for n in range(ROUNDS):
         full = whole and close
-        w, right = round_of(
-            own, kernels, skin, surface, cells, floor, h, state, lifts[k], lowest[k], small, nodes,
-            found, columns[k], full,
+        lifts[k], off, lowest[k] = round_of(
+            own, kernels, skin, surface, cells, floor, h, state, lowest[k], small, nodes, found,
+            columns[k], full,
         )  # fmt: skip
-        lifts[k], lowest[k] = w, right
         size = 0.0
         for m in range(UNKNOWNS):
             miss[m] = found[m] - state[m]
@@ -192,7 +191,7 @@ def _solve_row(field, k, accuracy, whole, rows, work):
         if n > 0:
             _remember(pairs, memory, state, miss, old_state, old_miss)
         if full and size <= accuracy:
-            misses[k], done[k] = size, DONE
+            misses[k], done[k] = max(size, off), DONE
             return n + 1
         for m in range(UNKNOWNS):
             old_state[m], old_miss[m] = state[m], miss[m]
@@ -208,19 +207,18 @@ def _solve_row(field, k, accuracy, whole, rows, work):
 def _guess_row(k, way, rows, last):
     """Put what the rows before, on one side, say of row k into it."""
     apart()
-    states, lifts, _, _, lowest, done = rows
+    states, _, _, _, lowest, done = rows
     known, near = 0, k + way
     while known < OLDER:
         m = k + way * (known + 1)
         if not 0 <= m <= last or done[m] == NONE or not states[m, 0] > 0:
             break
         known += 1
-    lifts[k], lowest[k] = 0.0, math.nan
+    lowest[k] = math.nan
     if known == 0:
         for n in range(UNKNOWNS):
             states[k, n] = 0.0
         if 0 <= near <= last and done[near] != NONE:
-            lifts[k] = lifts[near]
             for n in range(UNKNOWNS):
                 states[k, n] = states[near, n]
         return
@@ -233,7 +231,6 @@ def _guess_row(k, way, rows, last):
         states[k, 0] -= part * math.log(states[m, 0])
         for n in range(1, UNKNOWNS):
             states[k, n] -= part * states[m, n] / states[m, 0]
-        lifts[k] -= part * lifts[m]
         low -= part * lowest[m]
     lowest[k] = low
     states[k, 0] = math.exp(min(max(states[k, 0], -600.0), 100.0))
