@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection, Iterable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -34,7 +34,7 @@ from .reader import Reader, Table
 from .schema import Describer
 from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
-from .toml import override, read
+from .toml import heading_of, override, read, setting_in_words
 
 __all__ = ["Study", "check", "load_study", "load_tables", "read_tables"]
 
@@ -87,6 +87,8 @@ class Study:
     gaps : tuple of float or None
         Of each population the height of oil that brings it [m]; None where the file states how
         many lie on an area.
+    settings : tuple of str
+        Keys that were set over the file, "load.force = 1 kN".
     """
 
     title: str
@@ -108,6 +110,12 @@ class Study:
     forces: np.ndarray | None = None
     assumed: tuple[str, ...] = ()
     gaps: tuple[float | None, ...] = ()
+    settings: tuple[str, ...] = ()
+
+    @property
+    def heading(self) -> str:
+        """The title, and what was set over the file."""
+        return heading_of(self.title or "Study", self.settings)
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -156,7 +164,9 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     >>> study.contact.roughness.sigma, study.values.tolist()
     (2e-07, [5000000.0])
     """
-    return check(override(read(Path(path)), list(overrides)), folder=Path(path).parent)
+    told = list(overrides)
+    study = check(override(read(Path(path)), told), folder=Path(path).parent)
+    return replace(study, settings=tuple(map(setting_in_words, told)))
 
 
 def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> list[Path]:

@@ -72,7 +72,12 @@ def state_sheets(result: StudyResult) -> list[Sheet]:
     return _sheets(result, found, _rows_of_study(result), meanings)
 
 
-def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[Sheet]:
+def film_sheets(
+    result: FilmResult,
+    sentences: Sequence[str | Grid],
+    table: tuple[Mapping[str, Sequence[object]], Mapping[str, str]],
+    more: Mapping[str, str],
+) -> list[Sheet]:
     """Sheets of what `run_film` found.
 
     Parameters
@@ -80,6 +85,10 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
     result : FilmResult
     sentences : sequence of str or Grid
         The answer in words and tables, as the command prints it.
+    table : tuple
+        Columns of the sheet of states, and their units.
+    more : mapping
+        Meanings of those columns that are none of the result.
     """
     from ..systems.mixed_film import COLUMNS
 
@@ -101,7 +110,7 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
     body = result.study.body
     inputs = [] if body is None else [*value_rows(body, "body.")]
     inputs += [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
-    return _sheets(result, found, inputs, meanings)
+    return _sheets(result, found, inputs, meanings | dict(more), table)
 
 
 def draw_film(result: FilmResult) -> Figure:
@@ -192,12 +201,13 @@ def _sheets(
     found: Sequence[str | Grid | bytes],
     inputs: Sequence[Row],
     meanings: Mapping[str, str],
+    table: tuple[Mapping[str, Sequence[object]], Mapping[str, str]] | None = None,
 ) -> list[Sheet]:
-    """The sheets, by what stands on the first."""
-    columns, units = result.table()
+    """The sheets, by what stands on the first; the columns of states are those of the result."""
+    columns, units = result.table() if table is None else table
     contact = result.study.contact
     return [
-        Sheet("Answer", tuple(found), title=f"{result.title} (thirdbody {__version__})"),
+        Sheet("Answer", tuple(found), title=f"{result.heading} (thirdbody {__version__})"),
         sheet_of_table("States", columns, units),
         Sheet("Inputs", (_input_grid(inputs, contact), _source_grid(contact))),
         Sheet("Notes", _notes(result, columns, units, meanings)),

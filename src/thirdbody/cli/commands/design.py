@@ -98,6 +98,7 @@ def _choose_for_oil(options: Options) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=words.answer(found),
         heads=words.heads(found),
         rows=words.rows(found),

@@ -130,6 +130,7 @@ def _tell_history(options: Options) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=[*words.answer(found), *sized],
         heads=words.HEADS,
         rows=words.rows(found),
@@ -163,6 +164,7 @@ def _tell_reports(options: Options, reports: Path) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=report_answer(found.reports),
         heads=REPORT_HEADS,
         rows=report_rows(found.reports),

@@ -17,6 +17,7 @@ from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
 from ...quantities.say import join_words, signed, value_of
 from ...study.oil_what_ifs import what_ifs_of_oil
+from ...study.toml import heading_of
 from ...version import __version__
 from .. import connector_words, nature_words, oil_words, plate_words, state_words
 from ..assess_page import pictures as pictures_of
@@ -107,7 +108,7 @@ class Report(Found):
 
     def html(self) -> str:
         """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
-        title = self.study.title or "Contact of rough surfaces"
+        title = heading_of(self.study.title or "Contact of rough surfaces", self.study.settings)
         parts = [
             f"<header><h1>{escape(title)}</h1>",
             f"<p class=soft>Report of thirdbody {escape(__version__)}.</p></header>",
