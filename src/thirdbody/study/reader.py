@@ -17,7 +17,7 @@ from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
-from ..quantities.value import allowed_range, limits_of, problem_with, quantity, unit_meant
+from ..quantities.value import allowed_range, hint_on, limits_of, problem_with, quantity, unit_meant
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
 from .vocabulary import near
@@ -375,7 +375,7 @@ def read_number(about: Quantity, reader: Notes, path: str, value: object) -> flo
         allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value, code=Mistake.RANGE)
     if why := problem_with(about, found):
-        meant = "" if about["hint"] else f"; it is the {about['meaning']}"
+        meant = "" if hint_on(about, found) else f"; it is the {about['meaning']}"
         raise wrong(path, in_study(why) + meant, value, code=why.code)
     load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
     if likely := unit_meant(about, found, load=load):
