@@ -99,3 +99,16 @@ def test_heads_of_questions_say_it_too(tmp_path, command, kind, setting):
     run("new", kind, "--out", file)
     key, _, value = setting.partition("=")
     assert f"with {key} = {value}" in " ".join(run(command, file, "--set", setting).split())
+
+
+def test_shares_too_small_to_be_read_are_numbers_in_the_workbook(bearing, tmp_path):
+    """Where the screen says "< 0.0001 %", the cell holds the share and shows the words."""
+    openpyxl = pytest.importorskip("openpyxl")
+    book, data = tmp_path / "f.xlsx", tmp_path / "f.json"
+    run("film", bearing, "--xlsx", book, "--json", data)
+    parts = json.loads(data.read_text())["oil"]["populations"]
+    cells = [cell for row in openpyxl.load_workbook(book)["Answer"].iter_rows() for cell in row]
+    assert not [cell.value for cell in cells if str(cell.value).startswith("<")]
+    small = {cell.value for cell in cells if cell.number_format == '"< 0.0001 %"'}
+    assert {part["load_share"] for part in parts if part["load_share"] < 1e-6} <= small
+    assert len(small) >= 2

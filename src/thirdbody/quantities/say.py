@@ -12,6 +12,7 @@ from collections.abc import Sequence
 __all__ = [
     "NOT_KNOWN",
     "UNITS",
+    "Least",
     "concentration_of",
     "join_words",
     "number",
@@ -73,6 +74,21 @@ UNIT = re.compile(
 """The space between a number and its unit."""
 
 
+class Least(str):
+    """Words for a number too small to be read, which keep it: "< 0.0001 %" is 4e-8.
+
+    >>> percent(4e-8, least=1e-6), percent(4e-8, least=1e-6).value
+    ('< 0.0001 %', 4e-08)
+    """
+
+    value: float
+
+    def __new__(cls, text: str, value: float) -> Least:
+        self = super().__new__(cls, text)
+        self.value = value
+        return self
+
+
 def unbroken(text: str) -> str:
     """A text whose numbers stay beside their units where its lines break.
 
@@ -113,7 +129,7 @@ def number(value: float | None, digits: int = 4, *, least: float = 0.0) -> str:
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
     if 0 < value < least:
-        return f"< {number(least)}"
+        return Least(f"< {number(least)}", value)
     text = f"{abs(value):.{digits}g}"
     return f"{'−' if value < 0 else ''}{powers(text)}"
 
@@ -173,7 +189,7 @@ def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: 
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
     if 0 < value < least:
-        return f"< {percent(least)}"
+        return Least(f"< {percent(least)}", value)
     near = 1 - 0.5 * 10.0**-digits <= value and value != 1
     whole = len(f"{abs(100 * value):.0f}")  # 100 is no 1×10²
     text = f"{number(100 * value, max(digits + 2 if near else digits, whole))} %"
