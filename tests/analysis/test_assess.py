@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+import warnings
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -622,3 +623,27 @@ def test_the_cost_of_the_samples_is_told_before_them_and_how_far_they_are(monkey
     parts = [part for part, _ in shown]
     assert parts == sorted(parts)
     assert parts[0] < 0.2 < 0.9 < parts[-1]
+
+
+def test_the_figure_of_bands_ends_where_an_end_of_a_band_would_be_crowded():
+    """Loads that nobody asked for make no warning; what the model does not know is not drawn."""
+    steel = tb.materials["S45C"]
+    bare = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+    )
+    page = tb.assess(bare, vary={"roughness.sigma": (80e-9, 120e-9)}, pressure=3e8, samples=64)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (caption, _), *_ = assess_page.pictures(page)
+    assert "more than 5 % of the cases have more than 50 % of the area in contact" in caption
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        curve = tb.propagate(bare, vary=page.propagation.inputs, samples=64, outputs=["A_t"],
+                             pressure=np.geomspace(1e7, 9e9, 25))  # fmt: skip
+    shown = assess_page._uncrowded(curve, "A_t", 3e8)
+    end = len(shown.loads)
+    assert np.all(curve.crowded[:end] <= 0.05)
+    assert curve.crowded[end] > 0.05
+    assert np.all(shown.bands["A_t"] == curve.bands["A_t"][:end])
+    assert plot.bands(shown, "A_t").get_xlim()[1] == curve.loads[end - 1]
+    assert assess_page._uncrowded(curve, "A_t", 9e9) is curve  # the page warns of that load itself
