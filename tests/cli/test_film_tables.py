@@ -75,7 +75,7 @@ def test_without_an_oil_the_table_has_no_column_of_it(bearing, tmp_path):
 
 def test_the_head_says_what_was_set_over_the_file(bearing, tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
-    told = 'with body.ring = outer and load.force = 1 kN'
+    told = "with body.ring = outer and load.force = 1 kN"
     settings = ("--set", 'body.ring="outer"', "--set", "load.force=1 kN")
     book, page = tmp_path / "f.xlsx", tmp_path / "r.html"
     assert told in " ".join(run("film", bearing, *settings, "--xlsx", book).split())

@@ -138,7 +138,7 @@ def _sheets(
         [*below, *last, *([] if draw is None else [png_of(draw())])],
         states=found.table(),
         meanings=found.meanings,
-        inputs=inputs_of(given.values, given.bodies, given.numbers),
+        inputs=inputs_of(given.values, given.bodies, given.numbers, found.asked.stated),
         warnings=[*found.asked.assumed, *found.warnings],
         citations=found.citations,
     )

@@ -38,6 +38,7 @@ PREFIXED = {
     "kg": ((1.0, "kg"), (1e-3, "g"), (1e-6, "mg"), (1e-9, "µg")),
     "m^2": ((1.0, "m²"), (1e-6, "mm²"), (1e-12, "µm²")),
     "rad": ((math.pi / 180, "deg"),),
+    "rad/s": ((math.pi / 30, "rpm"),),
 }
 SMALLEST, LARGEST = 1e-12, 1e13
 """Magnitudes between which units take a prefix."""

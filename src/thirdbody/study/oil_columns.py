@@ -56,10 +56,13 @@ def columns_of_oil(
     """
     if oil is None or oil.speed not in speeds:
         return []
-    rows = len(speeds)
-    at = list(speeds).index(oil.speed)
     return [
-        OilColumn(f"{before}{name}", unit, meaning, [None] * at + [value] + [None] * (rows - at - 1))
+        OilColumn(
+            f"{before}{name}",
+            unit,
+            meaning,
+            [value if speed == oil.speed else None for speed in speeds],
+        )
         for name, unit, meaning, value in _numbers(oil)
     ]
 

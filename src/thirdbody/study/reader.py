@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -186,6 +186,11 @@ class Reader:
         """The measured surfaces that stand in [roughness]."""
         self.known = Known()
 
+    @property
+    def stated(self) -> frozenset[str]:
+        """Dotted names of all keys of the file, items of lists by their numbers."""
+        return frozenset(_names_in(self.whole, ""))
+
     def table(
         self,
         path: str,
@@ -275,6 +280,19 @@ class Reader:
             return kind(**values)
         except InvalidValue as error:
             raise in_file(error, kind, path, values) from None
+
+
+def _names_in(data: object, path: str) -> Iterator[str]:
+    """Dotted names below a path."""
+    items: Iterable[tuple[object, object]] = ()
+    if isinstance(data, dict):
+        items = data.items()
+    elif isinstance(data, list) and any(isinstance(item, dict) for item in data):
+        items = enumerate(data)
+    for key, value in items:
+        name = f"{path}.{key}" if path else str(key)
+        yield name
+        yield from _names_in(value, name)
 
 
 # -------------------------------------------------------------------------- keys that are tables

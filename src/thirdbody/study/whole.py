@@ -22,8 +22,9 @@ from ..quantities.arguments import names_arguments
 from ..quantities.value import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
+from ..systems.oil_filter import Filter
 from .connector import AskedConnector, connector_of
-from .film import on_body
+from .film import filter_of, on_body
 from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
@@ -89,6 +90,10 @@ class Study:
         many lie on an area.
     settings : tuple of str
         Keys that were set over the file, "load.force = 1 kN".
+    filter : Filter, optional
+        What the key film.filter says: the oil is answered before and behind it.
+    stated : frozenset of str
+        Dotted names of all keys that the file states.
     """
 
     title: str
@@ -111,6 +116,8 @@ class Study:
     assumed: tuple[str, ...] = ()
     gaps: tuple[float | None, ...] = ()
     settings: tuple[str, ...] = ()
+    filter: Filter | None = None
+    stated: frozenset[str] = frozenset()
 
     @property
     def heading(self) -> str:
@@ -269,6 +276,8 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
         gaps=gaps_of(reader.whole),
+        filter=filter_of(reader.whole),
+        stated=reader.stated,
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),

@@ -89,9 +89,9 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
         words = f"Bands of the {OUTPUTS[of].meaning} over the load; the operating load is marked."
         if len(shown.loads) < len(loads):
             words += (
-                f" Beyond the last load drawn, more than {percent(min(curve.probabilities))} of the "
-                f"cases have more than {percent(MOST_AREA)} of the area in contact, where this "
-                "model does not hold."
+                f" Beyond the last load drawn, more than {percent(min(curve.probabilities))} of "
+                f"the cases have more than {percent(MOST_AREA)} of the area in contact, where "
+                "this model does not hold."
             )
         out.append((words, svg_of(ax.figure)))
     else:

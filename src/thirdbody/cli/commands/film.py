@@ -79,6 +79,7 @@ def command(options: Options) -> None:
     asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
     if fine is not None:
         need_particles(asked)
+    fine = fine or asked.filter
     files.need(options.figure, force=options.force)
     if options.figure is not None:
         figure_format(options.figure)  # refused before long work

@@ -90,7 +90,7 @@ def critical_section(report: Found) -> list[str]:
         loads = (critical_load(entry.value, entry.status, E_ss) for E_ss in Es)
         rows.append([critical_name(name), *loads, entry.status, happens(name)])
     text = text_table(CRITICAL_HEADS, rows, CRITICAL_HEADS[3:])
-    return [section("Critical loads", [text], name="critical")]
+    return [section(f"Critical loads{report.dry}", [text], name="critical")]
 
 
 def outputs_section(report: Found) -> list[str]:
@@ -138,20 +138,36 @@ def question_sections(report: Found) -> list[str]:
 
 
 def oil_section(report: Found) -> list[str]:
-    """Section on the populations of the oil, before and after a filter."""
-    from .. import bearing_words, oil_words
+    """Section on the populations of the oil, before and after a filter, and what they hang on."""
+    from .. import oil_words
 
-    out = []
+    out: list[str] = []
     if report.oil is not None and report.oil_filtered is not None:
         rows = oil_words.filter_rows(report.oil, report.oil_filtered)
         out.append(text_table(("", "before", "after the filter"), rows))
     elif report.oil is not None:
         out += _with_legend(oil_words.HEADS, oil_words.rows(report.oil), oil_words.MEANS)
-    if bearing_words.shares_load(report.study):
-        out.append(f"<p>{words(bearing_words.sharing(report.study))}</p>")
-        rows = bearing_words.rows(report.study)
-        out += _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
+    if report.oil_what_ifs:
+        rows = oil_words.what_if_rows(report.oil_what_ifs)
+        out.append(f"<h3>{escape(oil_words.HANGS_ON)}</h3>")
+        out += _with_legend(oil_words.WHAT_IF_HEADS, rows, oil_words.WHAT_IF_MEANS)
     return [section("What the oil carries", out, name="oil")] if out else []
+
+
+def bearing_section(report: Found) -> list[str]:
+    """Section on how the bodies of a bearing share its load; its dimensions are with the inputs."""
+    from .. import bearing_words
+
+    study = report.study
+    if not bearing_words.shares_load(study):
+        return []
+    rows = bearing_words.rows(study)
+    table_of = _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
+    lead = f"<p>{words(bearing_words.sharing(study))}</p>"
+    where = (
+        '<p class=soft>Its dimensions and its load are <a href="#inputs">with the inputs</a>.</p>'
+    )
+    return [section("The bearing", [lead, *table_of, where], name="bearing")]
 
 
 def life_section(report: Found) -> list[str]:
