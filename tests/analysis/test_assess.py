@@ -647,3 +647,28 @@ def test_the_figure_of_bands_ends_where_an_end_of_a_band_would_be_crowded():
     assert np.all(shown.bands["A_t"] == curve.bands["A_t"][:end])
     assert plot.bands(shown, "A_t").get_xlim()[1] == curve.loads[end - 1]
     assert assess_page._uncrowded(curve, "A_t", 9e9) is curve  # the page warns of that load itself
+
+
+def test_what_inputs_are_ranked_by_is_called_in_words():
+    """No name of the code stands in the heads of a page, in its captions, or beside its bars."""
+    vary = {"particles.areal_density": (0.5e11, 2e11), "roughness.alpha": (4.0, 8.0)}
+    page = tb.assess(DUSTY, vary=vary, pressure=5e6, samples=64)
+    share = replace(
+        page,
+        decisive="particle_load_share",
+        tornado=page.tornado | page.propagation.tornado("particle_load_share"),
+    )
+    (inputs,) = (part for part in share.sections() if part.title == "Inputs that matter")
+    assert inputs.head[4:6] == ("load share of particles at 5 %", "load share of particles at 95 %")
+    assert "particle_load_share" not in " ".join(
+        (*inputs.head, *inputs.sentences, *(text for text, _ in assess_page.pictures(share)))
+    )
+
+
+def test_bars_name_numbers_without_a_known_letter_in_words():
+    quartz = tb.materials["quartz"]
+    dusty = DUSTY.replace(particles=DUSTY.particles.replace(material=quartz))
+    found = tb.propagate(dusty, vary={"particles.material.m": (2.0, 4.0)}, pressure=5e6,
+                         samples=64, outputs=["A_t"])  # fmt: skip
+    (label,) = (text.get_text() for text in plot.tornado(found, "A_t").get_yticklabels())
+    assert label == "Weibull modulus of the strength of grains of the particles"

@@ -101,6 +101,7 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     values = assessment.tornado[assessment.decisive]
     strongest = dict([*values.items()][:MOST_BARS])
     ax = plot.tornado(found, assessment.decisive, values=strongest)
-    words = f"{assessment.decisive} with one input at each end of its 5 % to 95 % range"
+    called = assessment.called
+    words = f"{called[:1].upper()}{called[1:]} with one input at each end of its 5 % to 95 % range"
     words += f", the {MOST_BARS} strongest." if len(values) > MOST_BARS else "."
     return [*out, (words, svg_of(ax.figure))]

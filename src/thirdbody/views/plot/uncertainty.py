@@ -251,6 +251,8 @@ BODIES = {
     "surfaces.second": "surface 2",
     "particles.material": "particles",
 }
+LETTERS = {"E": "$E$", "nu": r"$\nu$", "H": "$H$"}
+"""Numbers of a body that are called by their letter."""
 
 
 def _output_label(of: str) -> str:
@@ -266,13 +268,11 @@ def _input_label(data: Propagation, label: str) -> str:
 
     names = [name.strip() for name in label.split("+")]
     sides = {name.rpartition(".")[0]: name.rpartition(".")[2] for name in names}
-    if set(sides) <= set(BODIES):
+    if set(sides) <= set(BODIES) and set(sides.values()) <= set(LETTERS):
         bodies = "both surfaces"
         if set(sides) != {"surfaces.first", "surfaces.second"}:
             bodies = " + ".join(BODIES[side] for side in sides)
-        letter = next(iter(sides.values()))
-        symbol = {"E": "$E$", "nu": r"$\nu$", "H": "$H$"}.get(letter, letter)
-        return f"{symbol} of {bodies}"
+        return f"{LETTERS[next(iter(sides.values()))]} of {bodies}"
     loads = {"pressure": "pressure", "F_star": "load $F^*$", "d": "separation $d$"}
     if label in loads:
         return loads[label]
