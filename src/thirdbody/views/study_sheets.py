@@ -18,10 +18,10 @@ from ..equilibrium.words import (
 from ..errors import Note, RangeWarning, ranked
 from ..populations.materials import NUMBERS
 from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
-from ..study.run import run_film_curve
 from ..version import __version__
 from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
 from .figure_files import png_of
+from .film_figure import draw_film
 from .film_words import point
 from .report.figures import first_figure
 from .report.found import Found, some_of
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "amount_cells",
-    "draw_film",
     "film_sheets",
     "grid_of",
     "note_line",
@@ -121,19 +120,6 @@ def film_sheets(
     inputs += [*film_rows(result), *rows_of(study.contact)]
     inputs = as_stated(inputs, study.stated)
     return _sheets(result, found, inputs, meanings | dict(more), table)
-
-
-def draw_film(result: FilmResult) -> Figure:
-    """Figure of a film over its speeds, or over others around the only one, which is marked."""
-    from .plot.film import stribeck
-
-    speeds = result.states["speed"]
-    if len(speeds) > 1:
-        return stribeck(result.states, result.regime_speeds)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)  # the answer has told of its own speed
-        curve, _ = run_film_curve(result.study)
-    return stribeck(curve.states, curve.regime_speeds, speed=float(speeds[0]))
 
 
 def _some_rows(grid: Grid) -> list[str | Grid]:

@@ -92,7 +92,7 @@ def command(options: Options) -> None:
     found = _Found(result, oil, filtered, what_ifs)
     drawn = None
     if options.figure is not None:
-        from ...views.study_sheets import draw_film
+        from ...views.film_figure import draw_film
 
         drawn = draw_film(result)
     files.write(
