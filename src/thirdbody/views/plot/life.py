@@ -97,7 +97,7 @@ def _mark_events(axes: Axes, history: Histories) -> list[Line2D]:
     first = _hours(history)[0]
     return [
         axes.axvline(
-            max(event.time / HOUR, first), color="0.8", lw=0.8, zorder=0,
+            max(event.time / HOUR, first), color="0.6", ls=":", lw=0.9, zorder=0,
             label="_" if i else "events",
         )
         for i, event in enumerate(history.events)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from textwrap import fill
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,6 +17,8 @@ from ...quantities.say import number, percent, value_of
 from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ...analysis.uncertainty.propagation import Propagation
 
 __all__ = ["bands", "tornado"]
@@ -100,8 +102,9 @@ def bands(
         ax.plot(x, band[:, middle], color=OKABE_ITO["blue"], linewidth=1.6, label=name)
     ax.plot(x, data.nominal[of], color="black", linewidth=1.1, linestyle="--", label="nominal")
     share = of.endswith("_share")
-    faint = share and bool(np.all(band > 0)) and float(np.nanmax(band)) < FAINT
-    ylog = faint or (not share and bool(np.all(band > 0)))
+    positive = bool(np.all(band > 0))
+    faint = share and _is_faint(band)
+    ylog = faint or (positive and not share)
     _dress(ax, data.load, of, xlog=data.load != "d", ylog=ylog)
     if faint:
         ax.yaxis.set_major_formatter(FuncFormatter(lambda value, place: number(100 * value, 2)))
@@ -117,6 +120,12 @@ def bands(
         ax.axvline(mark, color="0.25", linewidth=1.0, linestyle=":", label="this load")
     ax.legend(fontsize="small", frameon=False)
     return ax
+
+
+def _is_faint(band: NDArray[Any]) -> bool:
+    """Whether shares that are known are all above 0, and too small for a linear axis."""
+    known = band[np.isfinite(band)]
+    return bool(known.size and np.all(known > 0) and known.max() < FAINT)
 
 
 @takes_units
