@@ -71,11 +71,12 @@ def _numbers(oil: DirtyOil) -> Iterator[tuple[str, str, str, float | None]]:
     """Name, unit, meaning and value of each number."""
     for part in oil.populations:
         for name, (unit, meaning) in OF_POPULATION.items():
-            yield f"{part.name}: {name}", unit, meaning, _known(getattr(part, name))
+            yield f"{part.name}: {name}", unit, meaning, _finite(getattr(part, name))
     if oil.life is not None:
         for name, (unit, meaning) in OF_LIFE.items():
-            yield name, unit, meaning, _known(getattr(oil.life, name))
+            yield name, unit, meaning, _finite(getattr(oil.life, name))
 
 
-def _known(value: float) -> float | None:
+def _finite(value: float) -> float | None:
+    """The number, None where it is not finite."""
     return value if math.isfinite(value) else None
