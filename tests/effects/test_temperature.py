@@ -275,7 +275,7 @@ def test_kinds_are_ordered():
         (dict(dust=tb.materials["TiO2"], density=1e10), "needs thermal_conductivity of the part"),
         (dict(h_1=10.0), "give both"),
         (dict(h_1=0.0, h_2=0.0), "no way out"),
-        (dict(A_n=0.0), "1 mm² is 1e-6"),
+        (dict(A_n=0.0), r"A_n = 0\.0 must be > 0 \[m\^2\]$"),
     ],
 )
 def test_mistakes(given, said):

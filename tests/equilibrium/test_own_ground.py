@@ -16,6 +16,7 @@ from thirdbody.laws.field.own import RollOff
 from thirdbody.laws.field.programme import MOMENTS
 from thirdbody.laws.field.spectrum import rolled_off
 
+pytestmark = pytest.mark.slow  # its kernel is compiled for it alone
 BOUND = 1e-9
 """Of d over σ, of loads over the load, of areas over the area."""
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]

@@ -100,6 +100,8 @@ class AskedLife:
         What is allowed but looks like a slip.
     assumed : tuple of str
         What was taken for what the file does not say.
+    stated : frozenset of str
+        Dotted names of all keys that the file states.
     """
 
     title: str
@@ -113,6 +115,7 @@ class AskedLife:
     design: AskedDesign | None = None
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
+    stated: frozenset[str] = frozenset()
 
     @property
     def described(self) -> Described:
@@ -366,6 +369,7 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         design=design,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
+        stated=reader.stated,
     )
 
 

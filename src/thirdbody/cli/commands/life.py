@@ -134,6 +134,7 @@ def _tell_history(options: Options) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=[*words.answer(found), *sized],
         heads=words.HEADS,
         rows=words.rows(found),
@@ -175,6 +176,7 @@ def _tell_reports(options: Options, reports: Path) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=report_answer(found.reports),
         heads=REPORT_HEADS,
         rows=report_rows(found.reports),
