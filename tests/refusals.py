@@ -9,46 +9,80 @@ from contextlib import contextmanager
 import pytest
 
 import thirdbody as tb
+from thirdbody.equilibrium.status import Status
 from thirdbody.errors import Mistake
 
-__all__ = ["Mistake", "refuses", "warns_of"]
+__all__ = ["Mistake", "Status", "balances_not", "refuses", "warns_of"]
 
 
 @contextmanager
-def refuses(
-    code: Mistake,
-    place: str,
-    *,
-    value: str | None = None,
-    meant: str | None = None,
-    says: str = "",
-) -> Iterator[None]:
-    """Context whose end refuses an input: the kind of mistake, its dotted place, its value.
+def balances_not(status: Status | None, *, says: str = "") -> Iterator[None]:
+    """Context whose end finds no equilibrium, with the status of such a state.
 
     ``says`` is a number or a name that its sentence has to state.
     """
-    with pytest.raises(tb.InvalidValue) as refusal:
+    with pytest.raises(tb.NoEquilibrium) as told:
         yield
-    wanted = (code, place)
-    told = [(each.code, each.place) for each in refusal.value.problems]
-    assert wanted in told, f"{wanted} is not among {told}"
-    same = [each for each in refusal.value.problems if (each.code, each.place) == wanted]
-    assert any(says in each for each in same), same
-    if value is not None:
-        assert value in [each.value for each in same]
-    if meant is not None:
-        assert meant in [each.meant for each in same]
+    assert told.value.status is status
+    assert says in str(told.value)
+
+
+class refuses:
+    """Context whose end refuses an input: the kind of mistake, its dotted place, its value.
+
+    ``says`` is a number or a name that its sentence has to state. It can be entered again, so
+    that a row of `parametrize` can hold one.
+    """
+
+    def __init__(
+        self,
+        code: Mistake,
+        place: str,
+        *,
+        value: str | None = None,
+        meant: str | None = None,
+        says: str = "",
+    ):
+        self.wanted, self.value, self.meant, self.says = (code, place), value, meant, says
+
+    def __repr__(self) -> str:
+        return " ".join(filter(None, self.wanted))
+
+    def __enter__(self) -> pytest.ExceptionInfo[tb.InvalidValue]:
+        self.refusal = pytest.raises(tb.InvalidValue)
+        self.told = self.refusal.__enter__()
+        return self.told
+
+    def __exit__(self, *raised: object) -> bool:
+        if not self.refusal.__exit__(*raised):  # type: ignore[arg-type]
+            return False
+        problems = self.told.value.problems
+        told = [(each.code, each.place) for each in problems]
+        assert self.wanted in told, f"{self.wanted} is not among {told}"
+        same = [each for each in problems if (each.code, each.place) == self.wanted]
+        assert any(self.says in each for each in same), same
+        if self.value is not None:
+            assert self.value in [each.value for each in same]
+        if self.meant is not None:
+            assert self.meant in [each.meant for each in same]
+        return True
 
 
 @contextmanager
-def warns_of(code: str, *, effect: float | None = None, says: str = "") -> Iterator[None]:
+def warns_of(
+    code: str,
+    *,
+    effect: float | None = None,
+    says: str = "",
+    kind: type[Warning] = tb.RangeWarning,
+) -> Iterator[pytest.WarningsRecorder]:
     """Context in which a note with this code is told, with this effect on the answer.
 
     ``says`` is a number or a name that its sentence has to state.
     """
-    with pytest.warns(tb.RangeWarning) as told:
-        yield
-    notes = [each.message.args[0] for each in told if isinstance(each.message, tb.RangeWarning)]
+    with pytest.warns(kind) as told:
+        yield told
+    notes = [each.message.args[0] for each in told if isinstance(each.message, kind)]
     codes = [getattr(note, "code", "") for note in notes]
     assert code in codes, f"{code} is not among {codes}"
     same = [note for note in notes if getattr(note, "code", "") == code]

@@ -35,7 +35,7 @@ OF_CONTACT = [
 @pytest.mark.parametrize(("name", "function"), OF_CONTACT, ids=[name for name, _ in OF_CONTACT])
 @pytest.mark.parametrize("given", [None, "study.toml", {}, 3.0, PAIR])
 def test_what_is_no_contact_is_refused(name, function, given):
-    with pytest.raises(tb.InvalidValue, match=r"^contact = .* must be a Contact"):
+    with refuses(Mistake.KIND, "contact"):
         function(given)
 
 
@@ -173,8 +173,12 @@ MASKED = np.ma.masked_array([5e6, 6e6], [False, True])
 )
 def test_a_masked_value_is_refused(ask):
     """It is no number, and numpy would hand out what lies under the mask."""
-    with pytest.raises(tb.InvalidValue, match=r"1 masked value of [12]; .* leave it out"):
+    with pytest.raises(tb.InvalidValue) as told:
         ask()
+    (problem,) = told.value.problems
+    assert problem.code is Mistake.KIND
+    assert problem.path in ("pressure", "roughness.sigma", "counts")
+    assert "1 masked value of " in problem
 
 
 def test_an_array_of_which_nothing_is_masked_is_an_array():
@@ -230,7 +234,7 @@ def test_a_full_disk_is_told_and_leaves_nothing(tmp_path, monkeypatch):
     table = tb.table(CONTACT, tolerance=1e-3)
     monkeypatch.setattr(Path, "write_text", refused_write)
     for write in (table.to_csv, table.to_abaqus, table.to_comsol, table.to_avl, table.to_python):
-        with pytest.raises(tb.InvalidValue, match=r"^cannot write .*no space left on device"):
+        with refuses(Mistake.UNWRITABLE, "", says="no space left"):
             write(tmp_path / "table.csv")
     assert not list(tmp_path.iterdir())
 
@@ -239,7 +243,7 @@ def test_a_disk_that_is_full_at_the_end_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr("os.fsync", refused_write)
     (tmp_path / "old.txt").write_text("old")
     for name in ("new.txt", "old.txt"):
-        with pytest.raises(tb.InvalidValue, match=rf"^cannot write .*{name}: no space left"):
+        with refuses(Mistake.UNWRITABLE, "", says=f"{name}: no space left"):
             write_text(tmp_path / name, "new")
     assert [each.name for each in tmp_path.iterdir()] == ["old.txt"]
     assert (tmp_path / "old.txt").read_text() == "old"

@@ -11,7 +11,7 @@ import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable
-from enum import StrEnum
+from enum import IntEnum, StrEnum
 from types import FrameType
 from typing import Self
 
@@ -349,7 +349,25 @@ class InvalidValue(ThirdBodyError, ValueError):
 
 
 class NoEquilibrium(ThirdBodyError, RuntimeError):
-    """No separation inside the searched range carries the load."""
+    """No separation inside the searched range carries the load.
+
+    Parameters
+    ----------
+    message : str
+        Why there is none.
+    status : IntEnum, optional
+        The `Status` of such a state; None where it is none of these.
+
+    Examples
+    --------
+    >>> from thirdbody.equilibrium.status import Status
+    >>> NoEquilibrium("the load is too small", Status.TOO_LITTLE).status.word
+    'no_equilibrium_below'
+    """
+
+    def __init__(self, message: str = "", status: IntEnum | None = None):
+        super().__init__(message)
+        self.status = status
 
 
 class NoTransition(ThirdBodyError, RuntimeError):

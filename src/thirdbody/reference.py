@@ -13,7 +13,7 @@ import numpy as np
 from scipy import special
 from scipy.special import elliprd, elliprf
 
-from .errors import InvalidValue, Mistake
+from .errors import InvalidValue, Mistake, Problem
 from .quantities.arguments import need_positive
 from .quantities.carried import takes_units
 
@@ -174,9 +174,12 @@ def _touching(h: ArrayLike, eta: float, sigma_s: float, R: float) -> Array:
     h = np.asarray(h, dtype=float)
     if np.any(h < -1):
         raise InvalidValue(
-            "h must be >= -1: exponential heights end one standard deviation below their mean, "
-            "and the closed forms hold while summits remain out of contact",
-            code=Mistake.RANGE,
+            Problem(
+                "h",
+                "must be >= -1: exponential heights end one standard deviation below their mean, "
+                "and the closed forms hold while summits remain out of contact",
+                code=Mistake.RANGE,
+            )
         )
     return eta * R * sigma_s * np.exp(-h - 1)
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from refusals import Mistake, refuses
 from typer.testing import CliRunner
 
 import thirdbody as tb
@@ -308,7 +309,7 @@ def test_files_appear_together_or_not_at_all(clean, tmp_path, monkeypatch):
         save(clean, other)
     assert list(other.iterdir()) == []
     (tmp_path / "file").write_text("x")
-    with pytest.raises(tb.InvalidValue, match="a file of that name"):
+    with refuses(Mistake.UNWRITABLE, "", says="file: a file"):
         save(clean, tmp_path / "file")
 
 

@@ -169,51 +169,79 @@ def test_samples_are_the_designs_and_the_states_are_theirs(design):
 
 
 @pytest.mark.parametrize(
-    ("change", "sentence"),
+    ("change", "refusal"),
     [
-        (dict(design="sobl"), "design = 'sobl' must be one of"),
-        (dict(design="sobol", samples=4), "samples ranges and none is given"),
-        (dict(samples=4), "samples = 4 goes with design"),
-        (dict(vary={"roughness.R": {"low": 1, "high": 2}}), "needs design = 'latin' or 'sobol'"),
-        (dict(vary={"roughness.R": [-1e-6, 1e-6]}), "-1e-06 must be > 0"),
-        (dict(vary={"roughness.R": []}), "is empty"),
-        (dict(vary={"roughness.Q": [1.0]}), "is not an input"),
-        (dict(vary={"roughness.R": [1e-6, 2e-6]}, design="zip"), "one length"),
-        (dict(columns=["area"]), "column = 'area'"),
-        (dict(chunk=0), "chunk = 0"),
-        (dict(workers=0), "workers = 0"),
-        (dict(pressure=[1.0]), "exactly one"),
-        (dict(F_star=[-1.0]), "F_star = -1 must be finite and > 0"),
-        (dict(reduce={"mean": True}), "reduce['over'] is missing"),
-        (dict(reduce={"over": "F_star"}), "keeps nothing"),
-        (dict(reduce={"over": "R", "mean": True}), "names 'R'"),
-        (dict(reduce={"over": "F_star", "quantiles": [2]}), "must be from 0 to 1"),
-        (dict(reduce={"over": "F_star", "exceed": {"mode": 1}}), "not among the columns"),
-        (dict(reduce={"over": "F_star", "median": True}), "'median'"),
+        (dict(design="sobl"), refuses(Mistake.OPTION, "design", value="'sobl'")),
+        (dict(design="sobol", samples=4), refuses(Mistake.MISSING, "design", value="'sobol'")),
+        (dict(samples=4), refuses(Mistake.IDLE, "samples", value="4")),
+        (
+            dict(vary={"roughness.R": {"low": 1, "high": 2}}),
+            refuses(Mistake.IDLE, "vary['roughness.R']", value="{'low': 1, 'high': 2}"),
+        ),
+        (
+            dict(vary={"roughness.R": [-1e-6, 1e-6]}),
+            refuses(Mistake.RANGE, "vary['roughness.R']", says="-1e-06"),
+        ),
+        (dict(vary={"roughness.R": []}), refuses(Mistake.EMPTY, "vary['roughness.R']")),
+        (
+            dict(vary={"roughness.Q": [1.0]}),
+            refuses(Mistake.UNKNOWN, "vary['roughness.Q']", meant="roughness.R"),
+        ),
+        (
+            dict(vary={"roughness.R": [1e-6, 2e-6]}, design="zip"),
+            refuses(Mistake.SHAPE, "design", value="'zip'"),
+        ),
+        (dict(columns=["area"]), refuses(Mistake.OPTION, "column", value="'area'")),
+        (dict(chunk=0), refuses(Mistake.KIND, "chunk", value="0")),
+        (dict(workers=0), refuses(Mistake.KIND, "workers", value="0")),
+        (dict(pressure=[1.0]), refuses(Mistake.MISSING, "", says="pressure, F_star")),
+        (dict(F_star=[-1.0]), refuses(Mistake.RANGE, "F_star", value="-1")),
+        (dict(reduce={"mean": True}), refuses(Mistake.MISSING, "reduce['over']")),
+        (dict(reduce={"over": "F_star"}), refuses(Mistake.EMPTY, "reduce")),
+        (
+            dict(reduce={"over": "R", "mean": True}),
+            refuses(Mistake.UNKNOWN, "reduce['over']", says="'R'"),
+        ),
+        (
+            dict(reduce={"over": "F_star", "quantiles": [2]}),
+            refuses(Mistake.RANGE, "reduce['quantiles']", value="2"),
+        ),
+        (
+            dict(reduce={"over": "F_star", "exceed": {"mode": 1}}),
+            refuses(Mistake.UNKNOWN, "reduce['exceed']"),
+        ),
+        (
+            dict(reduce={"over": "F_star", "median": True}),
+            refuses(Mistake.UNKNOWN, "reduce['median']"),
+        ),
     ],
 )
-def test_mistakes(change, sentence):
-    with pytest.raises(tb.InvalidValue) as error:
+def test_mistakes(change, refusal):
+    with refusal as error:
         tb.sweep(CLEAN, **(dict(F_star=[1e-6, 1e-5, 1e-4]) | change))
     assert len(error.value.problems) == 1
-    assert sentence in str(error.value)
 
 
 @pytest.mark.parametrize(
-    ("span", "sentence"),
+    ("span", "refusal"),
     [
-        ((2e-6, 1e-6), "must be below"),
-        ((1e-6, 2e-6, 3e-6), "(low, high)"),
-        ({"low": 0, "high": 1e-6, "scale": "log"}, "must be > 0"),
-        ({"low": 1e-6, "high": 2e-6, "scale": "cubic"}, "'cubic'"),
-        ({"low": "a", "high": 2e-6}, "'a'"),
-        ((-1e-6, 1e-6), "must be > 0"),
+        ((2e-6, 1e-6), refuses(Mistake.ORDER, "vary['roughness.R']")),
+        (
+            (1e-6, 2e-6, 3e-6),
+            refuses(Mistake.KIND, "vary['roughness.R']", value="(1e-06, 2e-06, 3e-06)"),
+        ),
+        ({"low": 0, "high": 1e-6, "scale": "log"}, refuses(Mistake.RANGE, "vary['roughness.R']")),
+        (
+            {"low": 1e-6, "high": 2e-6, "scale": "cubic"},
+            refuses(Mistake.OPTION, "vary['roughness.R'] scale", value="'cubic'"),
+        ),
+        ({"low": "a", "high": 2e-6}, refuses(Mistake.RANGE, "vary['roughness.R']", says="'a'")),
+        ((-1e-6, 1e-6), refuses(Mistake.RANGE, "vary['roughness.R']")),
     ],
 )
-def test_mistakes_in_ranges(span, sentence):
-    with pytest.raises(tb.InvalidValue) as error:
+def test_mistakes_in_ranges(span, refusal):
+    with refusal:
         tb.sweep(CLEAN, F_star=1e-5, vary={"roughness.R": span}, design="latin", samples=3)
-    assert sentence in str(error.value)
 
 
 @pytest.mark.parametrize("sizes", [(3, 4, 5), (1, 100, 1), (1, 1, 7), (9, 1, 1)])
@@ -335,23 +363,23 @@ def test_another_study_is_refused(tmp_path):
     other = DUSTY.replace(**{"roughness.sigma": 90e-9})
     with refuses(Mistake.OTHER_STUDY, "", says="contact.roughness.sigma is 1e-07"):
         tb.sweep(other, **GRID, out=tmp_path)
-    with pytest.raises(tb.InvalidValue, match="format is"):
+    with refuses(Mistake.OTHER_STUDY, "", says='"zarr"'):
         tb.sweep(DUSTY, **GRID, out=tmp_path, format="netcdf")
-    with pytest.raises(tb.InvalidValue, match="chunk is"):
+    with refuses(Mistake.OTHER_STUDY, "", says="chunk is 262144"):
         tb.sweep(DUSTY, **GRID, out=tmp_path, chunk=5)
     longer = GRID | {"F_star": np.geomspace(1e-6, 1e-5, 5000)}
-    with pytest.raises(tb.InvalidValue, match="F_star"):
+    with refuses(Mistake.OTHER_STUDY, "", says="F_star"):
         tb.sweep(DUSTY, **longer, out=tmp_path)
     assert files(tmp_path) == before
 
 
 def test_folders_that_are_none_of_ours(tmp_path):
     (tmp_path / "thesis.docx").touch()
-    with pytest.raises(tb.InvalidValue, match=r"thesis\.docx"):
+    with refuses(Mistake.UNWRITABLE, "", says="thesis.docx"):
         tb.sweep(DUSTY, **GRID, out=tmp_path)
-    with pytest.raises(tb.InvalidValue, match="must be a folder"):
+    with refuses(Mistake.UNWRITABLE, "", says="thesis.docx"):
         tb.sweep(DUSTY, **GRID, out=tmp_path / "thesis.docx")
-    with pytest.raises(tb.InvalidValue, match="'zarr', 'netcdf'"):
+    with refuses(Mistake.OPTION, "format", value="'csv'"):
         tb.sweep(DUSTY, **GRID, out=tmp_path / "new", format="csv")
     assert os.listdir(tmp_path) == ["thesis.docx"]
 
@@ -359,7 +387,7 @@ def test_folders_that_are_none_of_ours(tmp_path):
 @pytest.mark.parametrize(("format", "package"), [("zarr", "zarr"), ("netcdf", "h5py")])
 def test_missing_package_has_one_message(tmp_path, monkeypatch, format, package):
     monkeypatch.setitem(sys.modules, package, None)
-    with pytest.raises(tb.InvalidValue, match=rf"needs the package {package}: pip install"):
+    with refuses(Mistake.ABSENT, "format", says=f" {package}: "):
         tb.sweep(CLEAN, F_star=1e-5, out=tmp_path / "o", format=format)
     assert not (tmp_path / "o").exists()
 
@@ -601,7 +629,7 @@ def test_an_interrupted_design_goes_on_with_the_right_points(monkeypatch):
 def test_locked_by_another_process_as_long_as_it_lives(tmp_path):
     process = start(tmp_path, pause=600)
     wait_for(process, tmp_path, 1)
-    with pytest.raises(tb.InvalidValue, match=rf"in use by another run \(process {process.pid}\)"):
+    with refuses(Mistake.UNWRITABLE, "", says=f"process {process.pid}"):
         tb.sweep(DUSTY, **KILLED, out=tmp_path)
     process.kill()
     process.communicate()

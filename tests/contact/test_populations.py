@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 from typer.testing import CliRunner
 
 import thirdbody as tb
@@ -111,18 +112,33 @@ def test_round_trip_and_many_states():
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "refusal"),
     [
-        (lambda: contact(DUST, DUST.replace(law=tb.particle.Horng2022())), "different planes"),
-        (lambda: contact(DUST, DUST.replace(law=tb.asperity.ZMC())), "particle law"),
-        (lambda: contact(*[DUST.replace(areal_density=6e12)] * 3), "jammed"),
-        (lambda: contact(DUST, "dust"), "Particles"),
-        (lambda: contact(DUST).replace(**{"particles.4.areal_density": 1}), "holds 1 values"),
-        (lambda: contact(DUST).replace(**{"particles.areal_density": 1}), "name one"),
+        (
+            lambda: contact(DUST, DUST.replace(law=tb.particle.Horng2022())),
+            refuses(Mistake.BEYOND, "Contact.particles"),
+        ),
+        (
+            lambda: contact(DUST, DUST.replace(law=tb.asperity.ZMC())),
+            refuses(Mistake.KIND, "particles.1.law", value="ZMC(k=0.4, rho=54.0)"),
+        ),
+        (
+            lambda: contact(*[DUST.replace(areal_density=6e12)] * 3),
+            refuses(Mistake.FULL, "Contact.particles"),
+        ),
+        (lambda: contact(DUST, "dust"), refuses(Mistake.KIND, "Contact.particles")),
+        (
+            lambda: contact(DUST).replace(**{"particles.4.areal_density": 1}),
+            refuses(Mistake.UNKNOWN, "", says="'4'"),
+        ),
+        (
+            lambda: contact(DUST).replace(**{"particles.areal_density": 1}),
+            refuses(Mistake.UNKNOWN, "", says="'areal_density'"),
+        ),
     ],
 )
-def test_mistakes(make, words):
-    with pytest.raises(tb.InvalidValue, match=words):
+def test_mistakes(make, refusal):
+    with refusal:
         make()
 
 

@@ -130,9 +130,15 @@ def test_insulating_particles_need_no_conductivity():
     dust = tb.materials["TiO2"]
     tb.solve(contact(ElectricalConductance(), dust=dust), pressure=5e6)
     tb.solve(contact(ThermalConductance(particles="insulate"), dust=dust), pressure=5e6)
-    with pytest.raises(tb.InvalidValue, match="needs thermal_conductivity of the particles"):
+    with refuses(
+        Mistake.MISSING, "outputs.thermal_conductance", says="thermal_conductivity of the particles"
+    ):
         contact(ThermalConductance(), dust=dust)
-    with pytest.raises(tb.InvalidValue, match="needs resistivity of surface 1"):
+    with refuses(
+        Mistake.MISSING,
+        "outputs.electrical_conductance",
+        says="resistivity of surface 1 (SnSb8Cu4)",
+    ):
         contact(ElectricalConductance(), first=tb.materials["SnSb8Cu4"])
 
 
@@ -263,5 +269,5 @@ def test_by_material_one_kind_conducts_or_insulates():
 
 def test_of_few_particles_that_differ_nothing_is_told():
     none = SILICA.replace(resistivity=None)
-    with refuses(Mistake.CLASH, "", says="A_n"):
+    with refuses(Mistake.CLASH, "outputs.electrical_conductance.A_n"):
         mixed(ElectricalConductance(particles="by material", A_n=1e-10), silica=none)

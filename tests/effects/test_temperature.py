@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 from scipy import stats
 
 import thirdbody as tb
@@ -254,6 +255,9 @@ def test_lifetime():
     assert slow[0] > slow[1]
 
 
+PLACE = "outputs.flash_temperature"
+
+
 def test_kinds_are_ordered():
     at = {
         (flux, kind): rise(flux=flux, kind=kind, density=1e10)
@@ -269,20 +273,25 @@ def test_kinds_are_ordered():
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "code", "place", "says"),
     [
-        (dict(first=tb.materials["WC"]), "needs specific_heat of surface 1"),
-        (dict(dust=tb.materials["TiO2"], density=1e10), "needs thermal_conductivity of the part"),
-        (dict(h_1=10.0), "give both"),
-        (dict(h_1=0.0, h_2=0.0), "no way out"),
-        (dict(A_n=0.0), r"A_n = 0\.0 must be > 0 \[m\^2\]$"),
+        (dict(first=tb.materials["WC"]), Mistake.MISSING, PLACE, "specific_heat of surface 1"),
+        (
+            dict(dust=tb.materials["TiO2"], density=1e10),
+            Mistake.MISSING,
+            PLACE,
+            "thermal_conductivity of the particles",
+        ),
+        (dict(h_1=10.0), Mistake.CLASH, "FlashTemperature.h_1", "h_2"),
+        (dict(h_1=0.0, h_2=0.0), Mistake.CLASH, "FlashTemperature.h_1", "no way out"),
+        (dict(A_n=0.0), Mistake.RANGE, "FlashTemperature.A_n", "m^2"),
     ],
 )
-def test_mistakes(given, said):
-    with pytest.raises(tb.InvalidValue, match=said):
+def test_mistakes(given, code, place, says):
+    with refuses(code, place, says=says):
         contact(**given)
 
 
 def test_needs_friction():
-    with pytest.raises(tb.InvalidValue, match=r"needs outputs\.friction"):
+    with refuses(Mistake.MISSING, "outputs.flash_temperature", says="outputs.friction"):
         contact().replace(outputs=(FlashTemperature(v=1.0, A_n=1e-6),))

@@ -7,7 +7,7 @@ from unittest import mock
 import numpy as np
 import oracle
 import pytest
-from refusals import warns_of
+from refusals import Status, balances_not, warns_of
 from twins import base, material
 
 import thirdbody as tb
@@ -116,9 +116,8 @@ class TestJump:
         most, least = sides(printed, caught)
         assert most > 100 * least
         inside = np.sqrt(most * least)
-        with pytest.raises(tb.NoEquilibrium, match=r"^jump: ") as found:
+        with balances_not(Status.JUMP, says="6.11e-07 m"):
             tb.solve(printed, F_star=inside)
-        assert "6.11e-07 m" in str(found.value)
         loads = np.array([0.5 * least, inside, 2 * most])
         found = tb.solve(printed, F_star=loads)
         assert [word.split(":")[0] for word in found.status] == ["ok", "jump", "ok"]
@@ -175,7 +174,7 @@ class TestJump:
 
     def test_roots_are_no_jumps(self, printed):
         """A jump among the crossings is left out, and alone it is an error."""
-        with pytest.raises(tb.NoEquilibrium, match=r"^jump: "):
+        with balances_not(Status.JUMP):
             tb.roots(dusty(tb.particle.Horng2022(), ONE_SIZE), F_star=3.2e-5)
         most, least = sides(printed, 3e-7 + 3.11e-7)
         for F in np.geomspace(1.01 * least, 0.99 * most, 12):

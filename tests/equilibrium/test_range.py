@@ -35,5 +35,5 @@ def test_the_numbers_are_those_of_the_record():
     high = max(state["h_over_sigma"] - state["h_over_sigma_statistical"] for state in large)
     less = [1 - state["share"] / state["share_statistical"] for state in large]
     text = told(seats.contact(300e-9), 4e-3)
-    assert f"{low:.2f} to {high:.2f} sigma further apart" in text
+    assert f" {low:.2f} to {high:.2f} sigma" in text
     assert f"carried {100 * min(less):.0f} to {100 * max(less):.0f} % less" in text

@@ -6,6 +6,7 @@ from unittest import mock
 import numpy as np
 import oracle
 import pytest
+from refusals import balances_not
 from twins import base, material
 
 import thirdbody as tb
@@ -109,7 +110,6 @@ def test_one_crowded_load_is_told_and_not_ok():
     state = tb.solve(rough(), F_star=1.4e-2)
     assert state.A_t > 0.5
     assert state.status_code == Status.CROWDED
-    assert state.status.startswith("crowded: more than 0.5")
 
 
 def test_real_areas_above_one_are_not_ok():
@@ -206,7 +206,7 @@ class TestChi:
         )
         state = tb.solve(contact, F_star=1e-3)
         assert 0.005 < state.A_t < 0.05
-        assert not any("point by point" in text for text in state.warnings)
+        assert not any(code_of(text).startswith("area") for text in state.warnings)
 
     def test_a_sweep_looks_at_all_its_contacts(self):
         """χ of the contact that the sweep starts from is small; that of the hard ones is not."""
@@ -224,7 +224,7 @@ class TestChi:
 def test_a_pressure_below_hardness_is_no_wrong_unit():
     """Hertz pressures of hard bodies are more than summits carry, and less than the hardness."""
     contact = rough(H=7e9)
-    with pytest.raises(tb.NoEquilibrium, match=r"its unit may be right.* a film carries it"):
+    with balances_not(Status.TOO_MUCH, says="below the hardness, 7 GPa"):
         tb.solve(contact, pressure=6.5e9)
-    with pytest.raises(tb.NoEquilibrium, match="check the unit of the load"):
+    with balances_not(Status.TOO_MUCH, says="hardness, 7 GPa; check the unit"):
         tb.solve(contact, pressure=6.5e12)

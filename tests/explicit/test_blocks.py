@@ -86,8 +86,7 @@ def test_errors_belong_to_the_loads():
 def test_long_waves_are_told():
     surface, contact = made(128, 1.28e-5)
     state = tb.explicit.solve(contact, surface, F_star=1e-3, blocks=4)
-    (told,) = [each for each in state.warnings if code_of(each) == "blocks"]
-    assert told.endswith("press more or larger maps")
+    assert "blocks" in map(code_of, state.warnings)
 
 
 def test_blocks_are_whole_and_two_at_least():

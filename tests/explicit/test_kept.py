@@ -7,9 +7,11 @@ from itertools import product
 
 import pytest
 from damage import another_number, empty, missing, truncated
+from refusals import warns_of
 from typer.testing import CliRunner
 
 from thirdbody import cli
+from thirdbody.errors import code_of, note_of
 from thirdbody.explicit import ensemble as function
 
 from .test_ensemble import CONTACT, EXAMPLE
@@ -39,9 +41,10 @@ def test_a_damaged_surface_is_pressed_again(tmp_path, damage, recwarn):
     assert pressed == [2]
     assert again.to_dict() == wanted.to_dict()
     assert contents(tmp_path) == before
-    told = [str(each.message) for each in recwarn if each.category is UserWarning]
+    told = [note_of(each.message) for each in recwarn if each.category is UserWarning]
     assert told == ([] if damage is missing else told[:1])
-    assert damage is missing or "is damaged (surface_001.json)" in told[0]
+    assert damage is missing or code_of(told[0]) == "kept.damaged"
+    assert damage is missing or "(surface_001.json)" in told[0]
 
 
 def test_surfaces_of_an_earlier_version_are_taken_and_told(tmp_path):
@@ -51,7 +54,7 @@ def test_surfaces_of_an_earlier_version_are_taken_and_told(tmp_path):
         assert set(said) == RECORD | {"sha256"}
         del said["sha256"]
         file.write_text(json.dumps(said))
-    with pytest.warns(UserWarning, match="2 surfaces of an earlier version"):
+    with warns_of("kept.unchecked", kind=UserWarning, says=": 2 surfaces "):
         again = function(CONTACT, **ASKED, folder=tmp_path)
     assert again.to_dict() == wanted.to_dict()
 

@@ -135,5 +135,5 @@ def test_every_rule_is_a_value():
         assert tb.explicit.RandomSeats.from_dict(rule.to_dict()) == rule
     with refuses(Mistake.RANGE, "SettledSeats.within", value="-1"):
         SettledSeats(within=-1)
-    with pytest.raises(tb.InvalidValue, match="particles for"):
+    with refuses(Mistake.BEYOND, "seats", value="'summits'"):
         SummitSeats().draw(MAPS[0], SPACING, np.full(10**5, 1e-7), np.random.default_rng(0))

@@ -293,7 +293,7 @@ def test_particles_wider_than_their_size_may_jam(package, monkeypatch):
 def test_a_law_without_seat_and_sum_says_so(package):
     kind = type("Nowhere", (AbstractParticleLaw,), {"name": "test-nowhere", "one": None})
     kind = dataclasses.dataclass(frozen=True)(kind)
-    with pytest.raises(tb.InvalidValue, match="test-nowhere has no sum"):
+    with refuses(Mistake.BEYOND, "", says="test-nowhere"):
         tb.solve(pegs(kind()), F_star=1e-5)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from refusals import Status, balances_not
 from scipy import special
 from subjects import CASE, E_STAR, FIRST, HEIGHTS, NU, SIGMA_S, H, R, build, contact
 
@@ -258,5 +259,5 @@ def test_an_area_that_is_no_number_is_not_ok(load):
             out = super().reduced(quantity, y)
             return out * np.nan if quantity == "area" else out
 
-    with pytest.raises(tb.NoEquilibrium, match="give no number"):
+    with balances_not(Status.BEYOND_LAWS):
         tb.solve(contact(Broken()), **load)

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody import cli, study
+from thirdbody.errors import code_of
 from thirdbody.populations.measured import synthetic
 from thirdbody.populations.measured.topography import COLUMNS, from_topography
 
@@ -27,6 +28,11 @@ topography = "example"
 [load]
 pressure = "5 MPa"
 """
+
+
+def is_of(kind, note):
+    """Whether a note on a surface is of this kind."""
+    return code_of(note).startswith(f"topography.{kind}.")
 
 
 @pytest.fixture
@@ -167,7 +173,7 @@ def test_moments_of_two_surfaces_add():
 def test_a_single_wave_is_no_random_surface():
     x, _ = grid(64, 1e-7)
     s = from_topography(1e-8 * np.cos(2.5e6 * math.pi * x), spacing=1e-7, periodic=True, cutoff=0)
-    with pytest.raises(tb.InvalidValue, match=r"bandwidth .* must be > 1\.5"):
+    with refuses(Mistake.RANGE, "", says="1.5"):
         s.roughness()
 
 
@@ -251,7 +257,7 @@ def test_impossible_synthetic_surfaces_are_refused(changes):
 
 def test_moments_that_no_spectrum_has_are_refused():
     asked = tb.SpectralMoments(m0=1e-14, m2=4e-3, m4=1.6 * 16e-6 / 1e-14)
-    with pytest.raises(tb.InvalidValue, match="α must be above 2"):
+    with refuses(Mistake.BEYOND, "", says="α must be above 2"):
         synthetic.from_moments(asked, spacing=1e-7)
 
 
@@ -293,7 +299,7 @@ def test_gaps_leave_the_moments_as_they_are(share):
     full, some = whole.moments_at(1e-6), gaps.moments
     assert [some.m0, some.m2, some.m4] == pytest.approx([full.m0, full.m2, full.m4], rel=0.02)
     # fewer than one of a hundred need no word
-    assert any("no datum" in text for text in gaps.warnings) == (share > 0.01)
+    assert any(is_of("missing", text) for text in gaps.warnings) == (share > 0.01)
 
 
 @pytest.mark.parametrize("periods", [1.0, 2.0, 4.0])
@@ -357,9 +363,9 @@ def test_a_band_limited_surface_does_not_move_with_the_cutoff():
         sigma=1e-7, hurst=0.8, shortest=4e-6, longest=8e-6, spacing=1e-7, points=256
     )
     still = from_topography(s.heights, spacing=1e-7, periodic=True, cutoff=5e-7)
-    assert not any("depends on the cut-off" in text for text in still.warnings)
+    assert not any(is_of("cutoff", text) for text in still.warnings)
     moving = from_topography(s.heights, spacing=1e-7, periodic=True, cutoff=4e-6)
-    assert any("depends on the cut-off" in text and "R by +" in text for text in moving.warnings)
+    assert any(is_of("cutoff", text) and "R by +" in text for text in moving.warnings)
 
 
 def test_the_warning_tells_the_change_per_octave():
@@ -413,7 +419,7 @@ def test_an_anisotropic_surface_says_so():
         spacing=1e-7,
     )
     assert s.anisotropy > 10
-    assert any("not isotropic" in text for text in s.warnings)
+    assert any(is_of("isotropy", text) for text in s.warnings)
 
 
 def test_measured_heights_make_the_contact():
@@ -433,7 +439,7 @@ def test_skewness_and_kurtosis():
     s = from_topography(rng.exponential(1e-8, (600, 600)), spacing=1e-6, cutoff=0)
     assert s.skewness == pytest.approx(2, abs=0.05)
     assert s.kurtosis == pytest.approx(9, abs=0.6)
-    assert any("not Gaussian" in text for text in s.warnings)
+    assert any(is_of("gaussian", text) for text in s.warnings)
 
 
 # ---------------------------------------------------------------- sources
@@ -548,7 +554,7 @@ def test_measured_files_go_through_solve(measured, tmp_path):
     answer = json.loads(result.stdout)
     assert answer["states"]["status"] == ["ok"]
     assert answer["inputs"]["roughness"]["sigma"] == from_topography(measured).moments.sigma
-    assert "depends on the cut-off" in result.stderr
+    assert "cut-off" in result.stderr
 
 
 def test_an_object_of_surfacetopography_is_read(library):
@@ -566,7 +572,7 @@ def test_the_tip_radius_in_a_file_is_a_limit(library):
     tip = {"instrument": {"parameters": {"tip_radius": {"value": 3.0, "unit": "µm"}}}}
     s = from_topography(library.Topography(h, (6000.0, 5000.0), unit="nm", info=tip))
     assert s.limit is not None
-    assert "tip radius of 3 µm" in s.limit_reason
+    assert " 3 µm" in s.limit_reason
     blur = {"instrument": {"parameters": {"resolution": {"value": 900, "unit": "nm"}}}}
     s = from_topography(library.Topography(h, (6000.0, 5000.0), unit="nm", info=blur))
     assert s.limit == pytest.approx(9e-7)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import Mistake, Status, balances_not, refuses
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
@@ -192,11 +193,11 @@ def test_sign_of_local_depends_on_the_datum():
 
 def test_mistakes():
     contact, s = reference_contact()
-    with pytest.raises(tb.InvalidValue, match="nominal_area"):
+    with refuses(Mistake.RANGE, "nominal_area", value="0.0"):
         mean_interaction(contact, nominal_area=0.0, pressure=1e6)
-    with pytest.raises(tb.InvalidValue, match="exactly one"):
+    with refuses(Mistake.MISSING, "", says="pressure, d"):
         mean_interaction(contact, nominal_area=1e-6, pressure=1e6, d_0=0.0)
-    with pytest.raises(tb.NoEquilibrium, match="sigma_s"):
+    with balances_not(Status.TOO_DEEP, says="-3 sigma_s"):
         mean_interaction(contact, nominal_area=1e-16, d_0=-10 * s)
     with pytest.raises(tb.InvalidValue, match="particles"):
         local_interaction(dirty_contact(), pressure=1e6)

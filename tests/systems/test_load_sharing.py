@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from refusals import Mistake, refuses
 from scipy.integrate import quad
 
-from thirdbody import InvalidValue
 from thirdbody.systems.load_sharing import (
     BALLS,
     ROLLERS,
@@ -121,8 +121,9 @@ def test_a_preload_far_above_the_load_is_carried_by_all():
     "given", [{"force": 0.0}, {"bodies": 0.0}, {"stiffness": math.nan}, {"clearance": math.inf}]
 )
 def test_mistakes(given):
+    (name,) = given
     force, others = given.pop("force", 1.0), {"bodies": 9, "stiffness": 1e10} | given
-    with pytest.raises(InvalidValue, match="must be a finite number"):
+    with refuses(Mistake.RANGE, name):
         share_radial_load(force, **others)
-    with pytest.raises(InvalidValue, match="eps"):
+    with refuses(Mistake.RANGE, "eps", value="0.0"):
         radial_integral(0.0)

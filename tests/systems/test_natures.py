@@ -72,7 +72,7 @@ def test_a_population_says_itself_whether_it_conducts():
         current(grains("quartz", conducts=True))
     with pytest.raises(InvalidValue, match="resistivity"):  # a metal without a number
         current(grains("SnSb8Cu4"), particles="by material")
-    with refuses(Mistake.CLASH, ""):
+    with refuses(Mistake.CLASH, "outputs.electrical_conductance.A_n"):
         current(steel.replace(conducts=True), other, A_n=1e-10)
 
 

@@ -20,7 +20,7 @@ from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import varied
-from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, RangeWarning, note_of
+from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import Stages, counted, solving
 from ..quantities.say import percent, value_of
@@ -418,9 +418,12 @@ def about_fragments(contact: Contact, load: Load[float]) -> list[str]:
 def _outside(found: Propagation) -> list[str]:
     """Inputs whose own value their range does not allow."""
     return [
-        f"The value {value_of(_nominal(found, label), unit_of(found.contact, label))} of the "
-        f"{words_of(found.contact, label)} lies outside what its range says; nominal results and "
-        "bands do not belong together."
+        Note(
+            f"The value {value_of(_nominal(found, label), unit_of(found.contact, label))} of the "
+            f"{words_of(found.contact, label)} lies outside what its range says; nominal results "
+            "and bands do not belong together.",
+            code=f"uncertainty.outside.{label}",
+        )
         for label, known in found.inputs.items()
         if _is_beyond(known, _nominal(found, label))
     ]

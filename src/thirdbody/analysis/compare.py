@@ -31,6 +31,7 @@ from ..equilibrium.load import ForceLoad, as_force_load
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, Mistake, Problem, RangeWarning, code_of
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
+from ..quantities.arguments import is_empty
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
 from ..quantities.nearest import guess
@@ -310,13 +311,7 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persso
             rule = f": {item!r} names no asperity law ({known})"
             problems.append(Problem("laws", rule, hint=hint, code=Mistake.UNKNOWN))
     if not asked:
-        problems.append(
-            Problem(
-                "",
-                "laws is empty; give at least one law, or leave it out for all",
-                code=Mistake.EMPTY,
-            )
-        )
+        problems.append(is_empty("laws", "give at least one law, or leave it out for all"))
     if problems:
         raise InvalidValue(*problems)
     return {_label(law): law for law in found}

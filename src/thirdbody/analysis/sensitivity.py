@@ -28,7 +28,7 @@ from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities import notebook
-from ..quantities.arguments import need_place
+from ..quantities.arguments import is_empty, need_place
 from ..quantities.carried import takes_units
 from ..quantities.progress import watched
 from ..quantities.record import Record
@@ -412,11 +412,15 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     known = (*NUMBERS, *(name for each in contact.outputs for name in each.columns), *CRITICAL)
     names = list(dict.fromkeys([of] if isinstance(of, str) else of))
     if not names:
-        raise InvalidValue(
-            "of is empty; name a column of Equilibrium or a critical load", code=Mistake.EMPTY
-        )
+        raise InvalidValue(is_empty("of", "name a column of Equilibrium or a critical load"))
     if problems := [
-        f"of = {name!r} has no derivative; it must be one of {', '.join(known)}"
+        Problem(
+            "of",
+            "has no derivative",
+            repr(name),
+            hint=f"it must be one of {', '.join(known)}",
+            code=Mistake.OPTION,
+        )
         for name in names
         if name not in known
     ]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 
 __all__ = [
     "LARGEST_TABLE",
@@ -135,5 +135,6 @@ def refuse_long_names(text: str) -> None:
     for run in re.findall(r"[^=,\n\[\]{}]+", text):
         if run.count(".") > MOST_DOTS:
             raise InvalidValue(
-                f"this is not a study file: a name of more than {MOST_DOTS} parts, {run[:30]}..."
+                f"this is not a study file: a name of more than {MOST_DOTS} parts, {run[:30]}...",
+                code=Mistake.FORM,
             )

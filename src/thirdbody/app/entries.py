@@ -10,7 +10,7 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.say import number, value_of
 from .fields import VARIANTS, Field, fields_of, known_keys, options_of, text_of, value_from
 from .state import State
@@ -143,7 +143,9 @@ class Entries:
         def read(text: str) -> object:
             given = from_toml(text)
             if other := [key for key in given if key != name]:
-                raise InvalidValue(f"here stands [{name}] alone, not {', '.join(other)}")
+                raise InvalidValue(
+                    f"here stands [{name}] alone, not {', '.join(other)}", code=Mistake.CLASH
+                )
             return given.get(name)
 
         def changed(event: Any) -> None:

@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from .solver import TRIES, Died, ended, ended_by
 from .text import without_paths
 
@@ -97,7 +97,8 @@ class Job:
             return await asyncio.wait_for(self._talk({"task": self.task} | asked), self.seconds)
         except TimeoutError:
             raise InvalidValue(
-                f"{self.task}: stopped after {self.seconds:g} s; ask for less"
+                f"{self.task}: stopped after {self.seconds:g} s; ask for less",
+                code=Mistake.TOO_LARGE,
             ) from None
         finally:
             await self._end()
@@ -127,12 +128,16 @@ class Job:
         except ValueError as error:
             if isinstance(error, InvalidValue):
                 raise
-            raise InvalidValue(f"{self.task}: the answer cannot be read") from None
+            raise InvalidValue(
+                f"{self.task}: the answer cannot be read", code=Mistake.UNREADABLE
+            ) from None
         if self.stopped:
             raise Stopped
         code = await self.process.wait()
         if code == -getattr(signal, "SIGXCPU", 0):
-            raise InvalidValue(f"{self.task}: it needed more time than the page allows")
+            raise InvalidValue(
+                f"{self.task}: it needed more time than the page allows", code=Mistake.TOO_LARGE
+            )
         self.ends.append(ended_by(code))
         raise Died(f"{self.task}: no answer: {ended(self.ends)}")
 

@@ -26,7 +26,7 @@ from typing import TypeVar, TypeVarTuple, cast
 
 from nicegui import ui
 
-from ..errors import InvalidValue, ThirdBodyError
+from ..errors import InvalidValue, Mistake, ThirdBodyError
 from .worker import MEMORY
 
 __all__ = [
@@ -266,7 +266,8 @@ class Solver:
             self._kill(process, pipe)
             raise InvalidValue(
                 f"stopped after {self.seconds:g} s: the page has no more time for one answer; ask "
-                "for fewer loads, sizes or populations, or use the command line"
+                "for fewer loads, sizes or populations, or use the command line",
+                code=Mistake.TOO_LARGE,
             )
         self.idle.put((process, pipe))
         if problems is not None:

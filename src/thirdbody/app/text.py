@@ -8,7 +8,7 @@ import tomllib
 import zlib
 from urllib.parse import quote
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..quantities.say import unbroken
 from ..study.toml_text import to_toml, written
 from .bounds import refuse_large, refuse_long_names
@@ -79,14 +79,19 @@ def from_toml(text: str) -> dict[str, object]:
         Text that is not TOML, too long, or a study larger than the page takes.
     """
     if len(text) > LONGEST_STUDY:
-        raise InvalidValue(f"a study of {len(text)} characters is longer than {LONGEST_STUDY}")
+        raise InvalidValue(
+            f"a study of {len(text)} characters is longer than {LONGEST_STUDY}",
+            code=Mistake.TOO_LARGE,
+        )
     refuse_long_names(text)
     try:
         study = tomllib.loads(text)
     except ValueError as error:  # of syntax, or a number of thousands of digits
-        raise InvalidValue(f"this is not a study file: {error}") from None
+        raise InvalidValue(f"this is not a study file: {error}", code=Mistake.FORM) from None
     except RecursionError:
-        raise InvalidValue("this is nested too deeply to be a study file") from None
+        raise InvalidValue(
+            "this is nested too deeply to be a study file", code=Mistake.FORM
+        ) from None
     refuse_large(study)
     return study
 
@@ -113,7 +118,9 @@ def from_link(code: str) -> dict[str, object]:
     """
     broken = "the link holds no study; it may have been cut when it was copied"
     if len(code) > LONGEST_LINK:
-        raise InvalidValue(f"the link is longer than {LONGEST_LINK} characters")
+        raise InvalidValue(
+            f"the link is longer than {LONGEST_LINK} characters", code=Mistake.TOO_LARGE
+        )
     try:
         packed = base64.urlsafe_b64decode(code + "=" * (-len(code) % 4))
         text = zlib.decompressobj().decompress(packed, LONGEST_STUDY + 1).decode()

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from .guard import LARGEST_UPLOAD
 
 if TYPE_CHECKING:
@@ -47,7 +47,8 @@ async def keep(folder: Path, event: UploadEventArguments) -> str:
     if others + event.file.size() > LARGEST_FOLDER:
         raise InvalidValue(
             f"the files of this page would have more than {LARGEST_FOLDER // 2**20} MB together; "
-            "open the page anew"
+            "open the page anew",
+            code=Mistake.TOO_LARGE,
         )
     # the shelf may hold what was there before, as the same file
     (folder / name).unlink(missing_ok=True)

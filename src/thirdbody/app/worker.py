@@ -330,14 +330,16 @@ def error_bars(
     from ..analysis.uncertainty.samples import LEAST, costly
     from ..equilibrium.critical_loads import CRITICAL
     from ..equilibrium.load import as_load
-    from ..errors import InvalidValue
+    from ..errors import InvalidValue, Mistake
     from ..quantities.say import value_of
 
     asked = _study(study, folder)
     known = asked.uncertainty
     inputs = known.inputs if known is not None else stated_ranges(asked.contact)
     if not inputs:
-        raise InvalidValue("no input is uncertain yet; add one, and what is known of it")
+        raise InvalidValue(
+            "no input is uncertain yet; add one, and what is known of it", code=Mistake.MISSING
+        )
     seed = 0 if known is None else known.seed
     critical = of in CRITICAL
     if any(of in output.columns for output in asked.contact.outputs):

@@ -209,7 +209,7 @@ def read_study(
 
 def tell_notes(asked: Study) -> None:
     """Warn of what looks like a slip at once; with the answer, say what was taken for a drawing."""
-    from ..study.reader import SLIP
+    from ..quantities.value import SLIP
 
     for sentence in asked.notes:
         if getattr(sentence, "code", "").startswith(SLIP):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import code_of
+from ..errors import Note, code_of
 from ..quantities.say import number
 from .output import AbstractOutput
 
@@ -132,29 +132,31 @@ def _about_few(state: Solved) -> list[str]:
         "particles": max(areas) * state.total_of_particles(pressed),
     }
     count = kinds["asperities"] + kinds["particles"]
-    out = []
+    out: list[str] = []
     if not np.all(count):
-        out.append(
+        what = (
             f"nothing touches in {_how_many(count == 0)}: there the sums over contacts are 0 and "
             f"the means over them NaN ({', '.join(concerned)})"
         )
+        out.append(Note(what, code="few.none"))
     least = float(np.min(count, where=count > 0, initial=np.inf))
     if least < 1:
-        out.append(
+        what = (
             f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
             f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
         )
-        return out
+        return [*out, Note(what, code="few.mean")]
     loads = [state.total(_load), state.total_of_particles(_load)]
     for (kind, of_kind), load in zip(kinds.items(), loads, strict=True):
         heard = (of_kind > 0) & (load > UNHEARD * sum(loads))
         few = float(np.min(of_kind, where=heard, initial=np.inf))
         if few < 1:
-            out.append(
+            what = (
                 f"A_n = {number(max(areas))} m² holds {number(few)} {kind} in contact on average: "
                 f"what {', '.join(concerned)} say of {kind} is the mean over many such areas, most "
                 f"of which have none"
             )
+            out.append(Note(what, code=f"few.{kind}"))
     return out
 
 

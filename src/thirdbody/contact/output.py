@@ -71,8 +71,13 @@ class AbstractOutput(Law):
         return ()
 
     def problems(self, contact: Any) -> list[str]:
-        """Reasons why this contact cannot have this output, one sentence each."""
+        """Reasons why this contact cannot have this output, each made by `problem`."""
         return []
+
+    def problem(self, rule: str, *, code: Mistake, key: str = "", hint: str = "") -> Problem:
+        """Mistake in this output, or in one of its keys, at its table of a study file."""
+        path = f"{self.name}.{key}" if key else self.name
+        return Problem(path, rule, hint=hint, owner="outputs", code=code)
 
     def one_by_one(self, contact: Any) -> bool:
         """Whether the output needs single asperities, which a law of the whole surface has not.
@@ -87,14 +92,17 @@ class AbstractOutput(Law):
 
 
 def missing(output: AbstractOutput, bodies: Mapping[str, Material], *names: str) -> list[str]:
-    """Problems of an output: a sentence for each body property that it needs and lacks."""
+    """Problems of an output: one for each body property that it needs and lacks."""
     return [
-        f"outputs.{output.name} needs {name} of {label}"
-        + (f" ({body.name})" if body.name else "")
-        + Advice(
-            f"; give it with the material, e.g. material.replace({name}=...)",
-            f": {KEYS_OF_BODIES.get(label, 'in its table [[particles]] material')} = "
-            f"{{ E = ..., nu = ..., H = ..., {name} = ... }}",
+        output.problem(
+            f"needs {name} of {label}"
+            + (f" ({body.name})" if body.name else "")
+            + Advice(
+                f"; give it with the material, e.g. material.replace({name}=...)",
+                f": {KEYS_OF_BODIES.get(label, 'in its table [[particles]] material')} = "
+                f"{{ E = ..., nu = ..., H = ..., {name} = ... }}",
+            ),
+            code=Mistake.MISSING,
         )
         for label, body in bodies.items()
         for name in names
@@ -139,7 +147,7 @@ def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
     out = []
     for each in outputs:
         out += [
-            f"outputs.{each.name} needs outputs.{other} beside it"
+            each.problem(f"needs outputs.{other} beside it", code=Mistake.MISSING)
             for other in each.needs
             if other not in names
         ]

@@ -12,7 +12,7 @@ import numpy as np
 from ..contact.evaluation import bodies_of
 from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column, missing
-from ..errors import Mistake, Note, Problem
+from ..errors import Mistake, Note
 from ..populations.conduction import conducts
 from ..populations.materials import Material
 from ..quantities.say import number, percent
@@ -484,11 +484,10 @@ class ElectricalConductance(AbstractOutput):
         kinds = {self.passes(dust) for dust in contact.populations}
         if self.A_n is not None and len(kinds) > 1:
             out.append(
-                Problem(
-                    "",
-                    f"outputs.{self.name}.A_n must be left out where some particles conduct and "
-                    "some "
-                    "insulate: which of them close a contact that holds few is not known",
+                self.problem(
+                    "must be left out where some particles conduct and some insulate: which of "
+                    "them close a contact that holds few is not known",
+                    key="A_n",
                     code=Mistake.CLASH,
                 )
             )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
-from ..errors import Advice
+from ..errors import Advice, Mistake
 from ..laws.particle.breakage import Breakage, crush_embed_size
 from ..quantities.value import quantity
 from .quantiles import Values, exceeded
@@ -90,10 +90,13 @@ class Crushing(AbstractOutput):
         if any(each.strength is not None for each in contact.populations):
             return []
         return [
-            "outputs.crushing needs particles with a strength, e.g. "
-            + Advice(
-                "Particles(..., strength=WeibullStrength.of(material))",
-                'strength = "material" in [particles]',
+            self.problem(
+                "needs particles with a strength, e.g. "
+                + Advice(
+                    "Particles(..., strength=WeibullStrength.of(material))",
+                    'strength = "material" in [particles]',
+                ),
+                code=Mistake.MISSING,
             )
         ]
 

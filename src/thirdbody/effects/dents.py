@@ -166,18 +166,18 @@ class Dents(AbstractOutput):
             return []
         if any(each.strength is not None for each in contact.populations):
             return [
-                Problem(
-                    "",
-                    "outputs.dents: debris = 'brittle' and the strength of the particles would "
-                    "break "
-                    "them twice; remove one",
+                self.problem(
+                    ": debris = 'brittle' and the strength of the particles would break them twice",
+                    hint="remove one",
                     code=Mistake.CLASH,
                 )
             ]
         laws = [contact.law_of(each) for each in contact.populations]
         if all(isinstance(law, Series) and law.breakable for law in laws):
             return []
-        return ["outputs.dents: fragments of brittle particles need " + SERIES]
+        return [
+            self.problem(": fragments of brittle particles need " + SERIES, code=Mistake.BEYOND)
+        ]
 
     def _contradictions(self, contact: Contact) -> list[str]:
         """Particles that keep their shape here and are squashed by their law."""
@@ -187,9 +187,12 @@ class Dents(AbstractOutput):
             if any(_squashed(contact.law_of(each), contact.surfaces, each.material))
         ]
         return [
-            f"outputs.dents: debris = 'hard' says that {name} keep their shape, and their law "
-            "squashes them, as they are softer than a surface; give the material the hardness that "
-            "they have, or leave debris out"
+            self.problem(
+                f": debris = 'hard' says that {name} keep their shape, and their law squashes "
+                "them, as they are softer than a surface",
+                hint="give the material the hardness that they have, or leave debris out",
+                code=Mistake.CLASH,
+            )
             for name in names
         ]
 

@@ -295,11 +295,8 @@ class Friction(AbstractOutput):
         out: list[str] = []
         if contact.populations and self.tau_sa is None and self.m_sa is None:
             out.append(
-                Problem(
-                    "",
-                    "outputs.friction needs tau_sa, the shear strength between particles and "
-                    "surfaces "
-                    "[Pa], or m_sa",
+                self.problem(
+                    "needs tau_sa, the shear strength between particles and surfaces [Pa], or m_sa",
                     code=Mistake.MISSING,
                 )
             )
@@ -312,19 +309,16 @@ class Friction(AbstractOutput):
             k = softest[kind] / math.sqrt(self.alpha_T)
             if m == 1:
                 out.append(
-                    Problem(
-                        "",
-                        f"outputs.friction: junctions of m_{kind} = 1 would grow without end",
+                    self.problem(
+                        f": junctions of m_{kind} = 1 would grow without end",
                         code=Mistake.BEYOND,
                     )
                 )
             if tau is not None and tau >= k:
                 out.append(
-                    Problem(
-                        "",
-                        f"outputs.friction: junctions of tau_{kind} = {tau:g} Pa would grow "
-                        "without "
-                        f"end; with alpha_T = {self.alpha_T:g} it must be < {value_of(k, 'Pa')}",
+                    self.problem(
+                        f": junctions of tau_{kind} = {tau:g} Pa would grow without end",
+                        hint=f"with alpha_T = {self.alpha_T:g} it must be < {value_of(k, 'Pa')}",
                         code=Mistake.RANGE,
                     )
                 )

@@ -38,8 +38,8 @@ NONE = 1e-12
 
 
 F_ROLL = (
-    "outputs.wear needs f_roll, the broken-off part of the tracks of rolling particles [1]: some "
-    "particles of this contact roll"
+    "needs f_roll, the broken-off part of the tracks of rolling particles [1]: some particles of "
+    "this contact roll"
 )
 
 
@@ -155,16 +155,19 @@ class Wear(AbstractOutput):
             "K_sa": "wear coefficient of the contacts of particles (0 where grooves are all)",
             "f_ab": "removed part of a groove, 0 to 1",
         }
-        out = [
-            f"outputs.wear needs {name}, the {what} [1]; it depends on the materials, and no value "
-            "fits all"
+        out: list[str] = [
+            self.problem(
+                f"needs {name}, the {what} [1]",
+                hint="it depends on the materials, and no value fits all",
+                code=Mistake.MISSING,
+            )
             for name, what in needed.items()
             if getattr(self, name) is None
         ]
         friction: Any = next((each for each in contact.outputs if each.name == "friction"), None)
         unknown = self.f_roll is None and friction is not None and not friction.problems(contact)
         if unknown and any(_all_roll(friction, contact, each) for each in contact.populations):
-            out.append(F_ROLL)
+            out.append(self.problem(F_ROLL, code=Mistake.MISSING))
         return out
 
     def _archard(self, kind: str, regime: NDArray[np.intp], area: Array) -> Array:
@@ -235,7 +238,7 @@ class Wear(AbstractOutput):
             S = S + spots.total(value)
             severe = severe + spots.total(over.astype(float))
         if self.f_roll is None and np.any(volume["rolls"][0] > NONE * state.pressure):
-            raise InvalidValue(F_ROLL, code=Mistake.IDLE)  # in some of its states
+            raise InvalidValue(self.problem(F_ROLL, code=Mistake.MISSING))  # in some of its states
         parts = {name: volume[name][0] + volume[name][1] for name in volume}
         total = parts["ss"] + parts["sa"] + parts["groove"] + parts["roll"]
         with np.errstate(invalid="ignore", divide="ignore"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Literal
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake, Problem
 
 __all__ = [
     "Basis",
@@ -56,7 +56,7 @@ def need_shares(**shares: float) -> None:
         A sentence for each that does not lie between 0 and 1.
     """
     problems = [
-        f"{name} = {share!r} must lie between 0 and 1"
+        Problem(name, "must lie between 0 and 1", repr(share), code=Mistake.RANGE)
         for name, share in shares.items()
         if not 0 < share < 1
     ]

@@ -21,7 +21,7 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, Problem, tell_of_range
-from ..quantities.arguments import need_one, only_one
+from ..quantities.arguments import is_empty, need_one, only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
@@ -83,11 +83,11 @@ def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
     flat = np.atleast_1d(values)
     good = np.isfinite(flat) & ((name in ("d", "h")) | (flat > 0))
     allowed = "be finite" if name in ("d", "h") else "be finite and > 0"
-    problems = [f"{name} = {v:g} must {allowed}" for v in flat[~good][:5]]
+    problems = [
+        Problem(name, f"must {allowed}", f"{v:g}", code=Mistake.RANGE) for v in flat[~good][:5]
+    ]
     if not problems and not values.size:
-        problems.append(
-            Problem("", f"{name} is empty; give at least one value", code=Mistake.EMPTY)
-        )
+        problems.append(is_empty(name, "give at least one value"))
     if problems:
         raise InvalidValue(*problems)
     return name, flat, values.ndim == 0
@@ -168,15 +168,19 @@ def solve(
     need_one("branch", branch, *get_args(LoadBranch))
     if branch == "unloading" and any(each.strength is not None for each in contact.populations):
         raise InvalidValue(
-            "branch = 'unloading' has no meaning with particles that break (strength): what is "
-            "broken does not heal; use branch = 'loading'",
-            code=Mistake.IDLE,
+            Problem(
+                "branch",
+                "has no meaning with particles that break (strength): what is broken does not heal",
+                repr(branch),
+                hint="use branch = 'loading'",
+                code=Mistake.IDLE,
+            )
         )
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
     result = _result(contact, name, values, scalar, given, branch)
-    if scalar and not Status(int(result.status_code)).has_numbers:
-        raise NoEquilibrium(result.status)
+    if scalar and not (status := Status(int(result.status_code))).has_numbers:
+        raise NoEquilibrium(str(result.status), status)
     for sentence in result.warnings:
         tell_of_range(sentence)
     return result
@@ -226,7 +230,8 @@ def _result(
     if target is None:
         deep = values < bound.asperities.deepest
         if scalar and deep.any():
-            raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
+            rule = f"is refused: {why_deep(contact)}"
+            raise InvalidValue(Problem("d", rule, f"{values[0]:g} m", code=Mistake.RANGE))
         separation = np.where(deep, np.nan, values)
         status = Statuses.from_codes(np.where(deep, Status.TOO_DEEP, Status.OK))
         iterations, path = np.where(deep, 0, 1), "numpy: the separations are given"
@@ -320,7 +325,8 @@ def roots(
     scan = load_scan(bound)
     cells, falling = scan.all_cells(float(values[0]))
     if not len(cells):
-        raise NoEquilibrium(scan.why_not(float(values[0]))[1])
+        status, why = scan.why_not(float(values[0]))
+        raise NoEquilibrium(why, status)
     target = np.full(len(cells), values[0])
     found, passed = [], []  # type: list[tuple[float, int, bool]], list[str]
     for direction in (True, False):
@@ -330,7 +336,7 @@ def roots(
             passed += jumps.values()
             found += [(d[i], iterations[i], direction) for i in range(len(d)) if i not in jumps]
     if not found:
-        raise NoEquilibrium(passed[0])
+        raise NoEquilibrium(passed[0], Status.JUMP)
     found.sort(key=lambda item: -item[0])
     ok = Statuses.ok(1)
     return [

@@ -329,18 +329,20 @@ def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, obje
             code=Mistake.OTHER_STUDY,
         )
     if damaged:
-        _tell(f"{kept} is damaged ({', '.join(damaged[:3])}): these surfaces are pressed again")
+        what = f"{kept} is damaged ({', '.join(damaged[:3])}): these surfaces are pressed again"
+        _tell(Note(what, code="kept.damaged", effect=math.inf))
     if unchecked:
-        _tell(
+        what = (
             f"{kept}: {plural(unchecked, 'surface')} of an earlier version of thirdbody kept no "
             "digest, so that damage in them is not seen; take another folder where that matters"
         )
+        _tell(Note(what, code="kept.unchecked", effect=math.inf))
     return out
 
 
-def _tell(sentence: str) -> None:
+def _tell(note: Note) -> None:
     """What happened to a folder, to whoever called `ensemble`."""
-    tell_of_range(Note(sentence, effect=math.inf), UserWarning)
+    tell_of_range(note, UserWarning)
 
 
 def _surfaces_and_count(

@@ -223,13 +223,14 @@ def _sentence_of_smoothing(surface: Topography, z: Array) -> tuple[str, ...]:
     if surface.given_cutoff is not None or surface.cutoff == 0:
         return ()
     kept = float(np.std(z) / np.std(surface.heights))
-    return (
+    what = (
         f"{surface.source} is pressed without its waves below the recommended cut-off, "
         f"{value_of(surface.cutoff, 'm')}, as the roughness of the statistical model is: sigma is "
         f"{percent(kept, digits=3)} of that of the heights, and the separation smaller ("
         + Advice("cutoff=0", "roughness.cutoff = 0")
-        + " presses the heights as they are, a cutoff of your own those without shorter waves)",
+        + " presses the heights as they are, a cutoff of your own those without shorter waves)"
     )
+    return (Note(what, code=f"explicit.cutoff.{surface.source}"),)
 
 
 @lru_cache(maxsize=64)

@@ -152,9 +152,13 @@ class SummitSeats(AbstractSeats):
         tops = np.flatnonzero(_is_summit(z).ravel())
         if len(size) > len(tops):
             raise InvalidValue(
-                f"seats = 'summits': {len(size)} particles for {len(tops)} summits; take fewer "
-                "particles or another seat",
-                code=Mistake.BEYOND,
+                Problem(
+                    "seats",
+                    f": {len(size)} particles for {len(tops)} summits",
+                    "'summits'",
+                    hint="take fewer particles or another seat",
+                    code=Mistake.BEYOND,
+                )
             )
         here = rng.permutation(tops)[: len(size)]
         m = z.shape[1]

@@ -255,15 +255,24 @@ def curve(
     if given == "load":
         most = capacity(inside.c, inside.bodies, spacing)
         problems = [
-            f"a load of F* = {number(each / (E_star * inside.map.area))} is above "
-            f"{number(most / (E_star * inside.map.area))}, which is all that the pixels and "
-            "particles can carry"
+            Problem(
+                "",
+                f"a load of F* = {number(each / (E_star * inside.map.area))} is above "
+                f"{number(most / (E_star * inside.map.area))}, which is all that the pixels and "
+                "particles can carry",
+                code=Mistake.BEYOND,
+            )
             for each in values[values >= most][:5]
         ]
     elif np.all(inside.c >= HARDEST):
         problems = [
-            f"h = {value_of(each, 'm')} must be > 0 where asperities have no cap: the flat cannot "
-            "come below the mean plane of a surface that never yields (give a load, or a cap)"
+            Problem(
+                "h",
+                "must be > 0 where asperities have no cap: the flat cannot come below the mean "
+                "plane of a surface that never yields (give a load, or a cap)",
+                value_of(each, "m"),
+                code=Mistake.RANGE,
+            )
             for each in values[values <= 0][:5].tolist()
         ]
     else:
@@ -356,17 +365,19 @@ def _options(
     blocks: int | None,
 ) -> None:
     """Refuse options that have no meaning."""
-    out = []
+    out: list[str] = []
     if not (isinstance(tol, (int, float)) and 1e-13 <= tol <= 1e-2):
-        out.append(f"tol = {tol!r} must be from 1e-13 to 1e-2")
+        out.append(Problem("tol", "must be from 1e-13 to 1e-2", repr(tol), code=Mistake.RANGE))
     elif precision == "single" and tol < LEAST_SINGLE:
-        out.append(f"tol = {tol:g} needs precision = 'double'; single goes down to 1e-7")
+        rule, hint = "needs precision = 'double'", "single goes down to 1e-7"
+        out.append(Problem("tol", rule, f"{tol:g}", hint=hint, code=Mistake.CLASH))
     for name, value, words in (
         ("precision", precision, get_args(Precision)),
         ("maps", maps, get_args(Maps)),
     ):
         if value not in words:
-            out.append(f"{name} = {value!r} must be one of {', '.join(map(repr, words))}")
+            rule = f"must be one of {', '.join(map(repr, words))}"
+            out.append(Problem(name, rule, repr(value), code=Mistake.OPTION))
     whole = {"max_iterations": (max_iterations, 1), "seed": (seed, 0), "workers": (workers, 1)}
     whole |= {} if blocks is None else {"blocks": (blocks, 2)}
     for name, (count, least) in whole.items():

@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
-from ..quantities.nearest import guess, near
+from ..quantities.nearest import Guess, guess, near
 from ..quantities.value import Value, quantity
 
 __all__ = ["Material", "MaterialLibrary", "MaterialPair", "materials"]
@@ -323,7 +323,14 @@ class MaterialLibrary(Mapping[str, Material]):
         if name not in entries:
             meant = self.near(name)
             hint = f"did you mean {meant!r}?" if meant else "materials.search('steel') finds names"
-            raise UnknownMaterial(f"material {name!r} is not in the library; {hint}")
+            raise UnknownMaterial(
+                Problem(
+                    "",
+                    f"material {name!r} is not in the library",
+                    hint=Guess(hint, meant),
+                    code=Mistake.UNKNOWN,
+                )
+            )
         return _material(name, entries[name])
 
     def _ipython_key_completions_(self) -> list[str]:

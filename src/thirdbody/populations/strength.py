@@ -107,7 +107,7 @@ class WeibullStrength(Value):
                 "x_from",
                 f"must not exceed x_to = {high:g} (where one is not given, it is x_0)",
                 f"{low:g}",
-                code=Mistake.MISSING,
+                code=Mistake.ORDER,
             )
         ]
 
@@ -165,7 +165,13 @@ class WeibullStrength(Value):
         """
         if isinstance(K_c, (bool, str)) or not hasattr(K_c, "__float__") or not K_c > 0:
             raise InvalidValue(
-                f"K_c = {K_c!r} must be > 0 [Pa m^0.5]; 1.2 MPa m^0.5 is 1.2e6", code=Mistake.RANGE
+                Problem(
+                    "K_c",
+                    "must be > 0 [Pa m^0.5]",
+                    repr(K_c),
+                    hint="1.2 MPa m^0.5 is 1.2e6",
+                    code=Mistake.RANGE,
+                )
             )
         estimate = {
             "sigma_0": TOUGHNESS * K_c / TOUGHNESS_SIZE**0.5,

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import math
 import os
 import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
@@ -104,6 +105,15 @@ def only_one(**quantities: object) -> tuple[str, object]:
     return given.popitem()
 
 
+def is_empty(name: str, hint: str) -> Problem:
+    """Problem of an argument that holds nothing, and what to give.
+
+    >>> is_empty("laws", "give at least one law")
+    'laws is empty; give at least one law'
+    """
+    return Problem(name, "is empty", hint=hint, code=Mistake.EMPTY)
+
+
 def need_place(name: str, value: Any, count: int) -> None:
     """Refuse what is no place in a list, from the end too.
 
@@ -146,6 +156,21 @@ def need_positive(**values: Any) -> None:
     ]
     if problems:
         raise InvalidValue(*problems)
+
+
+def not_positive(**values: object) -> list[Problem]:
+    """Problems of single numbers that are not finite and above 0, one each.
+
+    Examples
+    --------
+    >>> not_positive(force=-1.0, bodies=9)
+    ['force = -1.0 must be a finite number above 0']
+    """
+    return [
+        Problem(name, "must be a finite number above 0", repr(value), code=Mistake.RANGE)
+        for name, value in values.items()
+        if not (isinstance(value, int | float | np.number) and math.isfinite(value) and value > 0)
+    ]
 
 
 def refuse_misfits(

@@ -364,7 +364,12 @@ def _need_contact(given: object) -> None:
     shown = f"a {type(given).__name__}" if given is not None else "None"
     cause = "; of a study take study.contact" if hasattr(given, "contact") else ""
     raise InvalidValue(
-        f"contact = {shown} must be a Contact: surfaces and roughness{cause}", code=Mistake.KIND
+        Problem(
+            "contact",
+            f"must be a Contact: surfaces and roughness{cause}",
+            shown,
+            code=Mistake.KIND,
+        )
     )
 
 

@@ -318,7 +318,7 @@ def need_folders(*paths: str | os.PathLike[str] | None) -> None:
         As `whole` says it, a sentence a file.
     """
     problems = [
-        f"cannot write {path}: {why}"
+        Problem("", f"cannot write {path}: {why}", code=Mistake.UNWRITABLE)
         for path in paths
         if path is not None and (why := hindrance(path))
     ]

@@ -237,11 +237,16 @@ def slips_are_told() -> Iterator[None]:
         _told.reset(token)
 
 
+SLIP = "unit of "
+"""How codes of notes on numbers begin whose unit looks like a slip."""
+
+
 def warn_of_slip(where: str, about: Usual, number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
     if not _told.get() and (meant := unit_meant(about, number)):
         what = f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI"
-        tell_of_range(Note(what, effect=math.inf, action=f"was {number:g} {meant} meant?"))
+        action = f"was {number:g} {meant} meant?"
+        tell_of_range(Note(what, code=SLIP + where, effect=math.inf, action=action))
 
 
 def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None) -> None:

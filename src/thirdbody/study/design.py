@@ -82,7 +82,7 @@ def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, o
             where,
             "must be { low = ..., high = ... }, or a list of materials",
             entry,
-            code=Mistake.RANGE,
+            code=Mistake.KIND,
         )
     if label == AMOUNT:
         if get(reader.whole.get("particles"), "concentration") is None:

@@ -132,7 +132,7 @@ def read_filter(text: str) -> Filter:
     except InvalidValue as error:
         first = error.problems[0]
         bare = first.changed(owner="") if first.owner == "Filter" else first
-        raise InvalidValue(f"--filter {say(text)}: {bare}") from None
+        raise InvalidValue(f"--filter {say(text)}: {bare}", code=first.code) from None
 
 
 def need_particles(study: Study) -> None:

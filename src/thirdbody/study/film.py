@@ -126,8 +126,8 @@ def on_body(
     if missing:
         problems.append(
             Problem(
-                "",
-                f"film has no {' and '.join(missing)}, and takes them from [body] only where its "
+                "film",
+                f"has no {' and '.join(missing)}, and takes them from [body] only where its "
                 "faces are curved and load.force is one force",
                 code=Mistake.MISSING,
             )

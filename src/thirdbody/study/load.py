@@ -67,10 +67,14 @@ def loads_of(bodies: Body | None, forces: np.ndarray, contact: Contact) -> np.nd
     """The pressures at which the study is solved: mean and largest of every force [Pa]."""
     if bodies is None:
         raise InvalidValue(
-            f"load.force = {forces[0]:g} N needs a table [body] that says on what it acts, e.g. "
-            '[body] kind = "ball-on-flat", diameter = "6 mm" (kinds: '
-            f"{', '.join(BODIES)}); or give load.pressure",
-            code=Mistake.MISSING,
+            Problem(
+                "load.force",
+                "needs a table [body] that says on what it acts, e.g. "
+                f'[body] kind = "ball-on-flat", diameter = "6 mm" (kinds: {", ".join(BODIES)})',
+                f"{forces[0]:g} N",
+                hint="or give load.pressure",
+                code=Mistake.MISSING,
+            )
         )
     hertz = bodies.hertz(forces, contact.E_ss)
     if bodies.conjunction is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..effects import REGISTRY
+from ..errors import Note
 from ..quantities.say import value_of
 from ..systems.bodies import Flat
 from .reader import NOTHING, Key, Reader, Table, get, table_of
@@ -32,7 +33,8 @@ def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contac
         area = body.area
     elif body is not None and forces is not None and len(forces) == 1:
         area = float(body.hertz(forces[0], contact.E_ss).area)
-    out, notes = [], []
+    out: list[Any] = []
+    notes: list[str] = []
     each: Any
     for each in contact.outputs:
         unsaid = "A_n" in each.__dataclass_fields__ and get(get(data, each.name), "A_n") is None
@@ -41,16 +43,18 @@ def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contac
             each = each.replace(A_n=area)
         elif closes and (name := _closing_column(each)):
             of_body = "" if body is None else ", which is not Hertz's where bodies are rough"
-            notes.append(
+            what = (
                 f"outputs.{each.name}: {name} is not known without A_n, the area of one contact"
                 f"{of_body}; give outputs.{each.name}.A_n"
             )
+            notes.append(Note(what, code=f"{each.name}.area.closed"))
         elif unsaid and not closes and body is not None and forces is not None:
-            notes.append(
+            what = (
                 f"outputs.{each.name}: the largest is of A_n = {value_of(each.A_n, 'm^2')}, not of "
                 "the contact of the bodies, which differs among the forces; give "
                 f"outputs.{each.name}.A_n"
             )
+            notes.append(Note(what, code=f"{each.name}.area.largest"))
         out.append(each)
     same = tuple(out) == contact.outputs
     return (contact if same else contact.replace(outputs=tuple(out))), notes

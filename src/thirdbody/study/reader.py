@@ -17,7 +17,15 @@ from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
-from ..quantities.value import allowed_range, hint_on, limits_of, problem_with, quantity, unit_meant
+from ..quantities.value import (
+    SLIP,
+    allowed_range,
+    hint_on,
+    limits_of,
+    problem_with,
+    quantity,
+    unit_meant,
+)
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
 from .vocabulary import near
@@ -69,8 +77,6 @@ LIMITS = {
 }
 """Limits of a quantity as JSON Schema calls them; of a number, which is in SI, not of text."""
 ANYTHING: dict[str, Any] = {}
-SLIP = "unit of "
-"""How codes of notes on numbers begin whose unit looks like a slip."""
 NOTHING: dict[str, Any] = {"enum": []}
 """What JSON Schema says of a key under which all, or nothing, can stand."""
 

@@ -17,7 +17,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, Mistake, RangeWarning, note_of, tell_of_range
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, note_of, tell_of_range
 from ..explicit.blocks import BLOCKS
 from ..explicit.ensemble import (
     COMPARED,
@@ -106,9 +106,13 @@ def run_explicit(
         )
     if scheduler is not None and len(study.faces) == 1:
         raise InvalidValue(
-            f"scheduler = {scheduler!r}: roughness.topography gives one surface, which is not "
-            "shared; leave the scheduler out",
-            code=Mistake.BEYOND,
+            Problem(
+                "scheduler",
+                ": roughness.topography gives one surface, which is not shared",
+                repr(scheduler),
+                hint="leave the scheduler out",
+                code=Mistake.BEYOND,
+            )
         )
     contact = study.contact.replace(outputs=())
     loads = np.sort(study.values) / (contact.E_ss if study.load == "pressure" else 1.0)

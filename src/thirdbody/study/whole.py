@@ -16,7 +16,7 @@ from ..analysis.uncertainty.inputs import Uncertainty
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.measured.topography import Topography
 from ..quantities.arguments import names_arguments
 from ..quantities.value import slips_are_told
@@ -238,11 +238,13 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
 
     parts, own = tables_of("contact"), tables_of("study")
     if "particles" not in parts and parts.pop("particle_law", None) is not None:
-        reader.notes.append("[particle_law] has no effect, because there is no [particles] table")
+        what = "[particle_law] has no effect, because there is no [particles] table"
+        reader.notes.append(Note(what, code="idle.particle_law"))
     given = parts.get("particles", ())
     several = given if isinstance(given, tuple) else (given,)
     if "particle_law" in parts and all(each.law is not None for each in several):
-        reader.notes.append("[particle_law] has no effect: all particles have laws of their own")
+        what = "[particle_law] has no effect: all particles have laws of their own"
+        reader.notes.append(Note(what, code="idle.particle_law"))
     asked: Any = own.get("sweep")
     film: Any = own.get("film")
     contact = reader.make(Contact, "", parts)
@@ -262,10 +264,19 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
     if load == "force":
         load, forces, loads = "pressure", loads, loads_of(bodies, loads, contact)
     elif bodies is not None:
-        reader.notes.append("[body] has no effect, because [load] gives no force")
+        what = "[body] has no effect, because [load] gives no force"
+        reader.notes.append(Note(what, code="idle.body"))
     if load == "separation" and asked is None and np.any(deep := loads < deepest(contact)):
         raise InvalidValue(
-            *(f"load.separation = {d:g} m is refused: {why_deep(contact)}" for d in loads[deep][:5])
+            *(
+                Problem(
+                    "load.separation",
+                    f"is refused: {why_deep(contact)}",
+                    f"{d:g} m",
+                    code=Mistake.RANGE,
+                )
+                for d in loads[deep][:5]
+            )
         )
     states = None if asked is None else plan(reader, contact, load, loads, asked)
     return Study(

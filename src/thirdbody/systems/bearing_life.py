@@ -14,6 +14,7 @@ import math
 
 from ..errors import InvalidValue, Mistake, Problem
 from ..populations.measured.cleanliness import read_iso4406
+from ..quantities.arguments import not_positive
 from ..quantities.carried import takes_units
 from ..quantities.units import say
 
@@ -84,12 +85,7 @@ PLACES = ("filter", "bath", "grease")
 
 
 def _positive(**values: float) -> None:
-    wrong = [
-        f"{name} = {value!r} must be a finite number above 0"
-        for name, value in values.items()
-        if not (isinstance(value, int | float) and math.isfinite(value) and value > 0)
-    ]
-    if wrong:
+    if wrong := not_positive(**values):
         raise InvalidValue(*wrong)
 
 

@@ -178,7 +178,8 @@ class ContactProbability(Value):
         """
         loads = np.asarray(load, dtype=float)
         if not np.all(np.isfinite(loads) & (loads >= 0)):
-            raise InvalidValue("load must be finite and not below 0 N", code=Mistake.RANGE)
+            rule = "must be finite and not below 0 N"
+            raise InvalidValue(Problem("load", rule, code=Mistake.RANGE))
         out = np.full((2, loads.size), math.exp(-self.in_the_way))
         left = loads.ravel().copy()
         while np.any(left > 0):

@@ -14,6 +14,7 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.crowding import crowded_places
 from ..equilibrium.load_scan import load_scan
+from ..equilibrium.status import Status
 from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.say import value_of
@@ -116,7 +117,8 @@ class Skin:
         if p < 0:
             raise InvalidValue(TENSILE, code=Mistake.BEYOND)
         if not (p > 0 and slope < 0):
-            raise NoEquilibrium(f"no contact at a gap of {value_of(gap, 'm')}")
+            why = f"no contact at a gap of {value_of(gap, 'm')}"
+            raise NoEquilibrium(why, Status.TOO_LITTLE)
         step = low = 0.0
         high = p / -slope
         for _ in range(WIDENED):
@@ -328,7 +330,8 @@ def balance_at(
         if np.min(p) < 0:
             raise InvalidValue(TENSILE, code=Mistake.BEYOND)
         if not np.max(p) > 0:
-            raise NoEquilibrium(f"no contact at a separation of {value_of(d, 'm')}")
+            why = f"no contact at a separation of {value_of(d, 'm')}"
+            raise NoEquilibrium(why, Status.TOO_LITTLE)
         beyond = grid.x[p < NEGLIGIBLE * np.max(p)]
         if not shrunk and len(beyond) and np.min(beyond) < 0.95 * extent:
             shrunk, extent, series = True, float(np.min(beyond)), np.zeros(1)
@@ -347,13 +350,24 @@ def balance_at(
 
 def _deep_enough(skin: Skin, found: Balance) -> Balance:
     """The balance, unless it lies where the law of the skin ends."""
-    if skin.bound is not None and np.min(found.gap) < skin.floor:
-        raise NoEquilibrium(
-            f"the local gap falls to {value_of(np.min(found.gap), 'm')}, below the "
-            f"{value_of(skin.floor, 'm')} of "
-            f"{skin.bound.why_lowest}"
-        )
+    refuse_deep(skin, found.gap)
     return found
+
+
+def refuse_deep(skin: Skin, gap: Array) -> None:
+    """Refuse gaps (N,) [m] below where the law of the skin ends.
+
+    Raises
+    ------
+    NoEquilibrium
+        The lowest gap, and the lowest that the law has.
+    """
+    if skin.bound is not None and np.min(gap) < skin.floor:
+        raise NoEquilibrium(
+            f"the local gap falls to {value_of(np.min(gap), 'm')}, below the "
+            f"{value_of(skin.floor, 'm')} of {skin.bound.why_lowest}",
+            Status.TOO_DEEP,
+        )
 
 
 def balance(

@@ -33,7 +33,7 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.status import DEEPEST
+from ..equilibrium.status import DEEPEST, Status
 from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule, subdivide
@@ -196,7 +196,8 @@ def mean_interaction(
         if np.any(deep := highest < lowest):
             raise NoEquilibrium(
                 f"at d_0 = {value_of(start[deep][0], 'm')} the asperities stand below {DEEPEST:g} "
-                "sigma_s, where every one is in contact"
+                "sigma_s, where every one is in contact",
+                Status.TOO_DEEP,
             )
         d, *_ = halley_root(gap, lowest, highest, lowest)
         state = solve(contact, d=float(d[0]) if scalar else d)

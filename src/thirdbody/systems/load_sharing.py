@@ -19,6 +19,7 @@ import numpy as np
 
 from ..errors import InvalidValue, Mistake, Problem
 from ..numerics.quadrature import gauss_legendre
+from ..quantities.arguments import not_positive
 from ..quantities.carried import takes_units
 from ..quantities.record import Record
 
@@ -74,10 +75,8 @@ def radial_integral(eps: float, *, exponent: float = BALLS) -> float:
     >>> round(radial_integral(0.5), 4), round(1 / radial_integral(0.5), 2)
     (0.2288, 4.37)
     """
-    if not (math.isfinite(eps) and eps > 0):
-        raise InvalidValue(
-            Problem("eps", "must be a finite number above 0", repr(eps), code=Mistake.RANGE)
-        )
+    if problems := not_positive(eps=eps):
+        raise InvalidValue(*problems)
     psi, w, level = _load_zone(eps)
     return float(np.sum(w * level**exponent * np.cos(psi)) / math.pi)
 
@@ -201,11 +200,7 @@ def share_radial_load(
     """
     from scipy.optimize import brentq
 
-    problems = [
-        f"{name} = {value!r} must be a finite number above 0"
-        for name, value in (("force", force), ("bodies", bodies), ("stiffness", stiffness))
-        if not (math.isfinite(value) and value > 0)
-    ]
+    problems = not_positive(force=force, bodies=bodies, stiffness=stiffness)
     if not math.isfinite(clearance):
         problems.append(
             Problem("clearance", "must be a finite number [m]", repr(clearance), code=Mistake.RANGE)

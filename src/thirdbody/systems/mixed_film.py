@@ -29,6 +29,7 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
+from ..equilibrium.status import Status
 from ..errors import (
     InvalidValue,
     Mistake,
@@ -437,7 +438,8 @@ def _refuse_deep(contact: Contact, speed: float) -> None:
     raise NoEquilibrium(
         f"no equilibrium at speed = {speed:g} m/s: the film leaves a gap below "
         f"{interface(contact).why_lowest}, and what the solids carry is not known; take a higher "
-        "speed or a smaller load"
+        "speed or a smaller load",
+        Status.TOO_DEEP,
     )
 
 

@@ -128,7 +128,7 @@ class Filter(Value):
         if any(not (math.isfinite(v) and v >= 1) for v in beta):
             out.append(
                 Problem(
-                    "betas", "must be at least 1: a filter adds no particles", code=Mistake.EMPTY
+                    "betas", "must be at least 1: a filter adds no particles", code=Mistake.RANGE
                 )
             )
         elif any(b < a for a, b in zip(beta, beta[1:], strict=False)):

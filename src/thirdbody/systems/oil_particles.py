@@ -23,7 +23,7 @@ from ..contact.broken_averages import broken_average
 from ..effects.single.dent import Debris, Dent, dent_of, dents_after, flattened_diameter, sink, sunk
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
-from ..errors import InvalidValue, Mistake, Problem, tell_of_range
+from ..errors import InvalidValue, Mistake, Note, Problem, tell_of_range
 from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
@@ -380,12 +380,13 @@ class FilmParticles(Value):
 
     def _flat_sentence(self, side: int) -> str:
         body = (self.surfaces.first, self.surfaces.second)[side - 1]
-        return (
+        what = (
             f"particles of {value_of(self.material.H, 'Pa')} hardness are not harder than surface "
             f"{side} of {value_of(body.H, 'Pa')}, and are flattened: numbers and widths are those "
             "of their footprints, depth and volume are not known (NaN); debris = 'hard' keeps the "
             "shape of all"
         )
+        return Note(what, code=f"dents.flat.{side}", effect=math.inf)
 
     def single(self, x: ArrayLike) -> ParticleSpots:
         """Particles of sizes x [m] in the film, one each: (n, 1)."""
@@ -510,11 +511,12 @@ class FilmParticles(Value):
         wide = self._marks(x, side)
         held = float(w @ (wide < flattened_diameter(x, gap=self.film)) / count)
         if held > 0:
-            tell_of_range(
+            what = (
                 f"{percent(held, digits=2)} of the flattened particles would press harder than "
                 f"surface {side + 1} is: such a disc sinks in, and its mark is held to "
                 f"{number(self._widest(side), 3)} times the particle's size"
             )
+            tell_of_range(Note(what, code=f"dents.wide.{side + 1}", effect=held))
         top = self._size(0.05 * count, self.film)
         return FilmDents(
             number=self.columns_of_oil * count,
@@ -549,7 +551,7 @@ class FilmParticles(Value):
         """
         need_one("side", side, 1, 2)
         problems = [
-            f"{name} = {value!r} must be finite and >= 0"
+            Problem(name, "must be finite and >= 0", repr(value), code=Mistake.RANGE)
             for name, value in (("area", area), ("overrollings", overrollings))
             if not 0 <= value < math.inf
         ]

@@ -24,8 +24,8 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem
+from ..quantities.arguments import only_one
 from ..quantities.carried import takes_units
-from ..quantities.say import value_of
 from .elastic_balance import (
     OUT_OF_REACH,
     WIDENED,
@@ -34,6 +34,7 @@ from .elastic_balance import (
     Skin,
     balance,
     crowded_warning,
+    refuse_deep,
     to_series,
 )
 
@@ -141,8 +142,7 @@ class Histogram:
 
     def solve(self, skin: Skin, d: float | None, load: float | None) -> Balance:
         if load is None:
-            if d is None:
-                raise InvalidValue("give exactly one of d, pressure, F_star", code=Mistake.MISSING)
+            assert d is not None
             return self._balance_at(skin, d)
         low = high = skin.origin + float(np.max(self.heights))
         step = float(np.ptp(self.heights)) + (skin.step or abs(skin.one(low)[0] / skin.one(low)[1]))
@@ -172,12 +172,8 @@ class Histogram:
     def _balance_at(self, skin: Skin, d: float, bare: bool = False) -> Balance:
         gap = d - self.heights
         p, slope = skin(gap)
-        if not bare and skin.bound is not None and np.min(gap) < skin.floor:
-            raise NoEquilibrium(
-                f"the local gap falls to {value_of(np.min(gap), 'm')}, below the "
-                f"{value_of(skin.floor, 'm')} of "
-                f"{skin.bound.why_lowest}"
-            )
+        if not bare:
+            refuse_deep(skin, gap)
         grid = Grid(self.heights, -self.heights, np.zeros((0, 0)), self.weights)
         return Balance(
             d, grid, gap, p, float(self.weights @ p), float(self.weights @ slope), 0.0, 0.0
@@ -213,9 +209,11 @@ def _result(skin: Skin, state: Balance, cosine: bool) -> WavyContact:
     )
 
 
-def _load(skin: Skin, pressure: float | None, F_star: float | None) -> float | None:
-    if pressure is not None and F_star is not None:
-        raise InvalidValue("give exactly one of d, pressure, F_star", code=Mistake.MISSING)
+def _load(
+    skin: Skin, d: float | None, pressure: float | None, F_star: float | None
+) -> float | None:
+    """The load [Pa]; None where the separation is given instead."""
+    only_one(d=d, pressure=pressure, F_star=F_star)
     return pressure if F_star is None else F_star * skin.E_star
 
 
@@ -327,7 +325,7 @@ def elastic_wave(
             raise InvalidValue(Problem(name, "must be >= 0 [m]", repr(value), code=Mistake.RANGE))
     skin = Skin(contact, E_star)
     wave = Wave(float(amplitude), float(wavelength), skin.E_star)
-    return _result(skin, balance(skin, wave, d=d, load=_load(skin, pressure, F_star)), True)
+    return _result(skin, balance(skin, wave, d=d, load=_load(skin, d, pressure, F_star)), True)
 
 
 @takes_units
@@ -382,9 +380,7 @@ def measured_wave(
         )
     skin = Skin(contact, E_star)
     weights = weights / weights.sum()
-    load = _load(skin, pressure, F_star)
-    if (d is None) == (load is None):
-        raise InvalidValue("give exactly one of d, pressure, F_star", code=Mistake.MISSING)
+    load = _load(skin, d, pressure, F_star)
     if load is not None and not (math.isfinite(load) and load > 0):
         raise InvalidValue(f"the load {load!r} must be finite and > 0", code=Mistake.RANGE)
     state = Histogram(zeta - weights @ zeta, weights).solve(skin, d, load)

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...contact.contact import Contact
 from ...equilibrium.columns import PLASTIC_SHARE, about, columns_of
 from ...equilibrium.load import as_load
-from ...errors import ThirdBodyError
+from ...errors import Note, ThirdBodyError
 from ...numerics.sampling import Span
 from ...populations.materials import Material
 from ...quantities.arguments import need_positive
@@ -337,7 +337,13 @@ def _answer(task: Task) -> Best:
     }
     ends = {name: each.place(best.numbers[name]) for name, each in task.variables.items()}
     at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
-    notes = [f"the best {words_of(task.contact, name)} is an end of its range" for name in at_bound]
+    notes: list[str] = [
+        Note(
+            f"the best {words_of(task.contact, name)} is an end of its range",
+            code=f"design.end.{name}",
+        )
+        for name in at_bound
+    ]
     tolerance, plateau = _bands(task, best)
     if task.scatter is None and any(
         each.over_scatter not in ("mean", "nominal") for each in task.objectives

@@ -14,6 +14,7 @@ from ...equilibrium.solve import given_load
 from ...errors import Advice, InvalidValue, Mistake, Problem
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
+from ...quantities.arguments import is_empty
 from ..inputs import input_of as moved_input
 from ..uncertainty.inputs import drawn_inputs
 from .problem import Limit, Objective, Suspension
@@ -106,9 +107,8 @@ def _choices(
         try:
             if _is_materials(allowed):
                 if not isinstance(contact.value_at(name), Material):
-                    raise InvalidValue(
-                        f"vary[{name!r}] lists materials, but {name} is not one", code=Mistake.KIND
-                    )
+                    rule = f"lists materials, but {name} is not one"
+                    raise InvalidValue(Problem(f"vary[{name!r}]", rule, code=Mistake.KIND))
                 materials[name] = list(allowed)
             else:
                 variables[name] = _variable(contact, name, allowed)
@@ -116,11 +116,7 @@ def _choices(
             problems += error.problems
     if not vary:
         problems.append(
-            Problem(
-                "",
-                'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}',
-                code=Mistake.EMPTY,
-            )
+            is_empty("vary", 'say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}')
         )
     return variables, materials, problems
 
@@ -131,9 +127,7 @@ def _unknown(
     """Problems of objectives and limits: names of no column, or names given twice."""
     problems: list[str] = []
     if not objectives:
-        problems.append(
-            Problem("", "objective is empty; say what should be small or large", code=Mistake.EMPTY)
-        )
+        problems.append(is_empty("objective", "say what should be small or large"))
     known = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
     both: list[Objective | Limit] = [*objectives, *limits]
     problems += [
@@ -161,27 +155,39 @@ def _suspension_problems(
     """Problems of the fluid that brings the particles."""
     if suspension is None:
         if AMOUNT in moving:
-            return [f"vary[{AMOUNT!r}] needs suspension=Suspension(gap=...), which says of what"]
+            rule = "needs suspension=Suspension(gap=...), which says of what"
+            return [Problem(f"vary[{AMOUNT!r}]", rule, code=Mistake.MISSING)]
         return []
     if len(contact.populations) != 1:
-        return ["suspension needs exactly one population of particles"]
-    out = []
+        rule = "needs exactly one population of particles"
+        return [Problem("suspension", rule, code=Mistake.BEYOND)]
+    out: list[str] = []
     if DENSITY in moving:
-        out.append(f"{DENSITY} follows from the suspension: vary {AMOUNT} instead")
+        rule = f"follows from the suspension: vary {AMOUNT} instead"
+        out.append(Problem(DENSITY, rule, code=Mistake.CLASH))
     if AMOUNT not in variables and suspension.concentration is None:
-        out.append(f"Suspension.concentration is missing, and vary has no {AMOUNT!r}")
+        rule = f"is missing, and vary has no {AMOUNT!r}"
+        out.append(Problem("Suspension.concentration", rule, code=Mistake.MISSING))
     if suspension.by not in ("mass", "mass per volume"):
         return out
     listed = materials.get("particles.material", [])
     if listed and suspension.particle_density is not None:
         out.append(
-            "Suspension.particle_density cannot hold for several materials; give each its own, "
-            + Advice("material.replace(density=...)", "key density")
+            Problem(
+                "Suspension.particle_density",
+                "cannot hold for several materials",
+                hint="give each its own, " + Advice("material.replace(density=...)", "key density"),
+                code=Mistake.CLASH,
+            )
         )
     every = listed or [contact.populations[0].material]
     out += [
-        f"a concentration by mass needs the density of {each.name or 'the particles'} [kg/m^3]; "
-        "give it with the material, or for one material as Suspension.particle_density"
+        Problem(
+            "",
+            f"a concentration by mass needs the density of {each.name or 'the particles'} [kg/m^3]",
+            hint="give it with the material, or for one material as Suspension.particle_density",
+            code=Mistake.MISSING,
+        )
         for each in every
         if each.density is None and suspension.particle_density is None
     ]
@@ -200,12 +206,12 @@ def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
             Problem(f"vary[{name!r}]", "must be (low, high)", repr(allowed), code=Mistake.KIND)
         ) from None
     if not low < high:
-        raise InvalidValue(
-            f"vary[{name!r}]: low = {low:g} must be below high = {high:g}", code=Mistake.ORDER
-        )
+        rule = f": low = {low:g} must be below high = {high:g}"
+        raise InvalidValue(Problem(f"vary[{name!r}]", rule, code=Mistake.ORDER))
     if name == AMOUNT:
         if low <= 0:
-            raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be > 0", code=Mistake.RANGE)
+            rule = f": low = {low:g} must be > 0"
+            raise InvalidValue(Problem(f"vary[{name!r}]", rule, code=Mistake.RANGE))
         return Variable(name, low, high, None)
     found = Variable(name, low, high, moved_input(contact, name))
     for end in (low, high):

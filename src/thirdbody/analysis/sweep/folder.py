@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from ...errors import InvalidValue, Mistake, Problem
+from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.files import is_draft, remove_files, write_text
 from ...quantities.progress import reporting
 from ...quantities.run_files import (
@@ -85,9 +85,9 @@ class Found:
 
     blocks: dict[int, dict[str, Any]] = field(default_factory=dict)
     """Blocks whose files are as they were written, with their summaries."""
-    damaged: dict[int, list[str]] = field(default_factory=dict)
-    """Of the other blocks that were finished: what is wrong, a sentence a file."""
-    shared: list[str] = field(default_factory=list)
+    damaged: dict[int, list[Problem]] = field(default_factory=dict)
+    """Of the other blocks that were finished: what is wrong, one a file."""
+    shared: list[Problem] = field(default_factory=list)
     """The same of files that belong to no block."""
     unlabelled: bool = False
     """Whether a run was killed while it put labels on the data, or before."""
@@ -101,8 +101,8 @@ class Found:
     """Blocks of the whole sweep, where ``files.json`` says so."""
 
     @property
-    def problems(self) -> list[str]:
-        """Every sentence."""
+    def problems(self) -> list[Problem]:
+        """Every one."""
         return [*self.shared, *(text for texts in self.damaged.values() for text in texts)]
 
 
@@ -284,7 +284,7 @@ class Folder:
                 out.shared += problems
         out.checked = len(files)
         if shared is None and self._lacks_record(markers, finished=finished):
-            out.shared.append(f"{self.path / 'files.json'} is missing or damaged")
+            out.shared.append(damage(self.path / "files.json", "is missing or damaged"))
         # a store that blocks are written to in place has its files.json from the start
         finished |= out.recorded and not out.shared and self._put_together(markers)
         wanted = wanted and _much(markers)
@@ -295,7 +295,7 @@ class Folder:
                 report(done)
         for number in range(blocks if finished else 0):
             if number not in markers:
-                out.damaged[number] = [f"{self.marker(number)} is missing"]
+                out.damaged[number] = [damage(self.marker(number), "is missing")]
         return out
 
     def _look_at(
@@ -303,7 +303,7 @@ class Folder:
     ) -> None:
         """One block of `look`."""
         if marker is None:
-            out.damaged[number] = [f"{self.marker(number)} is damaged"]
+            out.damaged[number] = [damage(self.marker(number))]
             return
         files, problems = marker.get("files"), []
         if files is None:
@@ -313,7 +313,7 @@ class Folder:
                 and not finished
                 and not self.part_file(number).exists()
             ):
-                problems = [f"{self.part_file(number)} is missing"]
+                problems = [damage(self.part_file(number), "is missing")]
         elif not (finished and self._parts_only(files)):  # which go once they are put together
             problems = [text for name, told in files.items() for text in self._misfit(name, told)]
             out.checked += len(files)
@@ -336,9 +336,9 @@ class Folder:
         prints = [each["files"] for each in markers.values() if each and "files" in each]
         return any(each and self._parts_only(each) for each in prints)
 
-    def _misfit(self, name: str, wanted: Fingerprint) -> list[str]:
+    def _misfit(self, name: str, wanted: Fingerprint) -> list[Problem]:
         why = misfit(self.path / name, wanted)
-        return [f"{self.path / name} {why}"] if why else []
+        return [damage(self.path / name, why)] if why else []
 
     def _parts_only(self, files: Mapping[str, object]) -> bool:
         return all(name.startswith("parts/") for name in files)
@@ -520,28 +520,23 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
             code=Mistake.UNREADABLE,
         )
     name = None if study is None else name_of(study)
-    problems: list[str] = []
+    problems: list[Problem] = []
     if name is None or (names and name not in names):
-        problems.append(Problem("", f"{place / 'study.json'} is damaged", code=Mistake.DAMAGED))
+        problems.append(damage(place / "study.json"))
         name = min(names)
     found = folder.look(name, progress)
     problems += found.problems
     finished = folder.finished is not None
     if (place / "finished.json").exists() and not finished:
-        problems.append(
-            Problem(
-                "",
-                f"{place / 'finished.json'} is damaged, or the data are missing",
-                code=Mistake.DAMAGED,
-            )
-        )
+        problems.append(damage(place / "finished.json", "is damaged, or the data are missing"))
     if problems:
         many = len(problems) > MOST
         more = [f"and {len(problems) - MOST} files more"] if many else []
         raise InvalidValue(
             *problems[:MOST],
             *more,
-            f"{place} is damaged: thirdbody sweep with its study makes that again",
+            damage(place, "is damaged: thirdbody sweep with its study makes that again"),
+            code=Mistake.DAMAGED,
         )
     blocks = plural(len(found.blocks), "block")
     if finished:
@@ -558,13 +553,19 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
     return f"{told}\n{missing}" if missing else told
 
 
+def damage(file: Path, rule: str = "is damaged") -> Problem:
+    """Mistake of a file that was changed or lost."""
+    return Problem("", f"{file} {rule}", code=Mistake.DAMAGED)
+
+
 def damage_words(path: Path, found: Found) -> str:
     """Sentence on damaged blocks that are computed again; "" where there are none."""
     if not found.problems:
         return ""
     shown = "; ".join(found.problems[:SHOWN])
     more = f"; and {len(found.problems) - SHOWN} more" if len(found.problems) > SHOWN else ""
-    return f"{path} is damaged, and what is damaged is made again: {shown}{more}"
+    what = f"{path} is damaged, and what is damaged is made again: {shown}{more}"
+    return Note(what, code="kept.damaged")
 
 
 def _much(markers: Mapping[int, dict[str, Any] | None]) -> bool:
@@ -577,8 +578,9 @@ def unchecked_words(path: Path, found: Found) -> str:
     """Sentence on files that cannot be checked, and what to do; "" where all can."""
     if not found.unchecked:
         return ""
-    return (
+    what = (
         f"{path}: {plural(found.unchecked, 'block')} of an earlier version of thirdbody kept no "
         "digest, so that damage in them is not seen; solve the study into another folder where "
         "that matters"
     )
+    return Note(what, code="kept.unchecked")

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...contact.contact import Contact
 from ...errors import Clause, InvalidValue, Mistake, Problem
+from ...quantities.arguments import is_empty
 from ...quantities.carried import takes_units
 from ...quantities.uncertain import are_correlated, is_uncertain
 from ...quantities.value import problem_with
@@ -99,14 +100,18 @@ class Uncertain:
                 swap = "; exchange them" if first > second else "; what is exact needs no range"
                 problems.append(
                     Problem(
-                        "", f"{shown} must be below high = {second:g}{swap}", code=Mistake.ORDER
+                        one,
+                        f"must be below high = {second:g}{swap}",
+                        f"{first:g}",
+                        code=Mistake.ORDER,
                     )
                 )
             elif self.kind == "log-uniform" and first <= 0:
                 problems.append(
                     Problem(
-                        "",
-                        f"{shown} must be > 0 for a range even in the logarithm",
+                        one,
+                        "must be > 0 for a range even in the logarithm",
+                        f"{first:g}",
                         code=Mistake.RANGE,
                     )
                 )
@@ -307,8 +312,12 @@ def _correlated(inputs: Mapping[str, object], where: str) -> list[str]:
     """Ufloats that rest on the same measurement, which no two inputs here may."""
     told = [(label, given) for label, given in inputs.items() if is_uncertain(given)]
     return [
-        f"{where.format(one)} and {where.format(other)} are correlated, and inputs are "
-        "independent here; join what is one thing by +, or take sensitivity(...).ufloats(...)"
+        Problem(
+            where.format(one),
+            f"and {where.format(other)} are correlated, and inputs are independent here",
+            hint="join what is one thing by +, or take sensitivity(...).ufloats(...)",
+            code=Mistake.CLASH,
+        )
         for (one, first), (other, second) in combinations(told, 2)
         if are_correlated(first, second)
     ]
@@ -354,11 +363,7 @@ def drawn_inputs(
     problems = _correlated(inputs, where)
     if not inputs:
         problems.append(
-            Problem(
-                "",
-                'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}',
-                code=Mistake.EMPTY,
-            )
+            is_empty("vary", 'say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}')
         )
     for label, given in inputs.items():
         place = where.format(label)

@@ -14,8 +14,9 @@ from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, lo
 from ...equilibrium.modes import MODES
 from ...equilibrium.states import carries, state_columns, tables_each
 from ...equilibrium.status import MOST_AREA
-from ...errors import InvalidValue, Mistake, Problem
+from ...errors import InvalidValue, Mistake, Note, Problem
 from ...numerics.sampling import sobol
+from ...quantities.arguments import is_empty
 from ...quantities.record import Column
 from ...quantities.say import percent
 from ..inputs import NUMBERS
@@ -84,21 +85,24 @@ def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
         return [name for name in known if not (without and name in about_loads)]
     names = list(dict.fromkeys(asked))
     problems = [
-        f"{name!r} has no band; it must be one of {', '.join(known)}"
+        Problem(
+            "",
+            f"{name!r} has no band",
+            hint=f"it must be one of {', '.join(known)}",
+            code=Mistake.OPTION,
+        )
         for name in names
         if name not in known
     ]
     if not names:
-        problems.append(
-            Problem(
-                "",
-                "outputs is empty; name a column of Equilibrium or a critical load",
-                code=Mistake.EMPTY,
-            )
-        )
+        problems.append(is_empty("outputs", "name a column of Equilibrium or a critical load"))
     if contact.two_body:
         problems += [
-            f"{name!r} needs particles: a two-body contact is always s-s"
+            Problem(
+                "",
+                f"{name!r} needs particles: a two-body contact is always s-s",
+                code=Mistake.BEYOND,
+            )
             for name in names
             if name in about_loads
         ]
@@ -110,7 +114,11 @@ def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
 def check_counts(
     probabilities: Sequence[float], samples: object, critical_samples: object, seed: object
 ) -> None:
-    problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
+    problems = [
+        Problem("quantiles", f": {q:g} must be between 0 and 1", code=Mistake.RANGE)
+        for q in probabilities
+        if not 0 < q < 1
+    ]
     for name, value, least in (
         ("samples", samples, LEAST),
         ("critical_samples", LEAST if critical_samples is None else critical_samples, LEAST),
@@ -149,12 +157,13 @@ def crowded_samples(shares: Sequence[float]) -> list[str]:
     if not (most := max(shares)):
         return []
     where = f" at one of {len(shares)} loads" if len(shares) > 1 else ""
-    return [
+    what = (
         f"{percent(most)} of the samples{where} are crowded: more than {MOST_AREA:g} of the "
         "nominal area would be in contact, where contacts that this model counts one by one have "
         "grown together; they count in the bands, whose ends on that side are no answer: lower the "
         "load, or narrow the inputs"
-    ]
+    )
+    return [Note(what, code="samples.crowded")]
 
 
 def columns_at(

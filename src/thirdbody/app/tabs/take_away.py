@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from nicegui import events, ui
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ..address import query_of
 from ..cross_section import section, to_svg
 from ..exports import FIGURES, figure_of, to_csv, to_json
@@ -111,7 +111,7 @@ class TakeAway:
         self.chooser.reset()
         try:
             if event.file.size() > LONGEST_STUDY:
-                raise InvalidValue("the file is too large for a study")
+                raise InvalidValue("the file is too large for a study", code=Mistake.TOO_LARGE)
             self._use(from_toml((await event.file.read()).decode("utf-8-sig")))
         except UnicodeDecodeError:
             self.said.set_text("the file is not UTF-8 text, so it is no study file")

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 from scipy import special
 
-from ...errors import InvalidValue, Mistake
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 from .joint import (
@@ -400,7 +400,8 @@ def sphere_resistance(
     """
     if isinstance(ends, (list, dict, set, np.ndarray)) or ends not in _SPHERE_END:
         known = ", ".join(map(repr, _SPHERE_END))
-        raise InvalidValue(f"ends = {ends!r:.60} must be one of {known}", code=Mistake.OPTION)
+        shown = f"{ends!r:.60}"
+        raise InvalidValue(Problem("ends", f"must be one of {known}", shown, code=Mistake.OPTION))
     gamma, epsilon = _SPHERE_END[ends]
     body = (np.log(4 * r / a_1) + np.log(4 * r / a_2) - 2 - 2 * epsilon) / (4 * math.pi * r)
     return (gamma * (1 / a_1 + 1 / a_2) + body) / k

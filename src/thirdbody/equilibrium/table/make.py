@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...contact.interface import Interface, interface
-from ...errors import InvalidValue, Mistake, RangeWarning, tell_of_range
+from ...errors import InvalidValue, Mistake, Problem, RangeWarning, tell_of_range
 from ...quantities.carried import takes_units
 from ..load_scan import LoadScan, load_scan
 from ..solve import pull_off, solve
@@ -142,23 +142,30 @@ def table(
 def _mistakes(
     low: Any, high: Any, tolerance: Any, coordinate: Any, columns: Sequence[str]
 ) -> list[str]:
-    out = []
+    out: list[str] = []
     for name, value in (("low", low), ("high", high)):
         if value is not None and not (_is_number(value) and np.isfinite(value)):
-            out.append(f"{name} = {value!r} must be a separation [m], or None")
+            rule = "must be a separation [m], or None"
+            out.append(Problem(name, rule, repr(value), code=Mistake.KIND))
     if not out and low is not None and high is not None and not low < high:
-        out.append(f"low = {low:g} must be below high = {high:g} [m]")
+        rule = f"must be below high = {high:g} [m]"
+        out.append(Problem("low", rule, f"{low:g}", code=Mistake.ORDER))
     if not (_is_number(tolerance) and 1e-9 <= tolerance <= 0.1):
-        out.append(
-            f"tolerance = {tolerance!r} must be from 1e-9 to 0.1 [1]; it is a relative error"
-        )
+        rule, hint = "must be from 1e-9 to 0.1 [1]", "it is a relative error"
+        out.append(Problem("tolerance", rule, repr(tolerance), hint=hint, code=Mistake.RANGE))
     if coordinate not in COORDINATES:
-        out.append(f"coordinate = {coordinate!r} must be 'h' or 'd'")
+        rule = "must be 'h' or 'd'"
+        out.append(Problem("coordinate", rule, repr(coordinate), code=Mistake.OPTION))
     if isinstance(columns, str) or len(set(columns)) != len(columns):
-        out.append(f"columns = {columns!r} must be a list of different names")
+        rule = "must be a list of different names"
+        out.append(Problem("columns", rule, repr(columns), code=Mistake.KIND))
     else:
         known = ", ".join(SHARES)
-        out += [f"columns: {c!r} must be one of {known}" for c in columns if c not in SHARES]
+        out += [
+            Problem("columns", f": {c!r} must be one of {known}", code=Mistake.OPTION)
+            for c in columns
+            if c not in SHARES
+        ]
     return out
 
 
@@ -221,9 +228,12 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
     bottom = _bottom(bound)
     if low < bottom - 1e-12 * bound.asperities.sigma_s:
         raise InvalidValue(
-            f"low: {name} = {low + shift:.6g} m must be >= {bottom + shift:.6g} m, "
-            f"{bound.why_lowest} and the model ends",
-            code=Mistake.RANGE,
+            Problem(
+                "low",
+                f": {name} = {low + shift:.6g} m must be >= {bottom + shift:.6g} m, "
+                f"{bound.why_lowest} and the model ends",
+                code=Mistake.RANGE,
+            )
         )
     if not low < high:
         raise InvalidValue(
@@ -242,9 +252,12 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
             else "nothing touches any more"
         )
         raise InvalidValue(
-            f"high: {name} = {high + shift:.6g} m is too far: from {at + shift:.6g} m on {what}; "
-            "leave high out, or give a smaller one",
-            code=Mistake.BEYOND,
+            Problem(
+                "high",
+                f": {name} = {high + shift:.6g} m is too far: from {at + shift:.6g} m on {what}",
+                hint="leave high out, or give a smaller one",
+                code=Mistake.BEYOND,
+            )
         )
 
 

@@ -142,7 +142,12 @@ class ContactTable:
                 "this command makes tables without shares",
             )
             raise InvalidValue(
-                f"share {name!r} is not in this table; it has " + known, code=Mistake.UNKNOWN
+                Problem(
+                    "share",
+                    f"{name!r} is not in this table",
+                    hint="it has " + known,
+                    code=Mistake.UNKNOWN,
+                )
             )
         c = self._shares[name]
         x = np.clip(np.asarray(h, dtype=float), self.h[0], self.h[-1])

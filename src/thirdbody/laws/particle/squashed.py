@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import InvalidValue, Mistake
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.say import value_of
 from ..asperity.jg import JG
 from .one_particle import Side
@@ -105,11 +105,15 @@ class Squash:
             low, high = JG_RANGE
             if not low <= E_star / H <= high:
                 raise InvalidValue(
-                    f"onset = 'jg' holds for E*/H from {low:g} to {high:g} of a squashed particle, "
-                    f"and here it is {E_star / H:.3g} (E* = {value_of(E_star, 'Pa', 3)}, H = "
-                    f"{value_of(H, 'Pa', 3)}): "
-                    "its contact area would grow too fast; use onset = 'hermite'",
-                    code=Mistake.BEYOND,
+                    Problem(
+                        "onset",
+                        f"holds for E*/H from {low:g} to {high:g} of a squashed particle, and here "
+                        f"it is {E_star / H:.3g} (E* = {value_of(E_star, 'Pa', 3)}, H = "
+                        f"{value_of(H, 'Pa', 3)}): its contact area would grow too fast",
+                        "'jg'",
+                        hint="use onset = 'hermite'",
+                        code=Mistake.BEYOND,
+                    )
                 )
             return _OfJacksonGreen(self, JG(), E_star, H, nu, R)
         bound = law.bound(R=R, E_star=E_star, H=H, nu=nu)
@@ -248,9 +252,14 @@ class _OfJacksonGreen(_SquashedSide):
         first = int(np.argmax([excess(y) > 0 for y in grid]))
         if first == 0:
             raise InvalidValue(
-                f"onset = 'jg': with ν = {self.law.nu:g} and E*/H so, the contact area never fills "
-                "the volume of a squashed particle; use onset = 'hermite'",
-                code=Mistake.BEYOND,
+                Problem(
+                    "onset",
+                    f": with ν = {self.law.nu:g} and E*/H so, the contact area never fills the "
+                    "volume of a squashed particle",
+                    "'jg'",
+                    hint="use onset = 'hermite'",
+                    code=Mistake.BEYOND,
+                )
             )
         return np.array(self._where(excess, grid[first - 1], grid[first]))
 

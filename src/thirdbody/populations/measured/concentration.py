@@ -95,9 +95,8 @@ def _read(text: str) -> tuple[float, Amount]:
     number = re.match(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*$", text)
     if not number or not number[2]:
         cause = "" if number is None else " has no unit:"
-        raise InvalidValue(
-            f"{say(text)}{cause} must be a concentration, {_SAID}", code=Mistake.RANGE
-        )
+        code = Mistake.UNIT if cause else Mistake.FORM
+        raise InvalidValue(f"{say(text)}{cause} must be a concentration, {_SAID}", code=code)
     amount, unit = float(number[1]), number[2]
     for kind, whole, pattern in _PARTS:
         if re.fullmatch(pattern, unit, re.IGNORECASE):
@@ -112,7 +111,7 @@ def _read(text: str) -> tuple[float, Amount]:
         except InvalidValue:
             continue
     raise InvalidValue(
-        f"{say(text)} is not a concentration; it must be written {_SAID}", code=Mistake.RANGE
+        f"{say(text)} is not a concentration; it must be written {_SAID}", code=Mistake.UNIT
     )
 
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from ...errors import InvalidValue, Mistake, Problem
+from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, signed, value_of
@@ -504,39 +504,50 @@ class Topography:
     def warnings(self) -> tuple[str, ...]:
         """Notes for the user of these numbers, one sentence each."""
         out = list(self.notes)
-        if unsure := [*self._bandwidth(), *self._few()]:
-            out.append("; ".join(unsure))
+        moving, few = self._bandwidth(), self._few()
+        if moving or few:
+            code = "cutoff" if moving else "few"
+            out.append(self._note("; ".join((*moving, *few)), code))
         least = self.recommended[0]
         if self.cutoff < least * (1 - 1e-9):
             at = (
                 "the heights as sampled" if self.cutoff == 0 else f"a cut-off {self._cutoff_said()}"
             )
-            out.append(
+            what = (
                 f"{at} is below the recommended cut-off of {value_of(least, 'm')}: "
                 f"{self.recommended[1]}"
             )
+            out.append(self._note(what, "recommended"))
         if self.missing > MOST_MISSING:
-            out.append(
+            what = (
                 f"{percent(self.missing, digits=2)} of the points have no datum; the filter and "
                 "the differences pass over them, the spectrum has them filled harmonically"
             )
+            out.append(self._note(what, "missing"))
         if self.dim == 1:
-            out.append(
+            what = (
                 "one profile stands for the surface: it is taken as isotropic, and peaks of a "
                 "profile are no summits"
             )
+            out.append(self._note(what, "profile"))
         elif self.anisotropy > 2:
-            out.append(
+            what = (
                 f"the surface is not isotropic: the mean square slope is {self.anisotropy:.3g} "
                 "times as large along as across; moments are means over all directions, and "
                 "Nayak's relations are off (compare the summits counted)"
             )
+            out.append(self._note(what, "isotropy"))
         if abs(self.skewness) > 0.5 or abs(self.kurtosis - 3) > 1:
-            out.append(
+            what = (
                 f"the heights are not Gaussian (skewness {self.skewness:.2f}, kurtosis "
                 f"{self.kurtosis:.2f}); Nayak's relations assume that they are"
             )
+            out.append(self._note(what, "gaussian"))
         return tuple(out)
+
+    def _note(self, what: str, code: str) -> Note:
+        """A note on this surface, apart from the same of another one."""
+        return Note(what, code=f"topography.{code}.{self.source}")
 
     def _cutoff_said(self) -> str:
         return f"of {value_of(self.cutoff, 'm')}"

@@ -220,7 +220,7 @@ def _matching(shape: _RolledOff, wanted: float, alpha: float) -> tuple[float, fl
 
 def _check_arguments(points: int, seed: int, **lengths: float) -> None:
     problems = [
-        f"{name} = {value!r} must be a finite length above 0 [m]"
+        Problem(name, "must be a finite length above 0 [m]", repr(value), code=Mistake.RANGE)
         for name, value in lengths.items()
         if not (isinstance(value, (int, float)) and 0 < value < math.inf)
     ]

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 from matplotlib.ticker import EngFormatter, FuncFormatter, PercentFormatter
 
-from ...errors import InvalidValue, Mistake
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.say import number, percent, value_of
 from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
@@ -73,13 +73,21 @@ def bands(
     """
     if of not in data.bands:
         raise InvalidValue(
-            f"plot.bands: {of!r} has no band in the data; it holds {', '.join(data.bands)}",
-            code=Mistake.BEYOND,
+            Problem(
+                "plot.bands",
+                f": {of!r} has no band in the data",
+                hint=f"it holds {', '.join(data.bands)}",
+                code=Mistake.BEYOND,
+            )
         )
     if np.ndim(data.bands[of]) != 2:
         raise InvalidValue(
-            f"plot.bands: {of!r} has one band, not one for each load; propagate with several loads",
-            code=Mistake.BEYOND,
+            Problem(
+                "plot.bands",
+                f": {of!r} has one band, not one for each load",
+                hint="propagate with several loads",
+                code=Mistake.SHAPE,
+            )
         )
     ax = _axes(ax)
     x, band = np.asarray(data.loads), np.asarray(data.bands[of])
@@ -171,8 +179,12 @@ def tornado(
     """
     if of not in data.nominal:
         raise InvalidValue(
-            f"plot.tornado: {of!r} is not in the data; it holds {', '.join(data.nominal)}",
-            code=Mistake.UNKNOWN,
+            Problem(
+                "plot.tornado",
+                f": {of!r} is not in the data",
+                hint=f"it holds {', '.join(data.nominal)}",
+                code=Mistake.UNKNOWN,
+            )
         )
     rows = data.tornado(of, at=at)[of] if values is None else dict(values)
     middle = float(np.atleast_1d(data.nominal[of])[at if np.ndim(data.nominal[of]) else 0])
