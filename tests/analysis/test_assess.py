@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+import warnings
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -625,3 +626,53 @@ def test_the_cost_of_the_samples_is_told_before_them_and_how_far_they_are(monkey
     parts = [part for part, _ in shown]
     assert parts == sorted(parts)
     assert parts[0] < 0.2 < 0.9 < parts[-1]
+
+
+def test_the_figure_of_bands_ends_where_an_end_of_a_band_would_be_crowded():
+    """Loads that nobody asked for make no warning; what the model does not know is not drawn."""
+    steel = tb.materials["S45C"]
+    bare = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+    )
+    page = tb.assess(bare, vary={"roughness.sigma": (80e-9, 120e-9)}, pressure=3e8, samples=64)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (caption, _), *_ = assess_page.pictures(page)
+    assert "more than 5 % of the cases have more than 50 % of the area in contact" in caption
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        curve = tb.propagate(bare, vary=page.propagation.inputs, samples=64, outputs=["A_t"],
+                             pressure=np.geomspace(1e7, 9e9, 25))  # fmt: skip
+    shown = assess_page._uncrowded(curve, "A_t", 3e8)
+    end = len(shown.loads)
+    assert np.all(curve.crowded[:end] <= 0.05)
+    assert curve.crowded[end] > 0.05
+    assert np.all(shown.bands["A_t"] == curve.bands["A_t"][:end])
+    assert plot.bands(shown, "A_t").get_xlim()[1] == curve.loads[end - 1]
+    assert assess_page._uncrowded(curve, "A_t", 9e9) is curve  # the page warns of that load itself
+
+
+def test_what_inputs_are_ranked_by_is_called_in_words():
+    """No name of the code stands in the heads of a page, in its captions, or beside its bars."""
+    vary = {"particles.areal_density": (0.5e11, 2e11), "roughness.alpha": (4.0, 8.0)}
+    page = tb.assess(DUSTY, vary=vary, pressure=5e6, samples=64)
+    share = replace(
+        page,
+        decisive="particle_load_share",
+        tornado=page.tornado | page.propagation.tornado("particle_load_share"),
+    )
+    (inputs,) = (part for part in share.sections() if part.title == "Inputs that matter")
+    assert inputs.head[4:6] == ("load share of particles at 5 %", "load share of particles at 95 %")
+    assert "particle_load_share" not in " ".join(
+        (*inputs.head, *inputs.sentences, *(text for text, _ in assess_page.pictures(share)))
+    )
+
+
+def test_bars_name_numbers_without_a_known_letter_in_words():
+    quartz = tb.materials["quartz"]
+    dusty = DUSTY.replace(particles=DUSTY.particles.replace(material=quartz))
+    found = tb.propagate(dusty, vary={"particles.material.m": (2.0, 4.0)}, pressure=5e6,
+                         samples=64, outputs=["A_t"])  # fmt: skip
+    (label,) = (text.get_text() for text in plot.tornado(found, "A_t").get_yticklabels())
+    words = " ".join(label.split())
+    assert words == "Weibull modulus of the strength of grains of the particles"

@@ -145,17 +145,55 @@ def test_a_study_takes_its_ingress_from_reports():
     assert "from its reports" in done.stderr
 
 
+def test_the_mass_of_reports_says_what_it_leaves_out():
+    Path("oil.csv").write_text(CODES)
+    told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    assert "Particles below 4 µm are not counted and not in it" in told
+    assert "% of this mass is of particles beyond 14 µm, whose sizes no report says" in told
+    assert "lies somewhere in the range of its code" in told
+    text = Path("oil-circuit.toml").read_text("utf-8")
+    old = 'ingress  = { test_dust = "A3-lot", rate = "125 mg/h" }'
+    Path("from.toml").write_text(text.replace(old, 'ingress = { reports = "oil.csv" }'), "utf-8")
+    note = " ".join(run("life", "from.toml").stderr.split())
+    assert note.count("None below 4 µm enter") == 1
+    assert "of the test dusts A4 to A1 they are 7.2 % to 48 % of the mass" in note
+
+
+def test_counts_in_a_file_are_no_codes_and_may_be_0():
+    Path("oil.csv").write_text(
+        "time [h],4 um [1/mL],6 um [1/mL],14 um [1/mL]\n"
+        "0,5000,1300,40\n250,600,100,0\n500,650,110,0\n"
+    )
+    told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    assert "if every count is off by a factor of at most 1.4" in told
+    assert "range of its code" not in told
+    assert "2 counts are 0: taken as anything below 1 /mL" in told
+    assert "with 1 degree of freedom" in told
+    assert "4 um [1/mL]" in said(run("life", "--help"))
+
+
+def test_every_mistake_of_reports_is_said_in_the_words_of_the_study():
+    Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\n9,x\n8,18/16/13\n")
+    told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
+    assert "line 3, column 2" in told
+    assert "line 4, column 1" in told
+    told = complained(
+        run("life", "oil-circuit.toml", *setting('life.oil.ingress={ reports = "oil.csv" }'))
+    )
+    assert told.count("life.oil.ingress.reports: oil.csv, line") == 2
+
+
 def test_reports_that_are_not_later_are_named_with_their_lines():
     Path("oil.csv").write_text(CODES + "750,16/13/10\n")
     told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert "oil.csv, line 6: " in told
+    assert "oil.csv, line 6, column 1: " in told
     assert "is not later than the report of line 5" in told
 
 
 def test_a_report_without_a_finite_time_is_named_with_its_own_line():
     Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\nnan,18/16/13\n5,17/15/12\n")
     told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert 'oil.csv, line 3: "nan" is not a finite time [h]' in told
+    assert 'oil.csv, line 3, column 1: "nan" is not a finite time [h]' in told
 
 
 def test_an_ingress_of_reports_that_fills_the_filter_at_once_is_doubted():
@@ -212,6 +250,7 @@ MISTAKES = [
     (['life.oil.leak="1 L/min"'], "the leak has emptied the circuit"),
     (['life.oil.viscosity="30 mm"'], "is a length"),
     (['life.until.iso4406="18"'], "must be three numbers"),
+    (['life.oil.ingress={ test_dust = "A3", rate = "-1 mg/h" }'], "> 0 [kg/s]; e.g. '125 mg/h'"),
     (['life.duration="-1 h"'], "must be > 0"),
     (['life.durations="1 h"'], "did you mean duration?"),
 ]

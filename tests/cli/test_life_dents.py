@@ -57,9 +57,8 @@ def test_per_hour_is_what_rolls_over_in_an_hour(oils):
     body, force, E = asked.rolling.body, asked.rolling.force, asked.rolling.contact.E_ss
     for ring, track in zip(("inner", "outer"), found["as it begins"].tracks, strict=True):
         assert track.track == f"the {ring} ring"
-        share = body.share_load(force, E)
-        widths = body.widths(share.loads[share.loads > 0], ring, E)
-        passed = float(np.sum(widths)) * body.rolling_speed * 3600
+        swept = body.swept_area(body.share_load(force, E), ring, E)
+        passed = swept * body.rolling_speed * 3600
         assert track.per_hour == pytest.approx(passed * track.per_overrolling, rel=1e-12)
 
 
@@ -177,10 +176,20 @@ def test_a_filter_needs_something_that_rolls():
         Path(bare).read_text("utf-8").split("# The contact that")[0], "utf-8"
     )
     lacks = complained(run("life", "alone.toml", "--filter", "5=75"))
-    assert "--filter asks for dents with another filter; the study has no [surfaces]" in lacks
+    assert "another filter; the study lacks [surfaces], [roughness] and [film]" in lacks
+    told = complained(run("life", bare, "--filter", "5=75"))
+    assert told.rstrip().endswith("the study lacks [film]")
     study("dry-contact", file="dry.toml")
     assert "--filter is of an oil" in complained(run("life", "dry.toml", "--filter", "5=75"))
     assert "--filter" in complained(run("life", quarry(), "--filter", "5=x"))
+
+
+def test_a_filter_of_the_command_is_doubted_as_one_of_the_study():
+    done = run("life", quarry(), "--filter", "5=2, 10=75", "--verbose")
+    told = " ".join(done.stderr.split())
+    assert "--filter holds nothing below 5 µm, its smallest size with a β ratio" in told
+    assert "the β ratios of --filter rise so fast" in told
+    assert "--filter holds" not in run("life", quarry()).stderr
 
 
 def test_a_contact_takes_its_film_from_the_body():
@@ -193,8 +202,9 @@ def test_a_contact_takes_its_film_from_the_body():
     assert (given["load"], given["speed"]) == (film.load, body.rolling_speed)
     assert given["load"] == pytest.approx(262.6, rel=1e-3)
     share = body.share_load(500.0, asked.rolling.contact.E_ss)
-    widths = body.widths(share.loads[share.loads > 0], "inner", asked.rolling.contact.E_ss)
-    assert given["contacts"] == pytest.approx(float(np.sum(widths) / np.max(widths)), rel=1e-9)
+    E = asked.rolling.contact.E_ss
+    contacts = body.swept_area(share, "inner", E) / body.widths(share.largest, "inner", E)
+    assert given["contacts"] == pytest.approx(float(contacts), rel=1e-9)
     assert any("life.contact.contacts = " in each for each in asked.assumed)
     assert load_oil(file, ["life.contact.contacts=7"]).contact.conditions["contacts"] == 7
     found = dents_of_life(asked, history_of(load_oil(quarry())))

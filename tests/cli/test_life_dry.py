@@ -2,6 +2,9 @@
 
 import csv
 import json
+import os
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 from types import SimpleNamespace
@@ -185,3 +188,25 @@ def test_an_oil_has_a_workbook_too():
     done = run("life", "oil-circuit.toml", "--xlsx", "oil.xlsx")
     assert done.exit_code == 0, done.exception
     assert Path("oil.xlsx").is_file()
+
+
+# ------------------------------------------------------------------------------ threads
+def test_one_thread_does_the_algebra_unless_the_user_says_another(monkeypatch):
+    """The command line says it before NumPy loads; what the user says stays."""
+    from thirdbody.cli import THREADS, share_no_matrix
+
+    for name in THREADS:
+        monkeypatch.setenv(name, "1")  # so that it comes back as it was
+        monkeypatch.delenv(name)
+    share_no_matrix()
+    assert [os.environ.get(name) for name in THREADS] == [None, "1", "1"]
+    for name in THREADS:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    share_no_matrix()
+    assert [os.environ.get(name) for name in THREADS] == ["3", None, None]
+
+
+def test_numpy_loads_after_the_command_line():
+    code = "import sys, thirdbody.cli; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

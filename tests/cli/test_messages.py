@@ -145,3 +145,28 @@ def test_a_film_whose_bodies_hold_no_particle_mostly_is_not_said_to_rest_on_part
     words = " ".join(run("solve", study, *few).stdout.split())
     assert "the others are as without particles" in words
     assert "rare: less than one particle lies in a contact" in words
+
+
+@pytest.mark.parametrize(
+    ("setting", "hint"),
+    [
+        ("load.force=-1 kN", "leave out the minus sign"),
+        ("load.force=0 kN", "it is the force on the bodies of [body]"),
+        ("body.bore=-25 mm", "leave out the minus sign"),
+        ("body.bore=0", "it is the bore of the bearing"),
+        ("body.balls=-9", "leave out the minus sign"),
+        ("body.balls=0", "it is the number of balls"),
+        ("body.shaft_speed=-3000 rpm", "leave out the minus sign"),
+        ("body.shaft_speed=0 rpm", "it is the speed of the shaft"),
+        ("film.speed=-1 m/s", "leave out the minus sign"),
+        ("film.oil.eta=1e6", "40 mPa s are 0.04"),
+        ("load.force=nan", "it must be > 0 [N]"),
+    ],
+)
+def test_hints_fit_the_sign_of_a_number(tmp_path, setting, hint):
+    file = tmp_path / "b.toml"
+    assert run("new", "ball-bearing", "--out", file).exit_code == 0
+    done = run("film", file, "--set", setting)
+    assert done.exit_code == 2
+    (line,) = [each for each in done.stderr.splitlines() if each.startswith("error: ")]
+    assert line.endswith(f"; {hint}")

@@ -223,7 +223,7 @@ def test_what_the_oil_does_is_in_numbers(folder, fine):
         return
     held = {row[0].value: [cell.value for cell in row[1:3]] for row in book.iter_rows()}
     assert held["dust: depth [nm]"] == [397, 300]
-    assert held["dust: deepest of an hour [nm]"] == [3660, 556]
+    assert held["dust: deepest of an hour [nm]"] == [3750, 567]
     assert held["ISO 4406 code"] == ["18/16/13", "13/9/3"]
 
 

@@ -284,7 +284,7 @@ def test_kinds_are_ordered():
         ),
         (dict(h_1=10.0), Mistake.CLASH, "FlashTemperature.h_1", "h_2"),
         (dict(h_1=0.0, h_2=0.0), Mistake.CLASH, "FlashTemperature.h_1", "no way out"),
-        (dict(A_n=0.0), Mistake.RANGE, "FlashTemperature.A_n", "1 mm² is 1e-6"),
+        (dict(A_n=0.0), Mistake.RANGE, "FlashTemperature.A_n", "m^2"),
     ],
 )
 def test_mistakes(given, code, place, says):

@@ -55,6 +55,16 @@ def test_what_no_number_could_change_counts_as_no_measurement(done):
     assert "4 by construction" in done.score()
 
 
+def test_every_printed_line_says_what_is_allowed(done):
+    printed = [line for line in done.findings() if line.startswith("    ")]
+    claims = [one.claim for row in done.rows for one in row.statements]
+    assert len(printed) == len(claims)
+    for line, claim in zip(printed, claims, strict=True):
+        assert claim.quantity in line
+        assert line.endswith(f"; allowed {claim.allowed}") == bool(claim.rule)
+    assert sum("; allowed " in line for line in printed) > 15
+
+
 def test_what_lies_outside_the_model_is_not_computed(done):
     for name, lost in (("koulocheris2013", "size"), ("akchurin2016", "sizes")):
         verdict = done.ledger[name][lost]

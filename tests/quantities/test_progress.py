@@ -183,12 +183,16 @@ def test_a_part_of_another_work_moves_its_bar():
     inner("samples")
     inner.show(0.5, "half")
     inner("ends")
+    inner("error bars")  # as the part around it
+    inner.show(0.5, "half")
     assert shown == [
         (0.0, ""),
         (1.0, ""),
         (1.0, "samples"),
         (1.25, "samples, half"),
         (1.5, "ends"),
+        (2.0, ""),
+        (2.25, "half"),
     ]
 
 

@@ -17,6 +17,7 @@ from refusals import warns_of
 from twins import decades, horng_twins, roughnesses, series_twins
 
 import thirdbody as tb
+from thirdbody.quantities.value import problem_with, quantity
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 ROUGH = tb.Roughness(sigma=1e-7, R=2.8e-6)
@@ -208,7 +209,7 @@ def test_ordinary_states_do_not_warn(recwarn):
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: tb.Material(E=-1, nu=0.3, H=1e9), ["Material.E = -1", "> 0 [Pa]", "205e9"]),
+        (lambda: tb.Material(E=-1, nu=0.3, H=1e9), ["Material.E = -1", "> 0 [Pa]", "minus sign"]),
         (lambda: tb.Material(E=1e9, nu=0.6, H=1e9), ["Material.nu = 0.6", "<= 0.5"]),
         (lambda: tb.Material(E=1e9, nu=-1, H=1e9), ["nu", "> -1"]),
         (lambda: tb.Material(E=1e9, nu=0.3, H=0), ["Material.H"]),
@@ -418,3 +419,16 @@ def test_a_copy_tells_only_of_slips_that_are_new():
     with pytest.warns(tb.RangeWarning, match=r"roughness\.sigma = 0\.03") as heard:
         contact.replace(**{"roughness.sigma": 0.03})
     assert len(heard) == 1
+
+
+@pytest.mark.parametrize(
+    ("value", "hint"),
+    [(-1e3, "leave out the minus sign"), (0.0, ""), (math.nan, ""), (1e12, "kN are '5 kN'")],
+)
+def test_a_hint_fits_the_sign_of_a_number(value, hint):
+    """A unit is the likely cause only of a number whose sign is right."""
+    force = quantity("F", "N", "force", gt=0, lt=1e9, hint="kN are '5 kN'").metadata["quantity"]
+    said = problem_with(force, value)
+    assert said == "must be > 0 and < 1e+09 [N]" + f"; {hint}" * bool(hint)
+    signed = quantity("F", "N", "force", gt=-10, hint="kN are '5 kN'").metadata["quantity"]
+    assert problem_with(signed, -20.0).endswith("kN are '5 kN'")

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.laws.particle.tension import tension
+from thirdbody.populations.strength import WeibullStrength
 from thirdbody.systems.chuck import Chuck
 
 SILICON = tb.Material(E=160e9, nu=0.22, H=12e9)
@@ -75,3 +77,26 @@ def test_a_brittle_grain_breaks_and_a_small_or_soft_one_does_not():
     assert not plate.breaks(plate.over(0.2e-6, quartz), quartz)
     soft = dust(material="Al6061-T6")
     assert not plate.breaks(plate.over(20e-6, soft), soft)
+
+
+def test_a_strength_of_its_own_decides_from_which_size_on_a_grain_breaks():
+    """That of the material changes nothing; with one of the squeeze's own tension it just breaks."""
+    quartz = dust(material="quartz")
+    known = WeibullStrength.of(quartz.material)
+    pair = tb.MaterialPair(SILICON, tb.materials["SiC"])
+    for x in (0.2e-6, 20e-6):
+        own = quartz.replace(strength=known)
+        plain, told = chuck(quartz, surfaces=pair), chuck(own, surfaces=pair)
+        bump = plain.over(x, quartz)
+        assert told.over(x, own) == bump  # heights are those of whole grains
+        assert told.breaks(bump, own) == plain.breaks(bump, quartz)
+    bump = chuck(quartz, surfaces=pair).over(20e-6, quartz)
+    diameter = bump.height + bump.squeeze
+    one = chuck(quartz, surfaces=pair)._law(quartz).one(surfaces=pair, particle=quartz.material)
+    stress = tension(one, quartz.material.nu, known.confinement)
+    met = float(stress.greatest_so_far(np.array([bump.squeeze / diameter]))[0])
+    for factor, breaks in ((0.99, True), (1.01, False)):
+        strong = quartz.replace(
+            strength=known.replace(sigma_0=known.sigma_0 * factor * met / known.of_size(diameter))
+        )
+        assert chuck(strong, surfaces=pair).breaks(bump, strong) is breaks

@@ -456,6 +456,91 @@ def test_constants_of_the_page():
         assert float(f"{found.seizure_speed:.2g}") == speed, (law, more)
 
 
+# ------------------------------------------------------------------ pairs of folds
+def turns_of(values):
+    """Numbers of the places at which a column turns, without its ends."""
+    steps = np.diff(values)
+    return np.flatnonzero(steps[1:] * steps[:-1] < 0) + 1
+
+
+def silica(density=1e11, mean=300e-9, std=24e-9):
+    return tb.Particles(
+        material=tb.materials["SiO2"], areal_density=density,
+        diameter=tb.TruncatedGaussian(mean=mean, std=std),
+    )  # fmt: skip
+
+
+@pytest.mark.slow
+def test_a_pair_of_folds_within_twenty_kelvin():
+    """Three folds and a kink at 1039 K: all of a scan, their speeds, and four states between."""
+    contact = TWO_BODY.replace(
+        particles=silica(), outputs=tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6)
+    )
+    speeds = {}
+
+    def speed_of(T):
+        if T not in speeds:
+            speeds[T] = (T - COLD) * 1e4 / (untold(friction_at, contact, T, exponent=1.03) * 5e6)
+        return speeds[T]
+
+    grid = np.r_[np.arange(400, 1000, 20), np.arange(1000, 1060, 2), np.arange(1060, 1700, 20.0)]
+    over = np.array([speed_of(T) for T in grid])
+    exact = turns_of(over)
+    assert len(exact) == 3
+    between = 0.5 * (over[exact[0]] + over[exact[1]])
+    found = asked(contact, sliding_speed=between, laws=[softening(1.03)], limits="speed")
+    v, T = found.branch["speed"], found.branch["T"]
+    np.testing.assert_allclose(T[turns_of(v)], grid[exact], rtol=0, atol=12)
+    np.testing.assert_allclose(v[turns_of(v)], over[exact], rtol=2e-4)
+    roots = [
+        optimize.brentq(lambda T: speed_of(T) - between, a, b, xtol=1e-8)
+        for a, b, low, high in zip(grid, grid[1:], over, over[1:], strict=False)
+        if (low - between) * (high - between) < 0
+    ]
+    assert len(roots) == 4
+    assert [each.T for each in found.states] == pytest.approx(roots, rel=1e-6)
+    assert [each.stable for each in found.states] == [True, False, True, False]
+    assert "the coldest stable state ends at 6.035 m/s" in found.speed_limit
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_folds_of_contacts_at_random_by_a_dense_scan(seed):
+    """Every turn of the speed over the temperature is a fold of the branch, and no other is.
+
+    The scan has 200 temperatures, and parts each step of them into ten where the speed hardly
+    changes along it or beside it.
+    """
+    rng = np.random.default_rng(seed)
+    mean = 10 ** rng.uniform(-6.7, -6.2)
+    dust = silica(10 ** rng.uniform(10.5, 11.5), mean, mean * rng.choice([0.05, 0.08, 0.15]))
+    pressure, exponent = 10 ** rng.uniform(6.4, 7.2), rng.uniform(0.8, 1.5)
+    outputs = tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6)
+    contact = TWO_BODY.replace(particles=dust, outputs=outputs)
+    found = asked(
+        contact, pressure=pressure, sliding_speed=1.0, laws=[softening(exponent)], limits="speed"
+    )
+
+    def speed_of(T):
+        mu = friction_at(contact, T, pressure=pressure, exponent=exponent)
+        return (T - COLD) * 1e4 / (mu * pressure)
+
+    v, T = found.branch["speed"], found.branch["T"]
+    grid = np.linspace(COLD + 10, min(T.max(), 1775.0), 200)
+    over = np.array([speed_of(each) for each in grid])
+    steps = np.diff(over)
+    flat = np.abs(steps) < 1.5e-3 * over[1:]
+    flat[:-1] |= steps[1:] * steps[:-1] < 0
+    flat[1:] |= steps[1:] * steps[:-1] < 0
+    more = [np.linspace(grid[i], grid[i + 1], 11)[1:-1] for i in np.flatnonzero(flat)]
+    fine = np.concatenate(more) if more else np.array([])
+    places = np.append(grid, fine)
+    speeds = np.append(over, [speed_of(each) for each in fine])[np.argsort(places)]
+    places = np.sort(places)
+    np.testing.assert_allclose(T[turns_of(v)], places[turns_of(speeds)], rtol=0, atol=1.6)
+    np.testing.assert_allclose(v[turns_of(v)], speeds[turns_of(speeds)], rtol=2e-4)
+
+
 # ------------------------------------------------------------------ jumps of friction
 def one_that_softens(T):
     """Speed of every temperature where surface 1 alone softens, and becomes the softer one."""

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.quantities.say import percent
+from thirdbody.systems.life.report_notes import below_counts, mass_beyond, share_beyond
 from thirdbody.systems.life.reports import approach_of_reports, oil_reports, read_reports
 
 QUARTZ = tb.materials["quartz"]
@@ -173,7 +175,8 @@ def test_the_same_reports_give_the_same_band():
         ([0.0, 1.0], ["20/18/15"] * 3, {}, "one for each of 2"),
         ([0.0, 1.0], ["20/18"] * 2, {}, "two numbers"),
         ([0.0, 1.0], [[1.0, 2.0]] * 2, {}, "3 counts each"),
-        ([0.0, 1.0], [[1.0, -2.0, 3.0]] * 2, {}, "above 0"),
+        ([0.0, 1.0], [[1.0, -2.0, 3.0]] * 2, {}, "0 or more"),
+        ([0.0, 1.0], ["20/18/15"] * 2, {"least": 0.0}, "least"),
         ([0.0, 1.0], ["20/18/15"] * 2, {"width": 1.0}, "width"),
     ],
 )
@@ -202,10 +205,14 @@ def test_files_of_codes_and_of_counts(tmp_path):
         ("time,code\n0,18/16/13\n", "has no unit"),
         ("time [h],code\n", "no reports below"),
         ("time [h],code\n0,18/16/13,4\n", "line 2: 3 values"),
-        ("time [h],code\n0,13/16/18\n", "line 2: .*impossible"),
-        ("time [um],code\n0,18/16/13\n", "line 2: .*is a length"),
-        ("time [h],a [1/mL],b [1/mL]\n0,1,2\n", "must be a size"),
-        ("time [h],code\nx,18/16/13\n", "line 2"),
+        ("time [h],code\n0,13/16/18\n", "line 2, column 2: .*impossible"),
+        ("time [um],code\n0,18/16/13\n", "line 1, column 1: .*is a length"),
+        ("time [h],a [1/mL],b [1/mL]\n0,1,2\n", "column 2: .*must be a size"),
+        ("time [h],code\nx,18/16/13\n", 'line 2, column 1: "x" is not a number'),
+        ("time [h],6 um [1/mL],4 um [1/mL]\n0,2,1\n", "column 3: .*must be of a larger size"),
+        ("time [h],4 um [1/mL],6 um [1/mL]\n0,-2,-3\n", "column 3: .*must be 0 or more"),
+        ("time [h],4 um [1/mL],6 um [1/mL]\n0,2,3\n", "column 3: .*is more than"),
+        ("time [h],4 um [1/mL],6 um [1/mL]\n0,nan,3\n", "column 2: .*is not a finite number"),
     ],
 )
 def test_files_with_mistakes(tmp_path, text, words):
@@ -213,6 +220,137 @@ def test_files_with_mistakes(tmp_path, text, words):
     file.write_text(text)
     with pytest.raises(tb.InvalidValue, match=words):
         read_reports(file)
+
+
+def test_every_mistake_of_a_file_is_named_with_line_and_column(tmp_path):
+    file = tmp_path / "oil.csv"
+    file.write_text(
+        "time [h],4 um [1/mL],6 um [1/mL]\n0,5000,x\n# a remark\n9,300,400\n8,-1,2\n7,1\n"
+    )
+    with pytest.raises(tb.InvalidValue) as caught:
+        read_reports(file)
+    places = [str(each).split(": ")[0].removeprefix(f"{file}, ") for each in caught.value.problems]
+    assert places == [
+        "line 2, column 3", "line 4, column 3", "line 5, column 1", "line 5, column 2", "line 6",
+    ]  # fmt: skip
+
+
+def test_a_file_of_wrong_lines_says_how_many_more(tmp_path):
+    file = tmp_path / "oil.csv"
+    file.write_text("time [h],code\n" + "".join(f"{i},x\n" for i in range(30)))
+    with pytest.raises(tb.InvalidValue, match="has 10 more mistakes") as caught:
+        read_reports(file)
+    assert len(caught.value.problems) == 21
+
+
+def test_one_report_is_too_few_where_two_are_needed(tmp_path):
+    file = tmp_path / "oil.csv"
+    file.write_text("time [h],code\n0,18/16/13\n")
+    assert len(read_reports(file)[0]) == 1
+    with pytest.raises(tb.InvalidValue, match="line 2: one report; 2 or more"):
+        read_reports(file, fewest=2)
+
+
+def test_a_file_may_count_from_one_size_on(tmp_path):
+    file = tmp_path / "oil.csv"
+    file.write_text("time [h],4 um [1/mL]\n0,500\n1,0\n")
+    _, counts, sizes = read_reports(file)
+    np.testing.assert_allclose(counts, [[5e8], [0.0]])
+    assert sizes.tolist() == [4e-6]
+
+
+# ------------------------------------------------------------------------------ counts of 0
+def rounded(counts, seed):
+    """Counts per mL, as a counter of 25 mL that prints whole numbers tells them."""
+    seen = np.random.default_rng(seed).poisson(counts * 25e-6) / 25
+    return np.minimum.accumulate(np.floor(seen), axis=1) * 1e6
+
+
+def test_counts_of_0_are_taken_and_their_band_holds_what_is_true():
+    """4000 particles a second from 14 µm on that the filter keeps below one a millilitre."""
+    fine = tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3)
+    rates = np.array([2e5, 6e4, 5e2])
+    dust = tb.Ingress.from_counts(sizes=SIZES, counts=rates, material=QUARTZ)
+    case = dict(filters=fine, ingress=dust)
+    times = np.array([0, 1, 5, 20]) * HOUR
+    exact = reported(times, **case)
+    assert np.all(exact[1:, 2] < 1e6)
+    inside, zeros = [], 0
+    for seed in range(20):
+        counts = rounded(exact, seed)
+        zeros += np.sum(counts == 0)
+        found = oil_reports(times, reports=counts, circuit=circuit(**case))
+        inside.append((found.low <= rates) & (rates <= found.high))
+        assert found.high[2] < 10 * rates[2]  # a limit, not nothing
+        np.testing.assert_allclose(found.rate[:2], rates[:2], rtol=0.1)
+        assert found.counts.tolist() == counts.tolist()
+    assert zeros >= 40
+    assert np.all(np.mean(inside, axis=0) > 0.9)
+
+
+def test_a_count_of_0_bounds_what_enters_by_hand():
+    """One size, no filter: from 0 to 3e9 a volume of 0.2 m³ took 0.2 (3e9 − n_0), 0 ≤ n_0 < 1e6."""
+    bare = circuit(filters=(), classes=None)
+    exact = dict(sizes=[6e-6], circuit=bare, width=1.0 + 1e-9)
+    found = oil_reports([0.0, 1e6], reports=[[0.0], [3e9]], least=1e9, **exact)
+    assert found.rate[0] == pytest.approx(0.2 * 2.5e9 / 1e6, rel=1e-6)
+    assert found.low[0] == pytest.approx(0.2 * 2e9 / 1e6, rel=1e-6)
+    assert found.high[0] == pytest.approx(0.2 * 3e9 / 1e6, rel=2e-3)
+    assert found.degrees == 0
+    assert found.is_constant is None
+
+
+def test_zeros_say_nothing_of_a_fit_that_obeys_them():
+    times = np.array([0, 1, 2, 3]) * HOUR
+    counts = np.array([[4e9, 1e9, 0.0]] * 4)
+    found = oil_reports(times, reports=counts, circuit=circuit(filters=()))
+    assert found.degrees == 8 - 6
+    assert found.low[2] == pytest.approx(0.0, abs=1.0)
+    assert np.all(found.fitted[:, 2] <= 1e6)
+
+
+def test_reports_of_clean_oil_are_an_answer():
+    found = oil_reports([0.0, HOUR], reports=[[0.0, 0.0, 0.0]] * 2, circuit=circuit())
+    assert np.all(np.isfinite(found.rate))
+    assert np.all(found.low <= found.rate)
+    assert found.high[0] < 10 * 1e6 * (0.2 / HOUR + 2e-5)
+
+
+# ------------------------------------------------------------------------------ what mass leaves out
+@pytest.mark.parametrize("grade", ["A1", "A2", "A3", "A4"])
+def test_mass_of_a_known_dust(grade):
+    """What is missing of the mass of a dust is what the sentences say: below 4 µm, beyond 14 µm."""
+    dust = tb.Ingress.of_dust(grade, rate="334 mg/h", material=QUARTZ)
+    wide = tb.SizeClasses.covering(smallest=5e-7, largest=2.1e-4, per_octave=24)
+    case = dict(ingress=dust, filters=(), classes=wide)
+    times = np.array([0, 3, 8, 20]) * HOUR
+    found = oil_reports(times, reports=reported(times, **case), circuit=circuit(**case))
+    sizes, whole = dust.diameter, dust.diameter.moment(3)
+    below, beyond = (
+        float(sizes.partial_moment(3, *ends)) / whole for ends in ((0, 4e-6), (14e-6, 1))
+    )
+    # between the sizes: power laws are as near as `oil_reports` says
+    between = dust.mass_rate * (1 - below - beyond)
+    assert found.mass_rate * (1 - share_beyond(found)) == pytest.approx(between, rel=0.08)
+    said = below_counts(found)
+    if grade in ("A1", "A4"):
+        assert f"{percent(below, digits=2)}" in said
+    # and beyond, between the slopes of a coarse and of a fine dust, but for one that ends at 22 µm
+    if grade != "A1":
+        ends = sorted(mass_beyond(found, slope) for slope in (2.0, 5.0))
+        assert ends[0] < dust.mass_rate * beyond < 1.06 * ends[1]
+
+
+def test_mass_beyond_the_counts_by_numbers():
+    """∫ x³ dN over a power law, by sums over a fine grid."""
+    times = np.array([0, 3]) * HOUR
+    found = oil_reports(times, reports=reported(times), circuit=circuit())
+    edges = np.geomspace(14e-6, 70e-6, 20_001)
+    above = (edges / 14e-6) ** -2.0 - (70 / 14) ** -2.0
+    numbers = found.rate[2] * -np.diff(above) / above[0]
+    middle = np.sqrt(edges[1:] * edges[:-1])
+    mass = QUARTZ.density * np.pi / 6 * np.sum(numbers * middle**3)
+    assert mass_beyond(found, 2.0) == pytest.approx(mass, rel=1e-6)
 
 
 def test_counts_that_rise_with_the_size_are_refused():

@@ -155,7 +155,7 @@ def test_designations():
     for text, words in (
         ("6305x", ""),
         ("6505", "did you mean"),
-        ("NU205", "bore x outer diameter x width"),
+        ("205", "bore x outer diameter x width"),
         ("52x25x15", "must rise from bore"),
         ("70x125x24", "at most 65"),
     ):
@@ -164,6 +164,41 @@ def test_designations():
             continue
         with pytest.raises(InvalidValue, match=words):
             bearing_size(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "action"),
+    [
+        ("7205", "an angular contact ball bearing", "ball-in-groove"),
+        ("7205 BEP", "an angular contact ball bearing", "contact_angle"),
+        ("NU205", "a cylindrical roller bearing", "new roller-bearing"),
+        ("NU 205 ECP", "a cylindrical roller bearing", "new roller-bearing"),
+        ("NA4905", "a needle roller bearing", "new rolling-bearing"),
+        ("30205", "a tapered roller bearing", "new rolling-bearing"),
+        ("51105", "a thrust ball bearing", "ball-in-groove"),
+        ("22205", "a spherical roller bearing", "film.conjunction"),
+        ("1205", "a self-aligning ball bearing", "ball-in-groove"),
+        ("6313", "a deep-groove ball bearing that is not in the list", "25x52x15"),
+        ("608", "a deep-groove ball bearing that is not in the list", "25x52x15"),
+    ],
+)
+def test_other_designations_are_named_with_what_can_be_done(text, kind, action):
+    with pytest.raises(InvalidValue, match=kind) as told:
+        bearing_size(text)
+    (problem,) = told.value.problems
+    assert action in problem.hint
+    assert "did you mean" not in problem
+
+
+def test_what_the_hints_on_other_bearings_name_can_be_written():
+    """A ball of an angular contact bearing and of a thrust bearing, by the keys of the hints."""
+    angular = BallInGroove(
+        diameter=8e-3, conformity=0.52, pitch_diameter=39e-3, contact_angle=math.radians(40)
+    )
+    assert angular.conjunction.R == pytest.approx(4e-3 * (1 - 8 / 39 * math.cos(math.radians(40))))
+    thrust = BallInGroove(diameter=6e-3, conformity=0.54, bodies=14)
+    assert thrust.conjunction.R == pytest.approx(3e-3)
+    assert thrust.load_on_one(1400.0, 1e11) == pytest.approx(100.0)
 
 
 @pytest.mark.parametrize(

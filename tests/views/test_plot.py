@@ -1,5 +1,6 @@
 """Figures show the data they were given, named with symbol and unit, and leave pyplot alone."""
 
+import itertools
 import subprocess
 import sys
 
@@ -283,3 +284,70 @@ def test_pyplot_stays_untouched():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
     assert done.returncode == 0, done.stderr.decode()
     assert b"</svg>" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [(1.7e-8, 1.5e-7), (2e-6, 8e-6), (0.3, 4.0), (1.5e-8, 2.5e-8), (3e-3, 30.0)]
+)
+def test_a_logarithmic_axis_has_three_numbers_that_stand_apart(low, high):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from thirdbody.views.plot.style import plain_powers
+
+    drawn = Figure(figsize=(4.6, 3.4), layout="constrained")
+    FigureCanvasAgg(drawn)
+    ax = drawn.add_subplot(xscale="log", xlim=(low, high))
+    plain_powers(ax.xaxis)
+    drawn.canvas.draw()
+    labels = [*ax.xaxis.get_majorticklabels(), *ax.xaxis.get_minorticklabels()]
+    seen = [
+        label for label in labels if label.get_text() and low <= label.get_position()[0] <= high
+    ]
+    assert len(seen) >= 3
+    boxes = sorted((label.get_window_extent().x0, label.get_window_extent().x1) for label in seen)
+    assert all(end < start for (_, end), (start, _) in itertools.pairwise(boxes))
+
+
+def test_long_labels_leave_width_to_bars_and_their_legend():
+    """Names of several words break; the legend stands over the figure, within it."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    quartz = tb.Particles(
+        material=tb.materials["quartz"], diameter=tb.Monodisperse(mean=3e-7), areal_density=1e9
+    )
+    steel = tb.materials["S45C"]
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=1e-7, R=2.8e-6),
+        particles=quartz,
+    )  # fmt: skip
+    vary = {"particles.material.size_exponent": (0.5, 0.6), "roughness.eta_R_sigma": (0.03, 0.06)}
+    found = tb.propagate(contact, vary=vary, pressure=5e6, samples=64, outputs=["A_t"])
+    ax = plot.tornado(found, "A_t")
+    drawn = ax.get_figure()
+    FigureCanvasAgg(drawn)
+    drawn.canvas.draw()
+    width = drawn.bbox.width
+    assert ax.get_window_extent().width > 0.5 * width
+    (legend,) = drawn.legends
+    box = legend.get_window_extent()
+    assert 0 <= box.x0 < box.x1 <= width
+
+
+def test_bands_of_faint_shares_are_drawn_on_a_logarithm():
+    found = replace_bands(np.geomspace(1e-7, 1e-6, 15).reshape(5, 3))
+    ax = plot.bands(found, "particle_load_share", mark=float(found.loads[-1]))
+    assert ax.get_yscale() == "log"
+    assert ax.get_xlim()[1] > found.loads[-1]  # the mark is seen
+    found = replace_bands(np.linspace(0.1, 0.9, 15).reshape(5, 3))
+    assert plot.bands(found, "particle_load_share").get_yscale() == "linear"
+
+
+def replace_bands(band):
+    """Data of `plot.bands` with these quantiles."""
+    from types import SimpleNamespace
+
+    return SimpleNamespace(
+        bands={"particle_load_share": band}, nominal={"particle_load_share": band[:, 1]},
+        loads=np.geomspace(1e6, 1e9, 5), load="pressure", probabilities=(0.05, 0.5, 0.95),
+    )  # fmt: skip

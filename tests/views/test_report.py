@@ -363,7 +363,7 @@ def test_several_populations(tmp_path, no_figures):
     assert [row[1] for row in rows] == [f"{100 * share:.3g} %" for share in dust.load_share]
     assert [row[3] for row in rows] == [f"{100 * share:.3g} %" for share in debris.load_share]
     assert "assumed: work-hardened debris" in page.whole
-    assert few[1] in html.unescape(out.read_text("utf-8"))
+    assert '\npressure = ["0.1 MPa", "5 MPa"]' in html.unescape(out.read_text("utf-8"))
 
 
 def test_a_law_whose_load_does_not_tell_the_separation(tmp_path):
@@ -441,8 +441,9 @@ def test_the_same_study_gives_the_same_bytes(tmp_path, request):
     request.getfixturevalue("no_figures")
     other = tmp_path / "other.html"
     assert run("report", files[0], "--out", other, "--set", "roughness.alpha=7").exit_code == 0
-    assert "--set roughness.alpha=7" in other.read_text("utf-8")
-    assert "--set" not in pages[0].read_text("utf-8")
+    assert ", with roughness.alpha = 7</h1>" in other.read_text("utf-8")
+    assert "\nalpha = 7" in other.read_text("utf-8")
+    assert "alpha = 7" not in pages[0].read_text("utf-8")
 
 
 # ---------------------------------------------------------------- point by point

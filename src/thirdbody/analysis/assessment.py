@@ -304,12 +304,12 @@ class Assessment:
         if math.isfinite(first):
             sentences.append(
                 f"A better value of the {strongest[0]} pays most: it alone makes about "
-                f"{percent(first)} of the spread of {self.decisive}"
+                f"{percent(first)} of the spread of {self.called}"
                 + (" (of its logarithm)." if self.decisive in CRITICAL else ".")
             )
         head = (
             *("input", "value", "5 %", "95 %"),
-            *(f"{self.decisive} at {end}" for end in ("5 %", "95 %")),
+            *(f"{self.called} at {end}" for end in ("5 %", "95 %")),
             *("part of spread", "elasticity"),
         )
         drop = ("elasticity", "value", *head[4:6])
@@ -321,7 +321,12 @@ class Assessment:
     def _decisive(self) -> str:
         if self.decisive in CRITICAL:
             return f"{self.decisive}, the critical load nearest to this load"
-        return f"the {OUTPUTS[self.decisive].meaning}"
+        return f"the {self.called}"
+
+    @property
+    def called(self) -> str:
+        """What inputs are ranked by: the symbol of a critical load, others in words."""
+        return self.decisive if self.decisive in CRITICAL else OUTPUTS[self.decisive].meaning
 
     def load_changes(self) -> list[tuple[float, str]]:
         """Loads [Pa] at which the mode changes, and the mode beyond."""
@@ -401,7 +406,7 @@ class Assessment:
     # ------------------------------------------------------------------ terminal
     def page(self, more: str = WIDER) -> Any:
         """The page for a terminal, to print by rich; ``more`` is how to see what has no room."""
-        legend = {"elasticity": ELASTICITY.format(self.decisive)}
+        legend = {"elasticity": ELASTICITY.format(self.called)}
         return printed(self.title or "Assessment", self.sections(), more, legend)
 
 

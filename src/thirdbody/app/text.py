@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
-import math
 import re
 import tomllib
 import zlib
@@ -12,6 +10,7 @@ from urllib.parse import quote
 
 from ..errors import InvalidValue, Mistake
 from ..quantities.say import unbroken
+from ..study.toml_text import to_toml, written
 from .bounds import refuse_large, refuse_long_names
 
 __all__ = [
@@ -69,62 +68,6 @@ def without_paths(text: str) -> str:
     """
     part = r"[^\s/\\:'\",;<>()]+"
     return re.sub(rf"(?<![\w.:/<])(?:[A-Za-z]:)?(?:[/\\]{part})+[/\\](?={part})", "", text)
-
-
-def to_toml(study: dict[str, object]) -> str:
-    """The study as a file: `tomllib.loads` gives it back.
-
-    >>> print(to_toml({"title": "t", "load": {"pressure": "5 MPa"}}), end="")
-    title = "t"
-    <BLANKLINE>
-    [load]
-    pressure = "5 MPa"
-    """
-    lines: list[str] = []
-    _table(study, (), lines)
-    return "\n".join(lines).lstrip("\n") + "\n"
-
-
-def _table(table: dict[str, object], path: tuple[str, ...], lines: list[str]) -> None:
-    """Plain keys first, tables under their headings after them."""
-    inner: dict[str, object] = {}
-    for key, value in table.items():
-        heads = isinstance(value, dict) and (len(path) < 1 or _deep(path, key))
-        several = isinstance(value, list) and value and all(isinstance(x, dict) for x in value)
-        if heads or (several and not path):
-            inner[key] = value
-        else:
-            lines.append(f"{_key(key)} = {written(value)}")
-    for key, value in inner.items():
-        name = ".".join(map(_key, (*path, key)))
-        for part in value if isinstance(value, list) else [value]:
-            lines += ["", f"[[{name}]]" if isinstance(value, list) else f"[{name}]"]
-            assert isinstance(part, dict)
-            _table(part, (*path, key), lines)
-
-
-def _deep(path: tuple[str, ...], key: str) -> bool:
-    """Tables inside tables that are written under a heading of their own."""
-    return path == ("outputs",) or (*path, key) in (("uncertainty", "inputs"), ("sweep", "vary"))
-
-
-def _key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else written(key)
-
-
-def written(value: object) -> str:
-    """One value as in TOML."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, float) and not math.isfinite(value):
-        return "nan" if math.isnan(value) else "inf" if value > 0 else "-inf"
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(k)} = {written(v)}" for k, v in value.items()) + " }"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(written, value)) + "]"
-    return repr(value)
 
 
 def from_toml(text: str) -> dict[str, object]:

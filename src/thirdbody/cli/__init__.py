@@ -10,6 +10,7 @@ from __future__ import annotations
 from . import interrupt as interrupt  # isort: skip
 
 import io
+import os
 import sys
 from importlib import import_module
 from typing import Annotated
@@ -22,6 +23,8 @@ from .streams import Command, Commands, open_closed_streams, refuse_full_output,
 
 __all__ = ["app", "main"]
 
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Variables that say how many threads share the algebra of one matrix."""
 RUN_ON = ("app", "reproduce")
 """Commands whose notes wait for no answer."""
 
@@ -38,6 +41,7 @@ app = typer.Typer(
 
 def main() -> None:
     """Entry point of the command ``thirdbody``."""
+    share_no_matrix()
     open_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
@@ -50,6 +54,17 @@ def main() -> None:
             sys.stdout.flush()
     except OSError as error:  # --help and --version end before a command begins
         sys.exit(without_output(error))
+
+
+def share_no_matrix() -> None:
+    """Let one thread do the algebra of a matrix, where the user says nothing else.
+
+    The matrices are small: threads that wait for each other cost more than they save, on a busy
+    machine ten times the whole, and the last digits of a sum would hang on how many there are.
+    NumPy reads the variables when it loads, which is after this.
+    """
+    if not any(name in os.environ for name in THREADS):
+        os.environ.update(dict.fromkeys(THREADS[1:], "1"))
 
 
 def _version(wanted: bool) -> None:

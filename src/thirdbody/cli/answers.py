@@ -68,16 +68,21 @@ def give_answer(
     times: Sequence[float] | None = None,
     draw: Callable[[], Figure] | None = None,
     figure: Path | None = None,
+    settings: Sequence[str] | None = None,
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end.
 
     ``more`` are tables that follow the first one, each with the sentence above it. With the times
     of its rows, the first table shows more of the beginning. What ``draw`` makes goes into the
-    workbook, and into the file ``figure`` where there is one.
+    workbook, and into the file ``figure`` where there is one. The heading tells the keys that
+    ``settings`` set over the file.
     """
+    from ..study.toml import heading_of, setting_in_words
+
+    title = heading_of(found.title, map(setting_in_words, settings or ()))
     files.write(
         *found.table(),
-        sheets=partial(_sheets, found, answer, (heads, rows), last, more, draw),
+        sheets=partial(_sheets, found, title, answer, (heads, rows), last, more, draw),
         data=found.to_dict,
     )
     tell_written(*files.paths)
@@ -85,7 +90,7 @@ def give_answer(
         write_figure(figure, draw())
     if files.json != STDOUT:
         console = terminal()
-        console.print(f"{found.title} (thirdbody {__version__})\n")
+        console.print(f"{title} (thirdbody {__version__})\n")
         for sentence in answer:
             console.print(sentence)
         table = Table(heads, right=True, more=ALL, legend=means)
@@ -111,6 +116,7 @@ def give_answer(
 
 def _sheets(
     found: Any,
+    title: str,
     answer: Sequence[str],
     table: tuple[Sequence[str], Sequence[Sequence[str]]],
     last: Sequence[str],
@@ -126,13 +132,13 @@ def _sheets(
     for sentence, heads, rows, _ in more:
         below += [sentence, grid_of_words(heads, rows)]
     return question_sheets(
-        found.title,
+        title,
         answer,
         table,
         [*below, *last, *([] if draw is None else [png_of(draw())])],
         states=found.table(),
         meanings=found.meanings,
-        inputs=inputs_of(given.values, given.bodies, given.numbers),
+        inputs=inputs_of(given.values, given.bodies, given.numbers, found.asked.stated),
         warnings=[*found.asked.assumed, *found.warnings],
         citations=found.citations,
     )

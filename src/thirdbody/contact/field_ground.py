@@ -53,6 +53,8 @@ STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
 ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
 """Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
+FINE, MORE = 1e-12, 6
+"""Change of u/σ that is aimed at, in so many more rounds."""
 CHORDS, SET_IN = 40, 1e-14
 """Of the search for the ground on which particles begin to be squeezed, and how near [σ]."""
 SPOTS = 0.25
@@ -71,6 +73,14 @@ TERMS = 16
 TINY = 1e-250
 FEWEST = 12
 """Separations that a table must keep."""
+
+
+def rows_between(lowest: Any, reach: Any, width: Any) -> Any:
+    """How many steps a table has from the lowest separation up; the same whatever is rounded.
+
+    Floats or arrays, for the lowest and highest separation and the width of the seat [σ].
+    """
+    return np.maximum(8, np.ceil((reach - lowest) / (STEP * width) - 1e-9)).astype(int)
 
 
 def heights(u: Array, zeta: Array) -> Array:
@@ -212,7 +222,7 @@ class Ground:
         reach = max((seat.average.high * seat.unit + field_offset(seat, field)) for seat in seats)
         reach += max(more, 0.0)
         width = min(1.0, *(seat.width for seat in seats))
-        count = max(8, math.ceil((reach - lowest) / (STEP * width)))
+        count = int(rows_between(lowest, reach, width))
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
         self.u, self.w = self._solved()
 
@@ -279,21 +289,23 @@ class Ground:
         state = kept[rest]
         states: list[Array] = []
         misses: list[Array] = []
-        for _ in range(ROUNDS):
+        left = np.full(len(rest), MORE)
+        for _ in range(ROUNDS + MORE):
             found, now = self._round(self.h[rest], state)
             misses = [*misses, found - state][-MEMORY:]
             states = [*states, state][-MEMORY:]
             change = np.max(np.abs(now - u[rest]), axis=1)
             u[rest], kept[rest] = now, state
             w[rest, 0] = self._lift(self.h[rest], state[:, :-1])
-            more = (change >= CLOSE) | (len(states) < 2)
-            rest = rest[more]
+            left = np.where((change < CLOSE) | (left < MORE), left - 1, left)
+            more = ((change >= FINE) & (left > 0)) | (len(states) < 2)
+            rest, left = rest[more], left[more]
             if not len(rest):
                 break
             states = [each[more] for each in states]
             misses = [each[more] for each in misses]
             state = _accelerated(states, misses)
-        return rest
+        return rest[left == MORE]
 
     def _above(self, first: Any, u: Array, w: Array) -> tuple[Array, Array]:
         """The table without separations where particles, all but grown together, find no ground."""

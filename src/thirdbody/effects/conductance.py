@@ -176,7 +176,8 @@ def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> l
             "and the conductances are means over contacts with and without, each under the whole "
             "load; mode and shares of the state are of a surface that spreads it over all particles"
         )
-        out.append(Note(what, code=f"{output.name}.single", effect=1.0))
+        action = "a table [connector] tells how often single contacts stay open, and of how many"
+        out.append(Note(what, code=f"{output.name}.single", effect=1.0, action=action))
     for i in np.flatnonzero(unknown)[:1]:
         low, high = float(found.low[i]), float(found.high[i])
         why = (

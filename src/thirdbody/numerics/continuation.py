@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy import optimize
+
+from .turns import known_turn, stretches_with_a_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -103,14 +106,41 @@ class _Walk:
                 return y, count
         return None
 
-    def turned(self, first: Array, middle: Array, last: Array) -> Array:
-        """The point between three at which the parameter turns."""
+    def near(self, guess: Array, direction: Array) -> Array | None:
+        """The point of the branch in the plane through a guess across a direction, by the Jacobian
+        at hand or else one taken there; None where there is none near."""
+        kept = self.jacobian
+        found = self.corrected(guess, direction, ROUGH)
+        if found is None:
+            fresh = first_jacobian(self.residual, guess)
+            self.jacobian = fresh if np.all(np.isfinite(fresh)) else kept
+            found = self.corrected(guess, direction, ROUGH)
+        return None if found is None else found[0]
+
+    def slope(self, y: Array, direction: Array) -> float:
+        """Change of the parameter per length along the branch at a point, in a direction; NaN where
+        the equations have no value beside it."""
+        here = self.residual(y[:-1], float(y[-1]))
+        columns = []
+        for i in range(len(y)):  # to one side: what is asked at the point itself is known already
+            z = y.copy()
+            z[i] += DIFFERENCE
+            columns.append((self.residual(z[:-1], float(z[-1])) - here) / DIFFERENCE)
+        jacobian = np.stack(columns, axis=1)
+        if not np.all(np.isfinite(jacobian)):
+            return math.nan
+        self.jacobian = jacobian
+        tangent = np.linalg.svd(jacobian)[2][-1]
+        return float(tangent[-1] * (1.0 if tangent @ direction > 0 else -1.0))
+
+    def turned(self, first: Array, middle: Array, last: Array, *, highest: bool) -> Array:
+        """The point between three at which the parameter is highest, or lowest."""
         direction = (last - first) / np.linalg.norm(last - first)
-        sign = 1.0 if middle[-1] > max(first[-1], last[-1]) else -1.0
+        sign = 1.0 if highest else -1.0
         length = float(direction @ (last - first))
         places = np.array([0.0, float(direction @ (middle - first)), length])
         through = np.polyfit(places, np.stack([first, middle, last]), 2)
-        best = {"y": middle}
+        best = {"y": max((first, middle, last), key=lambda y: sign * y[-1])}
 
         def height(place: float) -> float:
             guess = through[0] * place**2 + through[1] * place + through[2]
@@ -258,8 +288,40 @@ def follow_branch(
         if len(walk.points) > 2 and _turns(*walk.points[-3:]):
             _put_fold(walk, folds)
         ahead = min(step, ahead * (1.6 if count <= 3 else 1.0 if count <= 5 else 0.6))
+    folds = _put_missed_folds(walk, folds, step)
     y = np.stack(walk.points)
     return Branch(y[:, :-1], y[:, -1], np.array(folds, dtype=np.intp), ended)
+
+
+def _put_missed_folds(walk: _Walk, folds: list[int], step: float) -> list[int]:
+    """Numbers of the folds, with those between two points that a step went over."""
+    plain = [y for i, y in enumerate(walk.points) if i not in set(folds)]
+    stretches = stretches_with_a_turn(walk, plain, step)
+    known = [walk.points[i] for i in folds]
+    if len(known) == len(stretches) == sum(known_turn(s, known) is not None for s in stretches):
+        return folds
+    points: list[Array] = []
+    out = []
+    rest = list(stretches)
+    for i, y in enumerate(plain):
+        points.append(y)
+        while rest and rest[0].after == i:
+            stretch = rest.pop(0)
+            _, first, last, highest = stretch
+            if first is not points[-1]:
+                points.append(first)
+            fold = known_turn(stretch, known)
+            if fold is None:
+                way = (last - first) / np.linalg.norm(last - first)
+                middle = walk.near(0.5 * (first + last), way)
+                three = first, first if middle is None else middle, last
+                fold = walk.turned(*three, highest=highest)
+            out.append(len(points))
+            points.append(fold)
+            if last is not plain[i + 1]:
+                points.append(last)
+    walk.points = points
+    return out
 
 
 def _guess(points: list[Array], tangent: Array, ahead: float) -> Array:
@@ -283,7 +345,8 @@ def _turns(first: Array, middle: Array, last: Array) -> bool:
 def _put_fold(walk: _Walk, folds: list[int]) -> None:
     """Put the turning point among the last three in its place."""
     first, middle, last = walk.points[-3:]
-    fold = walk.turned(first, middle, last)
+    highest = middle[-1] > max(first[-1], last[-1])
+    fold = walk.turned(first, middle, last, highest=highest)
     direction = last - first
     places = [float(direction @ (y - first)) for y in (fold, middle)]
     rest = [(places[0], fold, True)]

@@ -272,7 +272,8 @@ def nested(outer: Callable[[str], None], count: int) -> Stages:
     if isinstance(outer, Stages):
 
         def show(part: float, more: str) -> None:
-            words = f"{inner.name}, {more}" if more else inner.name
+            own = inner.name if inner.name != outer.name else ""
+            words = ", ".join(filter(None, (own, more)))
             outer.show((inner.begun + part) / count, words)
 
         inner.show = show  # type: ignore[method-assign]

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 __all__ = [
     "NOT_KNOWN",
     "UNITS",
+    "Least",
     "concentration_of",
     "join_words",
     "number",
@@ -37,6 +38,7 @@ PREFIXED = {
     "kg": ((1.0, "kg"), (1e-3, "g"), (1e-6, "mg"), (1e-9, "µg")),
     "m^2": ((1.0, "m²"), (1e-6, "mm²"), (1e-12, "µm²")),
     "rad": ((math.pi / 180, "deg"),),
+    "rad/s": ((math.pi / 30, "rpm"),),
 }
 SMALLEST, LARGEST = 1e-12, 1e13
 """Magnitudes between which units take a prefix."""
@@ -71,6 +73,21 @@ UNIT = re.compile(
     r"[fpnµumckMGT]?(?:m|g|s|N|Pa|J|W|A|V|Hz|Ω|L|K))[²³⁻⁰¹⁴-⁹]*(?![\w%]))"
 )
 """The space between a number and its unit."""
+
+
+class Least(str):
+    """Words for a number too small to be read, which keep it: "< 0.0001 %" is 4e-8.
+
+    >>> percent(4e-8, least=1e-6), percent(4e-8, least=1e-6).value
+    ('< 0.0001 %', 4e-08)
+    """
+
+    value: float
+
+    def __new__(cls, text: str, value: float) -> Least:
+        self = super().__new__(cls, text)
+        self.value = value
+        return self
 
 
 def unbroken(text: str) -> str:
@@ -113,7 +130,7 @@ def number(value: float | None, digits: int = 4, *, least: float = 0.0) -> str:
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
     if 0 < value < least:
-        return f"< {number(least)}"
+        return Least(f"< {number(least)}", value)
     text = f"{abs(value):.{digits}g}"
     return f"{'−' if value < 0 else ''}{powers(text)}"
 
@@ -173,7 +190,7 @@ def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: 
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
     if 0 < value < least:
-        return f"< {percent(least)}"
+        return Least(f"< {percent(least)}", value)
     near = 1 - 0.5 * 10.0**-digits <= value and value != 1
     whole = len(f"{abs(100 * value):.0f}")  # 100 is no 1×10²
     text = f"{number(100 * value, max(digits + 2 if near else digits, whole))} %"

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import math
+import re
 import sys
 import types
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -141,9 +142,27 @@ def problem_with(about: Range, value: Any) -> Clause | None:
         or (about["le"] is not None and not number <= about["le"])
     )
     if outside:
-        hint = "; " + about["hint"] if about["hint"] else ""
+        cause = hint_on(about, number)
+        hint = "; " + cause if cause else ""
         return Mistake.RANGE.clause(f"must be {allowed_range(about)}" + hint)
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
+
+
+def hint_on(about: Range, number: float) -> str:
+    """Likely cause of a number outside its range: a sign, or a unit; "" where it is neither.
+
+    A hint on units has a number as an example; on one that is not positive it would mislead.
+
+    >>> force = quantity("F", "N", "force", gt=0, lt=1e9, hint="kN are '5 kN'").metadata["quantity"]
+    >>> hint_on(force, -1e3), hint_on(force, 0.0), hint_on(force, math.nan), hint_on(force, 1e12)
+    ('leave out the minus sign', '', '', "kN are '5 kN'")
+    """
+    least = about["ge"] if about["gt"] is None else about["gt"]
+    if least is None or least < 0 or number > 0:
+        return about["hint"]
+    if -math.inf < number < 0:
+        return "leave out the minus sign"
+    return "" if re.search(r"\d", about["hint"]) else about["hint"]
 
 
 SMALLEST, LARGEST = 1e-40, 1e40

@@ -39,6 +39,8 @@ class AskedConnector:
         What is allowed but looks like a slip.
     assumed : tuple of str
         What was taken for what the file does not say.
+    stated : frozenset of str
+        Dotted names of all keys that the file states.
     """
 
     title: str
@@ -46,6 +48,7 @@ class AskedConnector:
     forces: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+    stated: frozenset[str] = frozenset()
 
     @property
     def described(self) -> Described:
@@ -101,6 +104,7 @@ def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
         forces=forces,
         notes=tuple(notes),
         assumed=tuple(reader.assumed),
+        stated=reader.stated,
     )
 
 

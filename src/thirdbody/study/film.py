@@ -12,10 +12,11 @@ from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
 from ..systems.film_formulas import AbstractFilm, Line, Oil, Point
-from .reader import NOTHING, Key, Reader, Table, amounts, get, keys_of, table_of, variants
+from ..systems.oil_filter import Filter
+from .reader import NOTHING, Key, Reader, Table, amounts, get, keys_of, table_of, variants, wrong
 from .surfaces import law_key
 
-__all__ = ["FILM", "SHAPES", "SPEED", "on_body"]
+__all__ = ["FILM", "SHAPES", "SPEED", "filter_of", "on_body"]
 
 SHAPES: dict[str, type[Point] | type[Line]] = {"point": Point, "line": Line}
 TAKEN = ("conjunction", "load", "speed")
@@ -25,6 +26,25 @@ NO_PRESSURE = (
     "the pressure itself follows from film.load"
 )
 SPEED = quantity("u", "m/s", "mean entrainment speed", gt=0).metadata["quantity"]
+
+
+def _read_filter(reader: Reader, path: str, value: object) -> Filter:
+    """A filter as its data sheet states it."""
+    if not isinstance(value, str):
+        rule = 'must be sizes and β ratios in quotes, e.g. "5=75, 10=1000"'
+        raise wrong(path, rule, value, code=Mistake.KIND)
+    try:
+        return Filter.from_text(value)
+    except InvalidValue as error:
+        first = error.problems[0]
+        bare = first.changed(owner="") if first.owner == "Filter" else first
+        raise wrong(path, f": {bare}", value, code=first.code) from None
+
+
+def filter_of(whole: dict[str, Any]) -> Filter | None:
+    """The filter of a parsed file that was read; None where it names none."""
+    told = get(whole.get("film"), "filter")
+    return Filter.from_text(told) if isinstance(told, str) else None
 
 
 @cache
@@ -41,6 +61,12 @@ def _keys() -> dict[str, Key]:
         "speed": amounts("speed", SPEED)._replace(required=True),
         "formula": law_key(AbstractFilm.registry, "the film formula"),
         "entrainment": table_of(Entrainment, "what the oil carries"),
+        "filter": Key(
+            _read_filter,
+            about='a filter by its β ratios at sizes in um(c), "5=75, 10=1000": the oil before and '
+            "behind it",
+            schema={"type": "string"},
+        ),
     }
 
 
@@ -53,6 +79,14 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
         keys = keys | {name: keys[name]._replace(required=False) for name in TAKEN}
 
     def build(values: dict[str, Any]) -> FilmConditions | dict[str, Any]:
+        if values.pop("filter", None) is not None and get(reader.whole, "particles") is None:
+            raise InvalidValue(
+                Problem(
+                    "film.filter",
+                    "has nothing to hold: the study has no table [particles]",
+                    code=Mistake.MISSING,
+                )
+            )
         if "speed" in values:
             values["speed"] = tuple(np.sort(values.pop("speed")).tolist())
         if pressed and not values.keys() >= set(TAKEN):

@@ -12,11 +12,12 @@ from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.evaluation import bodies_of
 from ..errors import InvalidValue, Problem
 from ..populations.materials import Material
-from ..quantities.say import value_of
+from ..quantities.say import percent, value_of
 from ..quantities.units import Quantity
 from ..quantities.value import Value, quantity
 from ..systems.life import until
 from ..systems.life.circuit import OilCircuit
+from ..systems.life.report_notes import below_counts, share_beyond
 from ..systems.life.reports import oil_reports
 from ..systems.oil_filter import Filter
 from .described import BareNumber, Described
@@ -54,7 +55,7 @@ DURATION = quantity("t", "s", "how long at most", gt=0, hint="hours are '1000 h'
     "quantity"
 ]
 BETA = quantity("β", "1", "particles before over particles behind", ge=1).metadata["quantity"]
-TIME = quantity("t", "s", "time", gt=0, hint="'500 h'").metadata["quantity"]
+TIME = quantity("t", "s", "time", gt=0, hint="e.g. '500 h'").metadata["quantity"]
 OF_CONTACT_UNTIL = {
     name: declared.metadata["quantity"]
     for name, declared in {
@@ -99,6 +100,8 @@ class AskedLife:
         What is allowed but looks like a slip.
     assumed : tuple of str
         What was taken for what the file does not say.
+    stated : frozenset of str
+        Dotted names of all keys that the file states.
     """
 
     title: str
@@ -112,6 +115,7 @@ class AskedLife:
     design: AskedDesign | None = None
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = field(default=())
+    stated: frozenset[str] = frozenset()
 
     @property
     def described(self) -> Described:
@@ -309,9 +313,13 @@ def _with_reports(
     except InvalidValue as error:
         raise error.under(path) from None
     low, high = (3.6e9 * each for each in (found.mass_low, found.mass_high))
+    first, last = (value_of(float(found.sizes[i]), "m") for i in (0, -1))
     reader.assumed.append(
-        f"{path}: from its reports {3.6e9 * found.mass_rate:.3g} mg/h enter the oil, {low:.3g} to "
-        f"{high:.3g} mg/h"
+        f"{path}: from its reports {3.6e9 * found.mass_rate:.3g} mg/h of particles from {first} on "
+        f"enter the oil, {low:.3g} to {high:.3g} mg/h; {percent(share_beyond(found), digits=2)} of "
+        f"it is of sizes beyond {last} that no report says. None below {first} enter, so their "
+        "mass, dents and wear are left out: "
+        + below_counts(found).split("; ")[-1].removesuffix(".")
     )
     return circuit.replace(ingress=(found.ingress,))
 
@@ -361,6 +369,7 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         design=design,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
+        stated=reader.stated,
     )
 
 

@@ -160,7 +160,7 @@ def dents_of_life(
     for name, each in _circuits(circuit, asked, filter):
         own = history if each is circuit else None
         oils.append(_after(name, each, tracks, asked, own, contact))
-    said = []
+    said = [] if filter is None else _notes_of_filter(circuit, filter)
     if assumed:
         what = "the entry ratio of particles is not given and taken as 1: dents are upper bounds"
         action = "count dents and give life.contact.entry_ratio, or vary it from 1e-3 to 1"
@@ -193,14 +193,32 @@ def _circuits(
         others.append((f"with {each.name or f'filter {i}'} instead", each))
     if filter is not None:
         others.append(("with --filter instead", filter))
-    named = [
-        (name, each if each.flow is not None else each.replace(flow=first.flow, line=first.line))
-        for name, each in others
-    ]
+    named = [(name, _with_flow(each, first)) for name, each in others]
     return [
         (f"with {own}", circuit),
         *((name, circuit.replace(filters=(each, *rest))) for name, each in named),
         (f"without {own}", circuit.replace(filters=rest)),
+    ]
+
+
+def _with_flow(filter: Filter, first: Filter) -> Filter:
+    """A filter in the place of the first one."""
+    if filter.flow is not None:
+        return filter
+    return filter.replace(flow=first.flow, line=first.line)
+
+
+def _notes_of_filter(circuit: OilCircuit, filter: Filter) -> list[Note]:
+    """What is to be said of a filter that is tried, as of one of the study."""
+    if not circuit.filters:
+        return []
+    tried = _with_flow(filter, circuit.filters[0]).replace(name=filter.name or "--filter")
+    every = circuit.replace(filters=(tried,)).notes()
+    # of a code of their own: the filter of the study may have the same doubts
+    return [
+        Note(each, code=f"{each.code}, tried")
+        for each in every
+        if each.code in ("clipped", "below the data sheet")
     ]
 
 

@@ -20,9 +20,11 @@ from .surfaces import MATERIAL
 
 __all__ = ["ARRIVALS", "CLEAN", "CODE", "DIRT", "INGRESS", "dirts_of", "sized_numbers"]
 
-RATE = quantity("m'", "kg/s", "mass per time", gt=0, hint="'125 mg/h'").metadata["quantity"]
-COUNT = quantity("N'", "1/s", "particles per time", gt=0, hint="'1e6 / min'").metadata["quantity"]
-SIZE = quantity("x", "m", "size", gt=0, hint="'5 um'").metadata["quantity"]
+RATE = quantity("m'", "kg/s", "mass per time", gt=0, hint="e.g. '125 mg/h'").metadata["quantity"]
+COUNT = quantity("N'", "1/s", "particles per time", gt=0, hint="e.g. '1e6 / min'").metadata[
+    "quantity"
+]
+SIZE = quantity("x", "m", "size", gt=0, hint="e.g. '5 um'").metadata["quantity"]
 LARGEST = quantity("x_max", "m", "largest size", gt=0).metadata["quantity"]
 SMALLEST = quantity("x_min", "m", "smallest size", gt=0).metadata["quantity"]
 CLEAN = "clean"
@@ -119,9 +121,9 @@ def _reports(reader: Reader, path: str, value: Any) -> Any:
         raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value)
     beside = reader.folder / value
     try:
-        return read_reports(beside if beside.exists() else Path(value))
+        return read_reports(beside if beside.exists() else Path(value), fewest=2)
     except InvalidValue as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
+        raise error.under(path) from None
 
 
 def _table_of_ingress(sources: tuple[str, ...]) -> ReadOne:

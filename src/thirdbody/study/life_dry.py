@@ -79,6 +79,8 @@ class AskedDry:
         What is allowed but looks like a slip.
     assumed : tuple of str
         What was taken for what the file does not say.
+    stated : frozenset of str
+        Dotted names of all keys that the file states.
     """
 
     title: str
@@ -92,6 +94,7 @@ class AskedDry:
     drawn: KnownOfLife = field(default_factory=KnownOfLife)
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+    stated: frozenset[str] = frozenset()
 
     @property
     def described(self) -> Described:
@@ -231,4 +234,5 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
         drawn=known,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
+        stated=reader.stated,
     )

@@ -38,6 +38,8 @@ class AskedPlate:
         What is allowed but looks like a slip.
     assumed : tuple of str
         What was taken for what the file does not say.
+    stated : frozenset of str
+        Dotted names of all keys that the file states.
     """
 
     title: str
@@ -45,6 +47,7 @@ class AskedPlate:
     grains: np.ndarray
     notes: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
+    stated: frozenset[str] = frozenset()
 
     @property
     def described(self) -> Described:
@@ -78,6 +81,7 @@ def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
         grains=grains,
         notes=tuple(reader.notes),
         assumed=tuple(reader.assumed),
+        stated=reader.stated,
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -17,7 +17,15 @@ from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
-from ..quantities.value import SLIP, allowed_range, limits_of, problem_with, quantity, unit_meant
+from ..quantities.value import (
+    SLIP,
+    allowed_range,
+    hint_on,
+    limits_of,
+    problem_with,
+    quantity,
+    unit_meant,
+)
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
 from .vocabulary import near
@@ -184,6 +192,11 @@ class Reader:
         """The measured surfaces that stand in [roughness]."""
         self.known = Known()
 
+    @property
+    def stated(self) -> frozenset[str]:
+        """Dotted names of all keys of the file, items of lists by their numbers."""
+        return frozenset(_names_in(self.whole, ""))
+
     def table(
         self,
         path: str,
@@ -273,6 +286,19 @@ class Reader:
             return kind(**values)
         except InvalidValue as error:
             raise in_file(error, kind, path, values) from None
+
+
+def _names_in(data: object, path: str) -> Iterator[str]:
+    """Dotted names below a path."""
+    items: Iterable[tuple[object, object]] = ()
+    if isinstance(data, dict):
+        items = data.items()
+    elif isinstance(data, list) and any(isinstance(item, dict) for item in data):
+        items = enumerate(data)
+    for key, value in items:
+        name = f"{path}.{key}" if path else str(key)
+        yield name
+        yield from _names_in(value, name)
 
 
 # -------------------------------------------------------------------------- keys that are tables
@@ -373,7 +399,7 @@ def read_number(about: Quantity, reader: Notes, path: str, value: object) -> flo
         allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value, code=Mistake.RANGE)
     if why := problem_with(about, found):
-        meant = "" if about["hint"] else f"; it is the {about['meaning']}"
+        meant = "" if hint_on(about, found) else f"; it is the {about['meaning']}"
         raise wrong(path, in_study(why) + meant, value, code=why.code)
     load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
     if likely := unit_meant(about, found, load=load):

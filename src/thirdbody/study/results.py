@@ -51,6 +51,11 @@ class _Result(MappedRecord):
         return self.study.title or "Study"
 
     @property
+    def heading(self) -> str:
+        """The title, and what was set over the file."""
+        return self.study.heading
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """Notes of reading and of solving the study, one sentence each."""
         return tuple(dict.fromkeys((*self.study.notes, *self.run_warnings)))

@@ -147,7 +147,7 @@ def reports_of(asked: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
     file : path-like
         As `thirdbody.systems.life.reports.read_reports` reads it.
     """
-    times, reports, sizes = read_reports(Path(file))
+    times, reports, sizes = read_reports(Path(file), fewest=2)
     found = oil_reports(times, reports=reports, sizes=sizes, circuit=asked.circuit)
     return ReportsResult(asked=asked, reports=found)
 

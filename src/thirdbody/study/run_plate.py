@@ -279,7 +279,8 @@ def _breaking(chuck: Chuck, sizes: Sequence[float]) -> list[Note]:
             f"most particles of {name_of(dust, i)} from {value_of(x, 'm', 3)} on would break: "
             "their pieces are smaller, and the plate stands lower than computed",
             code="brittle",
-            action="take heights from there on as an upper end",
+            action="take heights from there on as an upper end; particles.strength says from which "
+            "size on they break, and changes no height",
         )
         for i, (dust, x) in enumerate(zip(chuck.particles, sizes, strict=True))
         if math.isfinite(x)

@@ -11,10 +11,11 @@ from typing import Any
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.files import read_bytes
 from ..quantities.nearest import near
+from ..quantities.say import join_words
 from ..quantities.units import say
 from .reader import rivals
 
-__all__ = ["override", "read", "value_of"]
+__all__ = ["heading_of", "override", "read", "setting_in_words", "value_of"]
 
 
 def read(path: Path) -> dict[str, object]:
@@ -114,6 +115,28 @@ def override(data: dict[str, object], overrides: Iterable[str]) -> dict[str, obj
     if problems:
         raise InvalidValue(*problems)
     return data
+
+
+def setting_in_words(text: str) -> str:
+    """A key that is set, as a heading tells it.
+
+    >>> setting_in_words('particles.mean="500 nm"'), setting_in_words("film.speed=1")
+    ('particles.mean = 500 nm', 'film.speed = 1')
+    """
+    key, _, value = text.partition("=")
+    parsed = value_of(value)
+    told = parsed if isinstance(parsed, str) else value.strip()
+    return " ".join(f"{key.strip()} = {told}".split())
+
+
+def heading_of(title: str, settings: Iterable[str]) -> str:
+    """A title, and the keys that were set over its file, which it may not know of.
+
+    >>> heading_of("Bearing under 1 kN", ["load.force = 2 kN"])
+    'Bearing under 1 kN, with load.force = 2 kN'
+    """
+    told = join_words(list(settings))
+    return f"{title}, with {told}" if told else title
 
 
 def _set(data: dict[str, object], keys: list[str], value: object) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection, Iterable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -22,8 +22,9 @@ from ..quantities.arguments import names_arguments
 from ..quantities.value import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
+from ..systems.oil_filter import Filter
 from .connector import AskedConnector, connector_of
-from .film import on_body
+from .film import filter_of, on_body
 from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
@@ -34,7 +35,7 @@ from .reader import Reader, Table
 from .schema import Describer
 from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
-from .toml import override, read
+from .toml import heading_of, override, read, setting_in_words
 
 __all__ = ["Study", "check", "load_study", "load_tables", "read_tables"]
 
@@ -87,6 +88,12 @@ class Study:
     gaps : tuple of float or None
         Of each population the height of oil that brings it [m]; None where the file states how
         many lie on an area.
+    settings : tuple of str
+        Keys that were set over the file, "load.force = 1 kN".
+    filter : Filter, optional
+        What the key film.filter says: the oil is answered before and behind it.
+    stated : frozenset of str
+        Dotted names of all keys that the file states.
     """
 
     title: str
@@ -108,6 +115,14 @@ class Study:
     forces: np.ndarray | None = None
     assumed: tuple[str, ...] = ()
     gaps: tuple[float | None, ...] = ()
+    settings: tuple[str, ...] = ()
+    filter: Filter | None = None
+    stated: frozenset[str] = frozenset()
+
+    @property
+    def heading(self) -> str:
+        """The title, and what was set over the file."""
+        return heading_of(self.title or "Study", self.settings)
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -156,7 +171,9 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     >>> study.contact.roughness.sigma, study.values.tolist()
     (2e-07, [5000000.0])
     """
-    return check(override(read(Path(path)), list(overrides)), folder=Path(path).parent)
+    told = list(overrides)
+    study = check(override(read(Path(path)), told), folder=Path(path).parent)
+    return replace(study, settings=tuple(map(setting_in_words, told)))
 
 
 def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> list[Path]:
@@ -270,6 +287,8 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
         gaps=gaps_of(reader.whole),
+        filter=filter_of(reader.whole),
+        stated=reader.stated,
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),

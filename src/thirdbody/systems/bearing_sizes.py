@@ -22,6 +22,43 @@ FILL = 0.6
 BALL = 0.3
 """Ball diameter over half the room between bore and outer diameter, halved: D_w = 0.3 (D − d)."""
 
+ROLLERS = (
+    "`thirdbody new roller-bearing` takes the dimensions of cylindrical rollers under a radial load"
+)
+ONE_ROLLER = (
+    "`thirdbody new rolling-bearing` takes diameter and length of one roller, and the force on it"
+)
+ONE_BALL = (
+    'of one ball, kind = "ball-in-groove" in [body] takes diameter, conformity, pitch_diameter and '
+    "contact_angle, and load.force what presses it"
+)
+FLAT_BALL = (
+    'kind = "ball-in-groove" in [body] takes diameter, conformity and number of the balls '
+    "(bodies), and load.force what presses all of them"
+)
+BARREL = (
+    'its rollers are barrels: film.conjunction = { shape = "point", R = "...", R_y = "..." } and '
+    "film.load take the contact of one"
+)
+DIMENSIONS = 'give bore x outer diameter x width in mm, e.g. "25x52x15"'
+UNLISTED = "a deep-groove ball bearing that is not in the list here"
+KINDS = (
+    (r"R?NA ?\d|[HB]K ?\d|NKI?S? ?\d{2}", "a needle roller bearing", ONE_ROLLER),
+    (r"N[A-Z]{0,3} ?\d{3}|RNU ?\d", "a cylindrical roller bearing", ROLLERS),
+    (r"7\d{3}(?!\d)", "an angular contact ball bearing", ONE_BALL),
+    (r"(3[23]|5[23])\d{2}(?!\d)", "a double-row angular contact ball bearing", ONE_BALL),
+    (r"QJ ?\d", "a four-point contact ball bearing", ONE_BALL),
+    (r"[12][0-3]\d{2}(?!\d)", "a self-aligning ball bearing", ONE_BALL),
+    (r"4[23]\d{2}(?!\d)", "a double-row deep-groove ball bearing", ONE_BALL),
+    (r"5[1-4]\d{3}(?!\d)", "a thrust ball bearing", FLAT_BALL),
+    (r"3[0-3]\d{3}(?!\d)", "a tapered roller bearing", ONE_ROLLER),
+    (r"29[2-4]\d{2}(?!\d)", "a spherical roller thrust bearing", BARREL),
+    (r"2[1-4]\d{3}(?!\d)", "a spherical roller bearing", BARREL),
+    (r"8[1-9]\d{3}(?!\d)", "a cylindrical roller thrust bearing", ONE_ROLLER),
+    (r"(6[0-37-9]\d\d|6[12]8\d\d|16\d{3}|6[023]/\d\d|6[0-389][3-9])(?!\d)", UNLISTED, DIMENSIONS),
+)
+"""Other designations: how they begin, what they are, and what can be done with them."""
+
 
 @cache
 def _table() -> dict[str, Any]:
@@ -116,6 +153,16 @@ def bearing_size(which: str) -> BearingSize:
     known = _table()["size"]
     found = re.match(r"(\d{4,5})(?!\d)(.*)", text)
     if found is None or found[1] not in known:
+        if other := _other_bearing(text):
+            raise InvalidValue(
+                Problem(
+                    "",
+                    f"{say(which)} is {other[0]}; those known by their designation are deep-groove "
+                    "ball bearings 6000 to 6012, 6200 to 6212 and 6300 to 6312",
+                    hint=other[1],
+                    code=Mistake.KIND,
+                )
+            )
         hint = guess(found[1] if found else text, known, otherwise=None) if text else None
         raise InvalidValue(
             Problem(
@@ -130,6 +177,18 @@ def bearing_size(which: str) -> BearingSize:
     name, limits = _clearance(bore, found[2])
     d, D, B = _mm(bore), _mm(outer), _mm(width)
     return BearingSize(found[1], d, D, B, balls, _mm(ball), limits, name, False)
+
+
+def _other_bearing(text: str) -> tuple[str, str] | None:
+    """What a designation is that no deep-groove ball bearing here has, and what can be done.
+
+    >>> _other_bearing("NU205")[0], _other_bearing("7205 B")[0], _other_bearing("51105")[0]
+    ('a cylindrical roller bearing', 'an angular contact ball bearing', 'a thrust ball bearing')
+    """
+    for begins, what, action in KINDS:
+        if re.match(begins, text):
+            return what, action
+    return None
 
 
 def _of_dimensions(which: str, bore: float, outer: float, width: float, suffix: str) -> BearingSize:

@@ -108,7 +108,8 @@ class Chuck(Value):
         """Whether most particles of this kind would break under this bump."""
         one = self._law(dust).one(surfaces=self.surfaces, particle=dust.material)
         x = bump.height + bump.squeeze
-        return breaks(one, dust.material, x=x, squeeze=bump.squeeze / x)
+        squeeze = bump.squeeze / x
+        return breaks(one, dust.material, x=x, squeeze=squeeze, strength=dust.strength)
 
     def bump(self, height: float) -> Bump:
         """The plate lifted by a rigid point.

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numba import njit
 
+from ..quantities.carried import takes_units
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -61,6 +63,7 @@ SAME = 1e-12
 """Loads that differ by less, relatively, are one."""
 
 
+@takes_units
 def tabulate_squeezes(eps: Array, load: Array) -> Array:
     r"""Squeezes ε as a function that is linear in the load p between its rows, with its integral.
 

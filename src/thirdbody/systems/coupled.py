@@ -324,10 +324,11 @@ def coupled(
     up to 0.999 of the way to the first melting point (500 K of rise where nothing melts), or until
     more than half of the area touches. With one temperature (without ``flash``) all states hang
     together on it, because each temperature has one speed; with two, branches that never meet it
-    are not seen. Friction jumps where the hardness of one surface comes to ``hardness_ratio`` times
-    that of the other, which then begins to be ploughed: the branch goes on behind the jump, and a
-    warning says where it is. A fold is known to 1e-8 of its speed (measured against closed forms).
-    E, ν, τ and the roughness stay as they are.
+    are not seen. Slopes between the steps show folds that a step goes over; of two folds less than
+    0.0002 of the largest rise apart nothing may be seen. Friction jumps where the hardness of one
+    surface comes to ``hardness_ratio`` times that of the other, which then begins to be ploughed:
+    the branch goes on behind the jump, and a warning says where it is. A fold is known to 1e-8 of
+    its speed (measured against closed forms). E, ν, τ and the roughness stay as they are.
 
     References
     ----------

@@ -134,6 +134,7 @@ class RadialShare(Record):
         """Σ Q cos ψ over F_r [1]: 1 but for the places of few bodies."""
         return float(self.loads @ np.cos(self.angles) / self.force)
 
+    @takes_units
     def over_a_turn(self, quantity: Callable[[Array], Array]) -> float:
         r"""What a body has of a quantity on average over a turn of the cage.
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
+from dataclasses import replace
 from html import escape
 
 import numpy as np
 
 from ..analysis.assessment import WORDS, Assessment
 from ..analysis.assessments import Assessments
-from ..analysis.uncertainty.propagation import OUTPUTS, propagate
+from ..analysis.uncertainty.propagation import OUTPUTS, Propagation, propagate
+from ..equilibrium.status import MOST_AREA
+from ..errors import RangeWarning
+from ..quantities.say import percent
 
 __all__ = ["page", "pictures"]
 
@@ -35,6 +40,24 @@ def page(assessment: Assessment | Assessments) -> str:
     return document(title, body)
 
 
+def _uncrowded(curve: Propagation, of: str, value: float) -> Propagation:
+    """Bands up to the load from which crowded samples would be an end of the outermost one.
+
+    All of them where the operating load itself is crowded: of that the page warns.
+    """
+    close = np.asarray(curve.crowded) > min(curve.probabilities)
+    loads = np.asarray(curve.loads)
+    if not close.any() or (end := int(np.argmax(close))) < 2 or loads[end - 1] < value:
+        return curve
+    return replace(
+        curve,
+        loads=loads[:end],
+        bands={of: np.asarray(curve.bands[of])[:end]},
+        nominal={of: np.asarray(curve.nominal[of])[:end]},
+        crowded=np.asarray(curve.crowded)[:end],
+    )
+
+
 def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     """Captions and pictures of the bands over the load, and of the inputs."""
     from matplotlib.figure import Figure
@@ -51,17 +74,26 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     known = {name: one for name, one in found.inputs.items() if name != found.load}
     out = []
     if known:
-        curve = propagate(
-            found.contact,
-            vary=known,
-            **{found.load: loads},  # type: ignore[arg-type]
-            samples=max(min(SAMPLES_SHOWN, found.samples // 16), 64),
-            seed=found.seed,
-            outputs=[of],
-        )
-        ax = plot.bands(curve, of, mark=value)
-        words = f"Bands of the {OUTPUTS[of].meaning} over the load; the operating load is "
-        out.append((words + "marked.", svg_of(ax.figure)))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RangeWarning)  # nobody has asked for these loads
+            curve = propagate(
+                found.contact,
+                vary=known,
+                **{found.load: loads},  # type: ignore[arg-type]
+                samples=max(min(SAMPLES_SHOWN, found.samples // 16), 64),
+                seed=found.seed,
+                outputs=[of],
+            )
+        shown = _uncrowded(curve, of, value)
+        ax = plot.bands(shown, of, mark=value)
+        words = f"Bands of the {OUTPUTS[of].meaning} over the load; the operating load is marked."
+        if len(shown.loads) < len(loads):
+            words += (
+                f" Beyond the last load drawn, more than {percent(min(curve.probabilities))} of "
+                f"the cases have more than {percent(MOST_AREA)} of the area in contact, where "
+                "this model does not hold."
+            )
+        out.append((words, svg_of(ax.figure)))
     else:
         out.append(("Only the load is uncertain.", svg_of(Figure(figsize=(1, 1)))))
     if not assessment.moved:
@@ -69,6 +101,7 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     values = assessment.tornado[assessment.decisive]
     strongest = dict([*values.items()][:MOST_BARS])
     ax = plot.tornado(found, assessment.decisive, values=strongest)
-    words = f"{assessment.decisive} with one input at each end of its 5 % to 95 % range"
+    called = assessment.called
+    words = f"{called[:1].upper()}{called[1:]} with one input at each end of its 5 % to 95 % range"
     words += f", the {MOST_BARS} strongest." if len(values) > MOST_BARS else "."
     return [*out, (words, svg_of(ax.figure))]

@@ -54,13 +54,13 @@ def _count(failure: float) -> str:
     """Closings for one failure, to three digits.
 
     >>> _count(0.0048), _count(2.6e-5), _count(1.5e-9)
-    ('208', '38 500', '6.67×10⁸')
+    ('208', '38500', '6.67×10⁸')
     """
     turns = 1 / failure
     if turns >= 1e7:
         return number(turns, 3)
     digits = max(2 - math.floor(math.log10(turns)), -9)
-    return f"{round(round(turns, digits)):,}".replace(",", " ")
+    return f"{round(round(turns, digits))}"
 
 
 def answer(found: ConnectorResult) -> list[str]:

@@ -13,6 +13,7 @@ from ..quantities.say import join_words, number, percent, value_of
 from ..systems.life.circuit import LEAKED, SETTLED
 from ..systems.life.contact_history import ContactHistory, DryHistory, SteadyContact
 from ..systems.life.history import LifeHistory
+from ..systems.life.report_notes import below_counts, beyond_counts, zero_counts
 from ..systems.life.sizing import least_flow
 from .life_amounts import duration_of, flows_of, mass_of, masses_of
 from .life_dents_words import dent_answer
@@ -233,7 +234,8 @@ def words_of_bands(bands: LifeBands) -> list[str]:
         )
     if np.all(np.isfinite(bands.R0)) and np.any(bands.R0 > 0):
         least, most = (number(float(each), 2) for each in (bands.R0[0], bands.R0[-1]))
-        out.append(f"One particle of debris breeds {least} to {most} others.")
+        bred = "about 1 other" if least == most == "1" else f"{least} to {most} others"
+        out.append(f"One particle of debris breeds {bred}.")
     for name, times in bands.times.items():
         first, last = (_time_or_censored(float(t), bands) for t in (times[0], times[-1]))
         came = percent(bands.reached[name])
@@ -309,11 +311,16 @@ def facts(history: LifeHistory) -> dict[str, str]:
 def report_answer(found: OilReports) -> list[str]:
     """What the reports say, in sentences."""
     best, low, high = flows_of([found.mass_rate, found.mass_low, found.mass_high])
+    first = value_of(float(found.sizes[0]), "m")
+    spread = "lies somewhere in the range of its code"
+    if not found.coded:
+        spread = f"is off by a factor of at most {number(found.width**0.5, 2)}"
     out = [
-        f"Between the reports {best} of dirt from "
-        f"{value_of(float(found.sizes[0]), 'm')} on entered the oil: {low} to "
-        f"{high}, if every count lies somewhere in the range of its code."
+        f"Between the reports {best} of dirt from {first} on entered the oil: {low} to {high}, if "
+        f"every count {spread}."
     ]
+    more = (zero_counts(found), below_counts(found), beyond_counts(found))
+    out += [sentence for sentence in more if sentence is not None]
     if found.is_constant is None:
         out.append("Two reports fit any ingress: whether it is constant, a third one says.")
     elif found.is_constant:
@@ -327,7 +334,8 @@ def report_answer(found: OilReports) -> list[str]:
 
 
 def _misfit(found: OilReports) -> str:
-    chi2, more = number(found.chi2, 3), f"{found.degrees} degrees of freedom"
+    degrees = "degree" if found.degrees == 1 else "degrees"
+    chi2, more = number(found.chi2, 3), f"{found.degrees} {degrees} of freedom"
     return f"χ² = {chi2} with {more}, as large by chance {percent(found.probability, digits=2)}"
 
 

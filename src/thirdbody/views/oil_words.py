@@ -13,13 +13,17 @@ from ..study.oil_what_ifs import OilWhatIf
 
 __all__ = [
     "DROP",
+    "HANGS_ON",
     "HEADS",
     "MEANS",
+    "WHAT_IF_HEADS",
+    "WHAT_IF_MEANS",
     "answer",
     "filter_answer",
     "filter_rows",
     "rows",
     "uncertainty",
+    "what_if_rows",
 ]
 
 HEADS = ("population", "load", "dents/h", "per mm²", "depth", "5 % above", "deepest", "width")
@@ -39,6 +43,15 @@ HEAVY = 0.5
 """Load over the dynamic rating up to which ISO 281 holds."""
 LITTLE = 1.2
 """Factor of the life up to which an input is not named for it."""
+HANGS_ON = "What dents and life hang on"
+WHAT_IF_HEADS = ("input", "with", "dents/h", "5 % above", "a_ISO")
+WHAT_IF_MEANS = {
+    "with": "each input alone, at one end and at the other",
+    "dents/h": "dents of all populations in the whole track per hour",
+    "5 % above": "depth that one in twenty dents of the deepest population exceeds",
+    "a_ISO": "life factor of ISO 281",
+}
+"""The table of what is uncertain."""
 DROP = ("width", "per mm²", "deepest", "load")
 """Columns in the order in which they go where the width is small."""
 
@@ -61,6 +74,25 @@ def uncertainty(what_ifs: Sequence[OilWhatIf]) -> list[str]:
     if for_life is not most and for_life.life_ratio > max(most.life_ratio, LITTLE):
         out.append(f"For the life: {for_life.what}. {_effects(for_life)}.")
     return out
+
+
+def what_if_rows(what_ifs: Sequence[OilWhatIf]) -> list[list[str]]:
+    """A row an input, under `WHAT_IF_HEADS`."""
+    return [
+        [
+            each.what,
+            each.between,
+            _ends([_count(end) for end in each.dents]),
+            _ends([value_of(end, "m", 3) for end in each.depth]),
+            _ends([number(end, 2) for end in each.a_ISO]),
+        ]
+        for each in what_ifs
+    ]
+
+
+def _ends(both: Sequence[str]) -> str:
+    """Both ends, or the one number where they are the same."""
+    return " to ".join(dict.fromkeys(both))
 
 
 def _effects(one: OilWhatIf) -> str:

@@ -14,8 +14,6 @@ __all__ = ["grid_of_words"]
 
 NAMED = re.compile(r"[A-Za-zµΩ°][^\d×,]*|")
 """What may be a unit, and not the rest of a code or of a product."""
-THOUSANDS = re.compile(r"(?<=\d)[ \u00a0\u202f](?=\d{3}(?!\d))")
-"""What parts the thousands of a number."""
 SIZES = {name: (unit, size) for unit, steps in PREFIXED.items() for size, name in steps}
 """Units with and without a prefix: the unit, and their size in it."""
 
@@ -53,7 +51,7 @@ def grid_of_words(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Grid:
 
 def _in_one_unit(texts: Sequence[str]) -> tuple[str, list[Any]]:
     """The unit, in brackets, and the cells of values that share one; else the words."""
-    found = [cell_of_words(THOUSANDS.sub("", text)) for text in texts]
+    found = [cell_of_words(text) for text in texts]
     parts = [(cell, unit) for cell, unit in found if isinstance(cell, Cell)]
     others = [text for text, (cell, _) in zip(texts, found, strict=True) if isinstance(cell, str)]
     plain = all(text in ("-", NOT_KNOWN) or text.startswith("<") for text in others)

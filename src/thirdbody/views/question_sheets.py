@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ..errors import ranked
@@ -10,7 +10,7 @@ from ..populations.materials import NUMBERS
 from ..quantities.say import unit_of
 from ..version import __version__
 from .printed_tables import grid_of_words
-from .report.sources import Row, alike, value_rows
+from .report.sources import Row, alike, as_stated, value_rows
 from .study_sheets import amount_cells, note_line
 from .workbook import Grid, Sheet, sheet_of_table
 
@@ -79,10 +79,11 @@ def inputs_of(
     values: Mapping[str, Value],
     bodies: Mapping[str, Material],
     numbers: Iterable[BareNumber] = (),
+    stated: Collection[str] = frozenset(),
 ) -> list[tuple[object, ...]]:
     """A row an input: of values by what their names begin with, "plate.", then of materials.
 
-    Numbers that are no fields of a value stand first.
+    Numbers that are no fields of a value stand first. Of what the file states none is a default.
     """
     rows = [
         Row(each.name, each.about["symbol"], "", each.about["meaning"], False, each.value,
@@ -90,6 +91,7 @@ def inputs_of(
         for each in numbers
     ]  # fmt: skip
     rows += [row for name, value in values.items() for row in value_rows(value, name)]
+    rows = as_stated(rows, stated)
     out: list[tuple[object, ...]] = [
         (row.meaning, row.symbol, *amount_cells(row), "default" if row.default else "study",
          row.name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,17 +18,25 @@ from ..equilibrium.words import (
 from ..errors import Note, RangeWarning, ranked
 from ..populations.materials import NUMBERS
 from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
-from ..study.load import FORCE
-from ..study.run import run_film_curve
-from ..study.vocabulary import LOADS
 from ..version import __version__
 from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
 from .figure_files import png_of
+from .film_figure import draw_film
 from .film_words import point
 from .report.figures import first_figure
 from .report.found import Found, some_of
 from .report.make import USUAL, curve_over
-from .report.sources import Row, alike, laws_of, rows_of, sources_of, value_rows
+from .report.sources import (
+    Row,
+    alike,
+    as_stated,
+    film_rows,
+    laws_of,
+    load_rows,
+    rows_of,
+    sources_of,
+    value_rows,
+)
 from .state_words import answer, details, uncertainty
 from .workbook import Grid, Sheet, cell_of, cell_of_words, sheet_of_table
 
@@ -40,7 +48,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "amount_cells",
-    "draw_film",
     "film_sheets",
     "grid_of",
     "note_line",
@@ -72,7 +79,12 @@ def state_sheets(result: StudyResult) -> list[Sheet]:
     return _sheets(result, found, _rows_of_study(result), meanings)
 
 
-def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[Sheet]:
+def film_sheets(
+    result: FilmResult,
+    sentences: Sequence[str | Grid],
+    table: tuple[Mapping[str, Sequence[object]], Mapping[str, str]],
+    more: Mapping[str, str],
+) -> list[Sheet]:
     """Sheets of what `run_film` found.
 
     Parameters
@@ -80,6 +92,10 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
     result : FilmResult
     sentences : sequence of str or Grid
         The answer in words and tables, as the command prints it.
+    table : tuple
+        Columns of the sheet of states, and their units.
+    more : mapping
+        Meanings of those columns that are none of the result.
     """
     from ..systems.mixed_film import COLUMNS
 
@@ -90,31 +106,20 @@ def film_sheets(result: FilmResult, sentences: Sequence[str | Grid]) -> list[She
         rows = [(name, *cell_of_words(text)) for name, text in at.items()]
         found.append(Grid(("at this speed", "value", "unit"), rows))
     else:
-        table = grid_of(film_columns(result), states)
-        found += _some_rows(_with_column(table, "regime", states["regime"].tolist()))
+        curve = grid_of(film_columns(result), states)
+        found += _some_rows(_with_column(curve, "regime", states["regime"].tolist()))
     found.append(png_of(draw_film(result)))
     meanings = {name: COLUMNS[name].meaning for name in states if name in COLUMNS}
     meanings |= {"hersey": "Hersey number", "largest": "largest particle dragged in"}
     for part in result.passing:
         meanings[f"{part.name}: passing"] = "share of its particles narrower than the gap"
         meanings[f"{part.name}: areal_density"] = "particles that enter, per area"
-    body = result.study.body
-    inputs = [] if body is None else [*value_rows(body, "body.")]
-    inputs += [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
-    return _sheets(result, found, inputs, meanings)
-
-
-def draw_film(result: FilmResult) -> Figure:
-    """Figure of a film over its speeds, or over others around the only one, which is marked."""
-    from .plot.film import stribeck
-
-    speeds = result.states["speed"]
-    if len(speeds) > 1:
-        return stribeck(result.states, result.regime_speeds)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)  # the answer has told of its own speed
-        curve, _ = run_film_curve(result.study)
-    return stribeck(curve.states, curve.regime_speeds, speed=float(speeds[0]))
+    study = result.study
+    inputs = load_rows(study) if study.own_load else []
+    inputs += [] if study.body is None else value_rows(study.body, "body.")
+    inputs += [*film_rows(result), *rows_of(study.contact)]
+    inputs = as_stated(inputs, study.stated)
+    return _sheets(result, found, inputs, meanings | dict(more), table)
 
 
 def _some_rows(grid: Grid) -> list[str | Grid]:
@@ -192,14 +197,15 @@ def _sheets(
     found: Sequence[str | Grid | bytes],
     inputs: Sequence[Row],
     meanings: Mapping[str, str],
+    table: tuple[Mapping[str, Sequence[object]], Mapping[str, str]] | None = None,
 ) -> list[Sheet]:
-    """The sheets, by what stands on the first."""
-    columns, units = result.table()
+    """The sheets, by what stands on the first; the columns of states are those of the result."""
+    columns, units = result.table() if table is None else table
     contact = result.study.contact
     return [
-        Sheet("Answer", tuple(found), title=f"{result.title} (thirdbody {__version__})"),
+        Sheet("Answer", tuple(found), title=f"{result.heading} (thirdbody {__version__})"),
         sheet_of_table("States", columns, units),
-        Sheet("Inputs", (_input_grid(inputs, contact), _source_grid(contact))),
+        Sheet("Inputs", (_input_grid(inputs, contact), _source_grid(contact, result.study.stated))),
         Sheet("Notes", _notes(result, columns, units, meanings)),
     ]
 
@@ -207,21 +213,9 @@ def _sheets(
 def _rows_of_study(result: StudyResult) -> list[Row]:
     """Rows of loads, bodies and contact: inputs of the study, and assumed ones."""
     study = result.study
-    about, name = LOADS[study.load], study.load
-    values = study.values.tolist()
-    if result.forces:
-        about, name, values = FORCE, "force", [each.force for each in result.forces]
-    told = {about["meaning"]: values[0]}
-    if len(values) > 1:
-        which = (f"least of {len(values)}", "greatest")
-        told = {f"{about['meaning']}, {word}": value
-                for word, value in zip(which, (min(values), max(values)), strict=True)}  # fmt: skip
-    rows = [
-        Row(f"load.{name}", about["symbol"], "", meaning, False, float(value), about["unit"])
-        for meaning, value in told.items()
-    ]
+    rows = load_rows(study)
     rows += value_rows(study.body, "body.") if study.body is not None else []
-    return [*rows, *rows_of(study.contact)]
+    return as_stated([*rows, *rows_of(study.contact)], study.stated)
 
 
 def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
@@ -245,7 +239,7 @@ def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
     return Grid(("input", "symbol", "value", "unit", "from", "name"), lines)
 
 
-def _source_grid(contact: Contact) -> Grid:
+def _source_grid(contact: Contact, stated: Collection[str]) -> Grid:
     """Where laws and the numbers of materials come from."""
     rows = [(f"material of {label}", body.name, "", "", "; ".join(filter(None, (*texts, standing))))
             for label, body in alike(bodies_of(contact))
@@ -259,7 +253,7 @@ def _source_grid(contact: Contact) -> Grid:
             "",
             law.citation + (f", doi:{law.doi}" if law.doi else ""),
         )
-        for what, law, chosen in laws_of(contact)
+        for what, law, chosen in laws_of(contact, stated)
     ]
     return Grid(("of", "name", "", "", "source"), rows)
 

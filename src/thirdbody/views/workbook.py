@@ -16,7 +16,7 @@ from decimal import ROUND_HALF_UP, Decimal
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..quantities.files import with_units
-from ..quantities.say import number
+from ..quantities.say import Least, number
 from .columns import Cell
 
 if TYPE_CHECKING:
@@ -90,15 +90,20 @@ def cell_of(value: Any) -> Cell | str | None:
 def cell_of_words(text: str) -> tuple[Cell | str, str]:
     """Number and unit of a printed value; other words as they are, without a unit.
 
+    >>> from thirdbody.quantities.say import percent
     >>> cell_of_words("226.4 nm"), cell_of_words("12.5 %"), cell_of_words("mixed")
     ((Cell(value=226.4, text='226.4'), 'nm'), (Cell(value=0.125, text='12.5 %'), ''), ('mixed', ''))
+    >>> cell_of_words(percent(4e-8, least=1e-6))
+    (Cell(value=4e-08, text='< 0.0001 %'), '')
     """
+    if isinstance(text, Least):
+        return Cell(text.value, str(text)), ""
     found = PRINTED.match(text)
     if found is None:
         return text, ""
     plain = found[0].removesuffix(" %").replace("−", "-").replace("×10", "e")
-    value = float(plain.translate(DIGITS))
-    return Cell(value / 100 if found[4] else value, found[0]), text[found.end() :].strip()
+    value = Decimal(plain.translate(DIGITS)).scaleb(-2 if found[4] else 0)
+    return Cell(float(value), found[0]), text[found.end() :].strip()
 
 
 def sheet_of_table(

@@ -54,7 +54,8 @@ def test_R0_of_one_is_the_edge_of_growth(factor):
 @pytest.mark.parametrize(
     ("R0", "words"),
     [(0.0, "makes no new debris"), (7e-5, "does not feed itself"), (0.93, "hardness and sizes"),
-     (1.2, "without end"), (math.nan, "never removed")],
+     (1.2, "without end"), (0.998, "breeds about 1 other before it is removed (R₀), about as many"),
+     (1.004, "about as many as are removed: at these rates wear feeds itself"), (math.nan, "never removed")],
 )  # fmt: skip
 def test_what_R0_means_in_words(R0, words):
     assert words in describe_reproduction(R0)

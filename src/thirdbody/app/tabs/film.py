@@ -96,9 +96,10 @@ def oil_of(answer: Answer, fine: str) -> Oil | None:
     oil = dirty_oil(answer.study)
     if oil is None:
         return None
-    if not fine:
+    if not fine and answer.study.filter is None:
         return Oil(oil_words.answer(oil), tuple(oil_words.HEADS), oil_words.rows(oil))
-    filtered = dirty_oil(answer.study, filter=read_filter(fine))
+    filter = read_filter(fine) if fine else answer.study.filter
+    filtered = dirty_oil(answer.study, filter=filter)
     assert filtered is not None
     sentences = [oil_words.filter_answer(oil, filtered), *oil_words.answer(oil)]
     return Oil(sentences, ("", "before", "after the filter"), oil_words.filter_rows(oil, filtered))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...errors import InvalidValue, Mistake
@@ -57,13 +57,14 @@ def command(options: Options) -> None:
         )
     need_places([(options.html, "page")], force=options.force)
     answer = assess_study(asked, progress=True)
+    shown = replace(answer, title=asked.heading) if asked.settings else answer
     if options.html is not None:
-        write_text(options.html, page(answer))
+        write_text(options.html, page(shown))
         tell_written(options.html)
     if options.as_json:
         print_json(answer.to_dict())
     else:
-        terminal().print(answer.page("--json or --html FILE has all of it"))
+        terminal().print(shown.page("--json or --html FILE has all of it"))
 
 
 def _assess_life(options: Options) -> None:
@@ -84,6 +85,7 @@ def _assess_life(options: Options) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=words.answer(found),
         heads=words.HEADS,
         rows=words.rows(found),

@@ -114,7 +114,7 @@ def command(options: Options) -> None:
         written = save(found.dataset(), options.out, at=index, force=options.force)
     files.write(*found.flat(), sheets=partial(_sheets, asked, found, index))
     written += files.paths
-    _show_comparison(asked.title, found, index)
+    _show_comparison(asked.heading if asked.settings else asked.title, found, index)
     tell_written(*written)
 
 
@@ -159,7 +159,7 @@ def _sheets(asked: Study, found: Comparison, index: int) -> list[Sheet]:
 
     heads, rows, notes = _table(found, index)
     told = [f"{i + 1} {text}" for i, text in enumerate(notes)]
-    title = f"{asked.title or 'Study'}: {_at_load(found, index)}"
+    title = f"{asked.heading}: {_at_load(found, index)}"
     columns, units = found.flat()
     meanings = {name: COLUMNS[name].meaning for name in columns if name in COLUMNS}
     return question_sheets(

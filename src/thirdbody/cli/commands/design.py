@@ -98,6 +98,7 @@ def _choose_for_oil(options: Options) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=words.answer(found),
         heads=words.heads(found),
         rows=words.rows(found),
@@ -111,11 +112,12 @@ def _sheets(
 ) -> list[Sheet]:
     from ...contact.citations import cite
     from ...contact.evaluation import bodies_of
+    from ...study.toml import heading_of
     from ...views.question_sheets import inputs_of, question_sheets
 
     said = _Words(asked, best)
     return question_sheets(
-        asked.title or "design",
+        heading_of(asked.title or "design", asked.settings),
         said.answer(),
         said.chosen(),
         [f"limits in force: {said.limits('; '.join(best.active)) or 'none'}"],
@@ -129,9 +131,10 @@ def _sheets(
 
 def _page(asked: Study, best: Best) -> None:
     from ...analysis.design.design import FLAT
+    from ...study.toml import heading_of
 
     out = terminal()
-    out.print(asked.title or "design")
+    out.print(heading_of(asked.title or "design", asked.settings))
     said = _Words(asked, best)
     for sentence in said.answer():
         out.print(sentence)

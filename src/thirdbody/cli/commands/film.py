@@ -29,6 +29,7 @@ from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, 
 if TYPE_CHECKING:
     from ...study import FilmResult
     from ...study.dirty_oil import DirtyOil
+    from ...study.oil_columns import OilColumn
     from ...study.oil_what_ifs import OilWhatIf
     from ...views.workbook import Grid, Sheet
 
@@ -78,6 +79,7 @@ def command(options: Options) -> None:
     asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
     if fine is not None:
         need_particles(asked)
+    fine = fine or asked.filter
     files.need(options.figure, force=options.force)
     if options.figure is not None:
         figure_format(options.figure)  # refused before long work
@@ -90,11 +92,11 @@ def command(options: Options) -> None:
     found = _Found(result, oil, filtered, what_ifs)
     drawn = None
     if options.figure is not None:
-        from ...views.study_sheets import draw_film
+        from ...views.film_figure import draw_film
 
         drawn = draw_film(result)
     files.write(
-        *result.table(),
+        *found.table(),
         sheets=partial(_sheets, found),
         data=partial(_data, found),
     )
@@ -121,6 +123,21 @@ class _Found(NamedTuple):
             return film_words.answer(self.result)
         first = [] if self.filtered is None else [oil_words.filter_answer(self.oil, self.filtered)]
         return [*first, *oil_words.answer(self.oil)]
+
+    def oil_columns(self) -> list[OilColumn]:
+        """What the oil does, beside the columns of the film."""
+        from ...study.oil_columns import columns_of_oil
+
+        speeds = self.result.states["speed"].tolist()
+        behind = columns_of_oil(self.filtered, speeds, before="oil_filtered: ")
+        return [*columns_of_oil(self.oil, speeds), *behind]
+
+    def table(self) -> tuple[dict[str, Any], dict[str, str]]:
+        """Columns, a row a speed, and their units."""
+        columns, units = self.result.table()
+        for each in self.oil_columns():
+            columns[each.name], units[each.name] = list(each.values), each.unit
+        return columns, units
 
     def oil_table(self) -> tuple[Sequence[str], list[list[str]]]:
         """Heads and rows of the populations, before and after a filter where there is one."""
@@ -169,7 +186,9 @@ def _sheets(found: _Found) -> list[Sheet]:
             bearing_words.sharing(study),
             grid_of_words(bearing_words.HEADS, bearing_words.rows(study)),
         ]
-    return film_sheets(found.result, [*told, bodies(found.result), *found.rest()])
+    told += [bodies(found.result), *found.rest()]
+    meanings = {each.name: each.meaning for each in found.oil_columns()}
+    return film_sheets(found.result, told, found.table(), meanings)
 
 
 def _show(found: _Found) -> None:
@@ -178,7 +197,7 @@ def _show(found: _Found) -> None:
     from ...views.oil_words import uncertainty
 
     console, result = terminal(), found.result
-    console.print(f"{result.title} (thirdbody {__version__})")
+    console.print(f"{result.heading} (thirdbody {__version__})")
     for sentence in found.answer():
         console.print(sentence)
     if found.oil is not None:

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 __all__ = ["command", "warn_of"]
 
-FILM_TABLES = "[surfaces], [roughness] and [film]"
-"""What dents are counted with."""
+FILM_TABLES = ("surfaces", "roughness", "film")
+"""Tables with which dents are counted."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +45,7 @@ class Options:
     reports: Path | None = option(
         "--reports",
         "Print what enters the oil, from a file with the head time [h],iso4406 and two or more "
-        "lines, e.g. 500,18/16/13.",
+        "lines, e.g. 500,18/16/13; or with counts, time [h],4 um [1/mL],6 um [1/mL],14 um [1/mL].",
         "OIL.csv",
     )
     flow_for: str | None = option(
@@ -86,6 +86,7 @@ def _tell_history(options: Options) -> None:
     """The history of the oil, or of the dry contact."""
     from ...errors import InvalidValue
     from ...populations.measured.cleanliness import read_iso4406
+    from ...quantities.say import join_words
     from ...study.dirty_oil import read_filter
     from ...study.life_dry import AskedDry
     from ...study.run_dry import DryResult
@@ -111,8 +112,11 @@ def _tell_history(options: Options) -> None:
         if fine is not None:
             raise InvalidValue("--filter is of an oil; [life.dry] has none")
     elif fine is not None and (asked.rolling is None or not asked.circuit.filters):
-        lacks = "[[life.filters]]" if asked.rolling is not None else FILM_TABLES
-        raise InvalidValue(f"--filter asks for dents with another filter; the study has no {lacks}")
+        lacks = _missing(options) if asked.rolling is None else []
+        lacks += [] if asked.circuit.filters else ["[[life.filters]]"]
+        raise InvalidValue(
+            f"--filter asks for dents with another filter; the study lacks {join_words(lacks)}"
+        )
     bands = bool(asked.uncertainty)
     contact = isinstance(asked, AskedDry) or asked.contact is not None
     if options.keep is not None and not (bands or contact):
@@ -130,6 +134,7 @@ def _tell_history(options: Options) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=[*words.answer(found), *sized],
         heads=words.HEADS,
         rows=words.rows(found),
@@ -140,6 +145,14 @@ def _tell_history(options: Options) -> None:
         draw=partial(_draw, found.history),
         figure=options.figure,
     )
+
+
+def _missing(options: Options) -> list[str]:
+    """Tables that the study lacks for dents."""
+    from ...study.toml import override, read
+
+    data = override(read(options.study), options.settings or [])
+    return [f"[{name}]" for name in FILM_TABLES if name not in data]
 
 
 def _draw(history: Histories) -> Figure:
@@ -163,6 +176,7 @@ def _tell_reports(options: Options, reports: Path) -> None:
     give_answer(
         found,
         files,
+        settings=options.settings,
         answer=report_answer(found.reports),
         heads=REPORT_HEADS,
         rows=report_rows(found.reports),

@@ -64,6 +64,7 @@ def command(
     give_answer(
         found,
         files,
+        settings=settings,
         answer=answer(found),
         heads=heads(found),
         rows=rows(found),

@@ -59,6 +59,7 @@ def command(
     give_answer(
         found,
         files,
+        settings=settings,
         answer=answer(found),
         heads=HEADS,
         rows=rows(found),

@@ -46,10 +46,13 @@ def command(
     """
     from ...quantities.files import read_bytes
     from ...quantities.progress import stages
-    from ...quantities.units import say
     from ...study.dirty_oil import need_particles, read_filter
+    from ...study.toml import heading_of
+    from ...study.toml_text import text_with
+    from ...study.toml_text import written as in_toml
     from ...views.pdf import need_browser, pdf_of
     from ...views.report import PARTS, report
+    from ...views.report.page import UNTITLED
     from ..own_files import need_places
 
     fine = None if filter_text is None else read_filter(filter_text)
@@ -57,14 +60,18 @@ def command(
     asked = read_study(study, settings, writes=[target, pdf_file])
     if fine is not None:
         need_particles(asked)
+    fine = fine or asked.filter
     need_places([(target, "page"), (pdf_file, "PDF")], force=force)
     if pdf_file is not None:
         need_browser()  # refused before long work
     text = read_bytes(study, "a study file").decode("utf-8-sig")
-    given = "".join(f"# --set {setting}\n" for setting in settings or ())
-    given += "" if filter_text is None else f"# --filter {say(filter_text)}\n"
+    over = [*(settings or ())]
+    if over:  # the head tells what was set
+        over.append(f"title={in_toml(heading_of(asked.title or UNTITLED, asked.settings))}")
+    if filter_text is not None:
+        over.append(f"film.filter={in_toml(filter_text)}")
     with stages("report", len(PARTS)) as progress:
-        file = f"{text.rstrip()}\n\n{given}".rstrip() + "\n"
+        file = text_with(text, over).rstrip() + "\n"
         found = report(asked, file=file, progress=progress, filter=fine)
         progress(PARTS[-1])
         page = found.html()

@@ -120,7 +120,7 @@ def _show(result: StudyResult) -> None:
 
     console = terminal()
     states, contact = result.states, result.study.contact
-    console.print(f"{result.title} (thirdbody {__version__})")
+    console.print(f"{result.heading} (thirdbody {__version__})")
     for sentence in answer(result):
         console.print(sentence)
 

@@ -29,6 +29,7 @@ from ...populations.materials import reduced_modulus
 from ...populations.particles import Particles
 from ...populations.shape import Sphere
 from . import fields as f
+from .grounds import Grounds, check_grounded, mean_diameters
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -277,20 +278,33 @@ class Numbers:
                 self._add_asperities(self.skins[:, k], ratio, radius, share)
         bare = contact.two_body and "particles.areal_density" not in arrays
         found = [] if bare else self._populations()
-        if found and self.skins[0, 0, f.CODE] == f.FIELD:
-            raise NotCompiled("the ground of particles on a field of heights is a table of its own")
+        grounded = bool(found) and self.skins[0, 0, f.CODE] == f.FIELD
+        if grounded:
+            check_grounded(contact, arrays, found)
         self.inside = np.zeros((1, 1))
         """What particles that break have inside, if any do."""
         self.centre = 0.0
         """Mean asperity height over the datum of d [m]."""
         if found:
             self.centre = found[0][3].centre * self.varied.roughness.sigma
-            self.origin = self.centre
+            self.origin = self.origin + self.centre if grounded else self.centre
         self.parts = np.zeros((count, len(found), f.OF_PARTICLES))
         self.bodies = np.zeros((count, 2 * len(found), f.OF_SIDE))
         self.last: Any = None
         for p, each in enumerate(found):
             self._add_particles(p, *each)
+        self.ground: Grounds | None = None
+        """Of particles on one field of heights."""
+        if grounded:
+            self._add_ground(found[0], arrays)
+
+    def _add_ground(self, found: Any, arrays: Mapping[str, Array]) -> None:
+        one, changed, law, varied = found[:4]
+        rough = self.varied.roughness
+        diameter = mean_diameters(one.diameter, changed.diameter, arrays, self.parts[:, 0])
+        self.ground = Grounds(
+            self.skins, self.parts, rough.alpha, varied, rough, diameter, law.centre
+        )
 
     def _add_asperities(
         self, rows: Array, ratio: float | None, radius: float, share: float

@@ -16,6 +16,7 @@ from ..load_scan import RESIDUAL
 from ..status import Status
 from . import fields as f
 from .columns import Numbers, rules
+from .grounds import Grounds
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -87,8 +88,6 @@ def solve(
     numbers: Numbers, target: Array | None, given: Array, threads: int = 1
 ) -> tuple[Array, Any, Any, Array, Array]:
     """Separations [σ_s], evaluations, fates, errors and columns of states."""
-    from .balance import solve_own
-
     count = numbers.count
     h = np.array(given)
     # an array of its own: one that may not be written to would be compiled for anew
@@ -99,10 +98,16 @@ def solve(
 
     def solve_from(start: int) -> None:
         here = slice(start, start + AT_ONCE)
+        found = goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]
+        if numbers.ground is not None:
+            solve_on_ground(numbers, numbers.ground, here, rule, found)
+            return
+        from .balance import solve_own
+
         solve_own(
             *(numbers.skins[here], numbers.parts[here], numbers.bodies[here], rule),
             *(numbers.inside, numbers.coating),
-            *(goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]),
+            *found,
         )
 
     starts = range(0, count, AT_ONCE)
@@ -114,3 +119,18 @@ def solve(
         for start in starts:
             solve_from(start)
     return h, evaluations, fate, error, rows
+
+
+def solve_on_ground(
+    numbers: Numbers, ground: Grounds, here: slice, rule: Array, found: tuple[Any, ...]
+) -> None:
+    """Solve states of particles on one field of heights, into what is to be found."""
+    from .grounded import SPLINES, solve_grounded
+
+    known = ground.displacements
+    solve_grounded(
+        *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
+        *(ground.numbers[here], known.series, known.which[here], known.basis[here]),
+        *(SPLINES, rule),
+        *found,
+    )

@@ -270,13 +270,20 @@ def tension(particle: OneParticle, nu: float, confinement: str) -> Tension:
     return Tension(particle, nu, confinement)
 
 
-def breaks(particle: OneParticle, material: Material, *, x: float, squeeze: float) -> bool:
+def breaks(
+    particle: OneParticle,
+    material: Material,
+    *,
+    x: float,
+    squeeze: float,
+    strength: WeibullStrength | None = None,
+) -> bool:
     """Whether most particles of this diameter [m] have broken at a squeeze δ/x on their way there.
 
-    Of a material that has no strength none has.
+    Without a strength of their own they have that of their material; of one that has none none has.
     """
     try:
-        strength = WeibullStrength.of(material)
+        strength = strength or WeibullStrength.of(material)
     except InvalidValue:
         return False
     met = tension(particle, material.nu, strength.confinement).greatest_so_far(np.array([squeeze]))

@@ -67,7 +67,8 @@ class Summary(engine.Summary):
             for one in row.statements:
                 verdict = verdicts[one.claim.id]
                 value = verdict.band.text if verdict.band else "–"
-                out.append(f"    {verdict.word:<16}{one.claim.quantity}: {value}")
+                limits = f"; allowed {one.claim.allowed}" if one.claim.rule else ""
+                out.append(f"    {verdict.word:<16}{one.claim.quantity}: {value}{limits}")
         return out
 
     def pictures(self) -> list[Callable[[], Picture]]:

@@ -49,6 +49,8 @@ def describe_reproduction(R0: float, *, why: str = "") -> str:
     'one particle of debris breeds 7×10⁻⁵ others before it'
     >>> describe_reproduction(0.0, why="there is none")
     'debris makes no new debris (R₀ = 0): there is none'
+    >>> describe_reproduction(0.998)[:93]
+    'one particle of debris breeds about 1 other before it is removed (R₀), about as many as are r'
     """
     if math.isnan(R0):
         why = why or "some particles are never removed"
@@ -56,7 +58,10 @@ def describe_reproduction(R0: float, *, why: str = "") -> str:
     if R0 == 0:
         why = why or "it does not wear the surfaces"
         return f"debris makes no new debris (R₀ = 0): {why}"
-    breeds = f"one particle of debris breeds {number(R0, 2)} others before it is removed (R₀)"
+    near = float(f"{R0:.2g}") == 1.0
+    others = "about 1 other" if near else f"{number(R0, 2)} others"
+    breeds = f"one particle of debris breeds {others} before it is removed (R₀)"
+    breeds += ", about as many as are removed" if near else ""
     if R0 >= 1:
         return f"{breeds}: at these rates wear feeds itself without end"
     if R0 > MATTERS:

@@ -15,6 +15,7 @@ from .style import OKABE_ITO
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
     from ...systems.life.contact_history import DryHistory
 
@@ -50,8 +51,8 @@ def draw_history(axes: Axes, history: LifeHistory) -> None:
     for (name, colour), numbers, exact, dash in styles:
         axes.plot(hours, exact, color=OKABE_ITO[colour], lw=0.6, alpha=0.6)
         axes.step(hours, numbers, dash, where="post", color=OKABE_ITO[colour], label=f"from {name}")
-    for event in history.events:
-        axes.axvline(max(event.time / HOUR, hours[0]), color="0.8", lw=0.8, zorder=0)
+    axes.plot([], [], color="0.5", lw=0.6, label="counts")
+    _mark_events(axes, history)
     axes.set(xlabel="Time [h]", ylabel="ISO 4406 number", xscale="log")
     axes.set_ylim(max(axes.get_ylim()[0], -1.0), None)
     axes.yaxis.set_major_locator(MaxNLocator(integer=True))
@@ -78,8 +79,7 @@ def draw_contact(axes: Axes, history: DryHistory) -> None:
             hours, np.where(depth > 0, depth, np.nan), DASHES[side - 1], color=OKABE_ITO[colour],
             label=f"surface {side}",
         )  # fmt: skip
-    for event in history.events:
-        axes.axvline(max(event.time / HOUR, hours[0]), color="0.8", lw=0.8, zorder=0)
+    events = _mark_events(axes, history)
     axes.set(xlabel="Time [h]", ylabel="Wear depth [µm]", xscale="log", yscale="log")
     particles = axes.twinx()
     per_area = history.numbers.sum(axis=(1, 2)) / 1e6
@@ -88,8 +88,20 @@ def draw_contact(axes: Axes, history: DryHistory) -> None:
     )
     particles.set(yscale="log", ylabel="Particles per mm²")
     axes.margins(x=0)
-    handles = [*axes.get_lines()[:2], *particles.get_lines()]
+    handles = [*axes.get_lines()[:2], *particles.get_lines(), *events[:1]]
     axes.legend(handles=handles, frameon=False, loc="lower right")
+
+
+def _mark_events(axes: Axes, history: Histories) -> list[Line2D]:
+    """Lines at the events of a history; the first of them stands in the legend."""
+    first = _hours(history)[0]
+    return [
+        axes.axvline(
+            max(event.time / HOUR, first), color="0.6", ls=":", lw=0.9, zorder=0,
+            label="_" if i else "events",
+        )
+        for i, event in enumerate(history.events)
+    ]  # fmt: skip
 
 
 def _hours(history: Histories) -> Any:

@@ -157,6 +157,11 @@ def _axes(ax: Axes | None, size: tuple[float, float] = (4.6, 3.4)) -> Axes:
     return Figure(figsize=size, dpi=150, layout="constrained").add_subplot()
 
 
+LEAST_NUMBERS, SPARSE, DENSE = 3, 1.5, 0.4
+"""Numbers that a logarithmic axis has at least; decades beyond which two powers of ten are enough,
+and below which all numbers have room."""
+
+
 class PlainPowers(LogFormatterSciNotation):
     """Powers of ten in plain letters, 10⁻⁵: drawn far quicker than as formulas."""
 
@@ -167,14 +172,27 @@ class PlainPowers(LogFormatterSciNotation):
 
 
 class FewPowers(PlainPowers):
-    """Numbers between powers of ten: of many only 2 and 5, so that they stand apart."""
+    """Numbers between powers of ten, so many that an axis has three, and that they stand apart.
+
+    None where two powers of ten stand on more than one and a half decades; else 2 and 5, or, where
+    these are too few, more of them.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(labelOnlyBase=False, minor_thresholds=(math.inf, math.inf))
 
     def __call__(self, x: float, pos: int | None = None) -> str:
         low, high = sorted(self.axis.get_view_interval())  # type: ignore[union-attr]
-        powers = _powers(low, high)
-        leads = {lead for lead in (2, 5) for power in powers if low <= lead * power <= high}
-        lead = round(x / 10.0 ** math.floor(math.log10(x) + 1e-9)) if x > 0 else 0
-        return super().__call__(x, pos) if not leads or lead in leads else ""
+        if not 0 < low < high < math.inf or x <= 0:
+            return super().__call__(x, pos)
+        decades, powers = math.log10(high / low), _powers(low, high)
+        if decades > SPARSE and sum(low <= power <= high for power in powers) > 1:
+            return ""
+        usual = [lead * p for p in powers for lead in (1, 2, 5) if low <= lead * p <= high]
+        leads = (2, 5) if len(usual) >= LEAST_NUMBERS else (2, 3, 4, 6)
+        lead = x / 10.0 ** math.floor(math.log10(x) + 1e-9)
+        near = any(math.isclose(lead, each, rel_tol=1e-6) for each in leads)
+        return super().__call__(x, pos) if near or decades < DENSE else ""
 
 
 def _powers(low: float, high: float) -> list[float]:
@@ -188,7 +206,7 @@ def _powers(low: float, high: float) -> list[float]:
 def plain_powers(axis: Axis) -> None:
     """The numbers of a logarithmic axis in plain letters."""
     axis.set_major_formatter(PlainPowers())
-    axis.set_minor_formatter(FewPowers(labelOnlyBase=False))
+    axis.set_minor_formatter(FewPowers())
 
 
 def _dress(ax: Axes, x: str, y: str, *, xlog: bool = True, ylog: bool = False) -> Axes:

@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
-from matplotlib.ticker import EngFormatter, PercentFormatter
+from matplotlib.ticker import EngFormatter, FuncFormatter, PercentFormatter
 
 from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
-from ...quantities.say import percent, value_of
+from ...quantities.say import number, percent, value_of
 from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ...analysis.uncertainty.propagation import Propagation
 
 __all__ = ["bands", "tornado"]
+
+BESIDE = 1.2
+"""Factor of the load that a marked one keeps off the ends of the axis."""
+FAINT = 0.01
+"""Share below which a linear axis to 100 % would show nothing but zero."""
 
 
 # ------------------------------------------------------------------ uncertain inputs
@@ -102,16 +110,30 @@ def bands(
         ax.plot(x, band[:, middle], color=OKABE_ITO["blue"], linewidth=1.6, label=name)
     ax.plot(x, data.nominal[of], color="black", linewidth=1.1, linestyle="--", label="nominal")
     share = of.endswith("_share")
-    _dress(ax, data.load, of, xlog=data.load != "d", ylog=not share and bool(np.all(band > 0)))
-    if share:
+    positive = bool(np.all(band > 0))
+    faint = share and _is_faint(band)
+    ylog = faint or (positive and not share)
+    _dress(ax, data.load, of, xlog=data.load != "d", ylog=ylog)
+    if faint:
+        ax.yaxis.set_major_formatter(FuncFormatter(lambda value, place: number(100 * value, 2)))
+    elif share:
         _share_axis(ax)
     if of not in AXIS_LABELS:
         ax.set_ylabel(_output_label(of))
-    ax.set_xlim(x.min(), x.max())
+    low, high = x.min(), x.max()
+    if mark is not None and data.load != "d" and low <= mark <= high:
+        low, high = min(low, mark / BESIDE), max(high, mark * BESIDE)
+    ax.set_xlim(low, high)
     if mark is not None:
         ax.axvline(mark, color="0.25", linewidth=1.0, linestyle=":", label="this load")
     ax.legend(fontsize="small", frameon=False)
     return ax
+
+
+def _is_faint(band: NDArray[Any]) -> bool:
+    """Whether shares that are known are all above 0, and too small for a linear axis."""
+    known = band[np.isfinite(band)]
+    return bool(known.size and np.all(known > 0) and known.max() < FAINT)
 
 
 @takes_units
@@ -173,7 +195,8 @@ def tornado(
             f"plot.tornado: {of!r} does not exist for the contact itself", code=Mistake.BEYOND
         )
     log = bool(known.min() > 0 and known.max() > 3 * known.min())
-    ax = _axes(ax, (5.4, 1.3 + 0.36 * len(rows)))
+    own = ax is None
+    ax = _axes(ax, (5.8, 1.3 + 0.4 * len(rows)))
     for row, (label, changed) in enumerate(rows.items()):
         _bar(ax, row, changed, middle, _ends_of_input(data, label))
     ax.axvline(middle, color="black", linewidth=1.0)
@@ -184,7 +207,8 @@ def tornado(
     elif of in ("d", "h"):
         ax.xaxis.set_major_formatter(EngFormatter("m"))
         ax.set_xlabel(ax.get_xlabel().removesuffix(" [m]"))
-    ax.set_yticks(range(len(rows)), [_input_label(data, label) for label in rows])
+    labels = [fill(_input_label(data, label), LABEL) for label in rows]
+    ax.set_yticks(range(len(rows)), labels, fontsize="small", linespacing=1.0)
     ax.tick_params(axis="y", length=0)
     ax.grid(visible=False, axis="y")
     ax.set_ylim(len(rows) - 0.4, -0.6)
@@ -197,7 +221,14 @@ def tornado(
         Patch(facecolor=colour, edgecolor="white", hatch=hatch, label=name)
         for name, colour, hatch in _ends()
     ]
-    _legend_above(ax, handles, ncols=2)
+    if own:  # over the whole figure: long labels leave little width to the axes
+        drawn = ax.get_figure()
+        assert drawn is not None
+        drawn.legend(
+            handles=handles, ncols=2, fontsize="small", frameon=False, loc="outside upper center"
+        )
+    else:
+        _legend_above(ax, handles, ncols=2)
     return ax
 
 
@@ -247,6 +278,8 @@ def _bar(
         )
 
 
+LABEL = 26
+"""Characters of a line of the label of a bar."""
 ROOM = 0.45
 """Width beside the longest bars of a tornado, over theirs."""
 OUTPUT_LABELS = {
@@ -263,6 +296,8 @@ BODIES = {
     "surfaces.second": "surface 2",
     "particles.material": "particles",
 }
+LETTERS = {"E": "$E$", "nu": r"$\nu$", "H": "$H$"}
+"""Numbers of a body that are called by their letter."""
 
 
 def _output_label(of: str) -> str:
@@ -278,13 +313,11 @@ def _input_label(data: Propagation, label: str) -> str:
 
     names = [name.strip() for name in label.split("+")]
     sides = {name.rpartition(".")[0]: name.rpartition(".")[2] for name in names}
-    if set(sides) <= set(BODIES):
+    if set(sides) <= set(BODIES) and set(sides.values()) <= set(LETTERS):
         bodies = "both surfaces"
         if set(sides) != {"surfaces.first", "surfaces.second"}:
             bodies = " + ".join(BODIES[side] for side in sides)
-        letter = next(iter(sides.values()))
-        symbol = {"E": "$E$", "nu": r"$\nu$", "H": "$H$"}.get(letter, letter)
-        return f"{symbol} of {bodies}"
+        return f"{LETTERS[next(iter(sides.values()))]} of {bodies}"
     loads = {"pressure": "pressure", "F_star": "load $F^*$", "d": "separation $d$"}
     if label in loads:
         return loads[label]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from ...analysis.assessment import Assessment
 from ...analysis.sensitivity import Sensitivity
@@ -14,6 +15,7 @@ from ...equilibrium.words import load_of
 from ...populations.materials import Material
 from ...study import FilmResult, Study, StudyResult
 from ...study.dirty_oil import DirtyOil
+from ...study.oil_what_ifs import OilWhatIf, what_ifs_of_oil
 from ...study.one_surface import OneSurface
 from ...study.run_connector import ConnectorResult
 from ...study.run_dry import DryResult
@@ -44,6 +46,16 @@ class Found:
     def contact(self) -> Contact:
         """The interface."""
         return self.study.contact
+
+    @cached_property
+    def oil_what_ifs(self) -> tuple[OilWhatIf, ...]:
+        """What dents and life in the oil hang on."""
+        return () if self.oil is None else what_ifs_of_oil(self.study, self.oil)
+
+    @property
+    def dry(self) -> str:
+        """What heads of parts that leave the oil out say of it."""
+        return "" if self.film is None else ", without the oil"
 
     def load(self, i: int) -> str:
         """The load of a state, in words."""

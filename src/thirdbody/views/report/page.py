@@ -16,7 +16,7 @@ from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
 from ...quantities.say import join_words, signed, value_of
-from ...study.oil_what_ifs import what_ifs_of_oil
+from ...study.toml import heading_of
 from ...version import __version__
 from .. import connector_words, nature_words, oil_words, plate_words, state_words
 from ..assess_page import pictures as pictures_of
@@ -26,6 +26,7 @@ from .found import Found
 from .sentences import answer_sentences, ranked_inputs, strongest_inputs
 from .sources import alike, inputs_and_sources, laws_and_reasons, works_cited
 from .tables import (
+    bearing_section,
     critical_section,
     explicit_section,
     film_section,
@@ -45,6 +46,8 @@ def most_samples(contact: Contact, vary: Iterable[str]) -> int:
     return LEAST if costly(contact, vary) else MOST_SAMPLES
 
 
+UNTITLED = "Contact of rough surfaces"
+"""Title of the page where a study has none."""
 STYLE = """
 .lead p{font-size:1.05rem;max-width:52rem}.warning{border-left:.25rem solid #D55E00;
 padding:.1rem .8rem;margin:.8rem 0}
@@ -100,6 +103,11 @@ class Report(Found):
         """The answer; where the study has a film, first what it says with the oil."""
         return answer_sentences(self)
 
+    @property
+    def heading(self) -> str:
+        """The title, and what was set over the file."""
+        return heading_of(self.study.title or UNTITLED, self.study.settings)
+
     @cached_property
     def lead(self) -> list[str]:
         """What the study asks, in a few sentences, and what moves it most."""
@@ -107,7 +115,7 @@ class Report(Found):
 
     def html(self) -> str:
         """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
-        title = self.study.title or "Contact of rough surfaces"
+        title = self.heading
         parts = [
             f"<header><h1>{escape(title)}</h1>",
             f"<p class=soft>Report of thirdbody {escape(__version__)}.</p></header>",
@@ -116,17 +124,18 @@ class Report(Found):
             ).replace("<section", "<section class=lead", 1),
             *question_sections(self),
             *oil_section(self),
+            *bearing_section(self),
             *life_section(self),
             section("In full", _in_full(self), name="in-full"),
             *_warnings(self),
             *film_section(self),
-            section("Figures", figures_of(self), name="figures"),
-            section("States", states_table(self), name="states"),
+            section(f"Figures{self.dry}", figures_of(self), name="figures"),
+            section(f"States{self.dry}", states_table(self), name="states"),
             *explicit_section(self),
             *critical_section(self),
             *outputs_section(self),
-            section("Error bars", _error_bars(self), name="errors"),
-            section("Which inputs matter", _slopes(self), name="inputs-that-matter"),
+            section(f"Error bars{self.dry}", _error_bars(self), name="errors"),
+            section(f"Which inputs matter{self.dry}", _slopes(self), name="inputs-that-matter"),
             section("Inputs and their sources", inputs_and_sources(self), name="inputs"),
             section("Which laws, and why", laws_and_reasons(self), name="laws"),
             section("To be cited", works_cited(self), name="citations"),
@@ -153,7 +162,7 @@ def _lead(report: Found) -> list[str]:
     before_after = []
     if report.oil_filtered is not None:
         before_after = [oil_words.filter_answer(report.oil, report.oil_filtered)]
-    last = oil_words.uncertainty(what_ifs_of_oil(report.study, report.oil))
+    last = oil_words.uncertainty(report.oil_what_ifs)
     return [*before_after, *oil_words.answer(report.oil), *last]
 
 
@@ -174,6 +183,22 @@ def _warnings(report: Found) -> list[str]:
 
 
 def _error_bars(report: Found) -> list[str]:
+    return [*_of_solids_alone(report), *_bars(report)]
+
+
+def _of_solids_alone(report: Found) -> list[str]:
+    """What error bars are of where the study has a film."""
+    if report.film is None:
+        return []
+    told = (
+        "These are of the solids alone, pressed together without the oil: how sure the film, its "
+        "dents and its life are, they do not say"
+    )
+    more = f", but the table “{oil_words.HANGS_ON}” does" if report.oil_what_ifs else ""
+    return [f"<p>{words(told + more)}.</p>"]
+
+
+def _bars(report: Found) -> list[str]:
     found = report.assessment
     if found is None:
         if not report.result.states.F_star[report.at] >= FAINT:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 from html import escape
 from typing import Any, NamedTuple
 
@@ -17,6 +17,10 @@ from ...laws.base import Law
 from ...populations.materials import NUMBERS, Material, materials
 from ...quantities.say import number, span, value_of
 from ...quantities.value import Value
+from ...study import FilmResult, Study
+from ...study.film import SPEED
+from ...study.load import FORCE
+from ...study.vocabulary import LOADS
 from ...version import __version__
 from ..html import breaking, symbols, table, words
 from .found import Found
@@ -62,19 +66,75 @@ def inputs_and_sources(report: Found) -> list[str]:
             "<span class=default>default</span>" if row.default else "study",
             breaking(escape(row.name)),
         ]
-        for row in rows_of(report.contact)
+        for row in _every_row(report)
     ]
     told = (
         "<p>“default” marks what the library takes where a study says nothing; everything "
-        "else is what this study says.</p>"
+        "else is what this study says, or follows from it.</p>"
     )
     columns = ["input", "symbol", "<th class=n>value</th>", "from", "name"]
     return [table(head, bodies), told, table(columns, rows)]
 
 
+def _every_row(report: Found) -> list[Row]:
+    """Rows of load, bodies, film and contact."""
+    study = report.study
+    rows = load_rows(study) if study.own_load else []
+    rows += [] if study.body is None else value_rows(study.body, "body.")
+    if report.film is not None:
+        rows += film_rows(report.film)
+    return as_stated([*rows, *rows_of(report.contact)], study.stated)
+
+
+def load_rows(study: Study) -> list[Row]:
+    """Rows of the loads of a study, or of the forces on its body."""
+    about, name, values = LOADS[study.load], study.load, study.values.tolist()
+    if study.forces is not None:
+        about, name, values = FORCE, "force", study.forces.tolist()
+    told = {about["meaning"]: values[0]}
+    if len(values) > 1:
+        which = (f"least of {len(values)}", "greatest")
+        told = {f"{about['meaning']}, {word}": value
+                for word, value in zip(which, (min(values), max(values)), strict=True)}  # fmt: skip
+    return [
+        Row(f"load.{name}", about["symbol"], value_of(value, about["unit"]), meaning, False,
+            float(value), about["unit"])
+        for meaning, value in told.items()
+    ]  # fmt: skip
+
+
+def film_rows(film: FilmResult) -> list[Row]:
+    """Rows of the film, its speeds first."""
+    about, speeds = SPEED, film.conditions.speed
+    text = value_of(speeds[0], about["unit"])
+    if len(speeds) > 1:
+        text = f"{len(speeds)} values, {span(min(speeds), max(speeds), about['unit'])}"
+    amount = float(speeds[0]) if len(speeds) == 1 else None
+    own = Row("film.speed", about["symbol"], text, about["meaning"], False, amount, about["unit"])
+    return [own, *value_rows(film.conditions, "film.")]
+
+
+def as_stated(rows: Iterable[Row], stated: Collection[str]) -> list[Row]:
+    """Rows whose value a file states, be it that of the library, are no defaults."""
+    return [row._replace(default=row.default and not is_stated(row.name, stated)) for row in rows]
+
+
+def is_stated(name: str, stated: Collection[str]) -> bool:
+    """Whether a file states an input, which it may call otherwise.
+
+    >>> is_stated("particles.0.diameter.mean", {"particles", "particles.mean"})
+    True
+    >>> is_stated("film.hertz", {"film", "film.speed"})
+    False
+    """
+    names = {name, name.replace(".diameter.", ".")}
+    names |= {each.replace("particles.0.", "particles.") for each in names}
+    return not names.isdisjoint(stated)
+
+
 def laws_and_reasons(report: Found) -> list[str]:
     rows = []
-    for what, law, asked in laws_of(report.contact):
+    for what, law, asked in laws_of(report.contact, report.study.stated):
         doi = f", doi:{law.doi}" if law.doi else ""
         rows.append(
             [
@@ -225,12 +285,12 @@ def _is_default(item: dataclasses.Field[Any], value: object) -> bool:
     return False
 
 
-def laws_of(contact: Contact) -> list[tuple[str, Law, bool]]:
-    """Role of each law, the law, and whether the study chose it."""
+def laws_of(contact: Contact, stated: Collection[str] = frozenset()) -> list[tuple[str, Law, bool]]:
+    """Role of each law, the law, and whether the study, which states these names, chose it."""
     fields = {item.name: item for item in dataclasses.fields(contact)}
 
     def is_chosen(name: str) -> bool:
-        return not _is_default(fields[name], getattr(contact, name))
+        return name in stated or not _is_default(fields[name], getattr(contact, name))
 
     out: list[tuple[str, Law, bool]] = [
         ("asperities", contact.asperity_law, is_chosen("asperity_law"))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from html import escape
 from typing import Any
+
+import numpy as np
 
 from ...equilibrium.columns import about
 from ...equilibrium.words import (
@@ -35,11 +37,14 @@ SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
 
 
 def _with_legend(
-    heads: Sequence[str], rows: list[list[str]], means: Mapping[str, str]
+    heads: Sequence[str],
+    rows: list[list[str]],
+    means: Mapping[str, str],
+    reads: Collection[str] = (),
 ) -> list[str]:
-    """A table with the meaning of its heads below (HTML)."""
+    """A table with the meaning of its heads below (HTML); columns ``reads`` are of words."""
     told = "; ".join(f"{head}: {means[head]}" for head in heads if head in means)
-    return [text_table(heads, rows), f"<p class=soft>{words(told)}.</p>"]
+    return [text_table(heads, rows, reads), f"<p class=soft>{words(told)}.</p>"]
 
 
 def states_table(report: Found) -> list[str]:
@@ -90,7 +95,7 @@ def critical_section(report: Found) -> list[str]:
         loads = (critical_load(entry.value, entry.status, E_ss) for E_ss in Es)
         rows.append([critical_name(name), *loads, entry.status, happens(name)])
     text = text_table(CRITICAL_HEADS, rows, CRITICAL_HEADS[3:])
-    return [section("Critical loads", [text], name="critical")]
+    return [section(f"Critical loads{report.dry}", [text], name="critical")]
 
 
 def outputs_section(report: Found) -> list[str]:
@@ -138,20 +143,37 @@ def question_sections(report: Found) -> list[str]:
 
 
 def oil_section(report: Found) -> list[str]:
-    """Section on the populations of the oil, before and after a filter."""
-    from .. import bearing_words, oil_words
+    """Section on the populations of the oil, before and after a filter, and what they hang on."""
+    from .. import oil_words
 
-    out = []
+    out: list[str] = []
     if report.oil is not None and report.oil_filtered is not None:
         rows = oil_words.filter_rows(report.oil, report.oil_filtered)
         out.append(text_table(("", "before", "after the filter"), rows))
     elif report.oil is not None:
         out += _with_legend(oil_words.HEADS, oil_words.rows(report.oil), oil_words.MEANS)
-    if bearing_words.shares_load(report.study):
-        out.append(f"<p>{words(bearing_words.sharing(report.study))}</p>")
-        rows = bearing_words.rows(report.study)
-        out += _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
+    if report.oil_what_ifs:
+        rows = oil_words.what_if_rows(report.oil_what_ifs)
+        out.append(f"<h3>{escape(oil_words.HANGS_ON)}</h3>")
+        heads = oil_words.WHAT_IF_HEADS
+        out += _with_legend(heads, rows, oil_words.WHAT_IF_MEANS, heads[1:2])
     return [section("What the oil carries", out, name="oil")] if out else []
+
+
+def bearing_section(report: Found) -> list[str]:
+    """Section on how the bodies of a bearing share its load; its dimensions are with the inputs."""
+    from .. import bearing_words
+
+    study = report.study
+    if not bearing_words.shares_load(study):
+        return []
+    rows = bearing_words.rows(study)
+    table_of = _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
+    lead = f"<p>{words(bearing_words.sharing(study))}</p>"
+    where = (
+        '<p class=soft>Its dimensions and its load are <a href="#inputs">with the inputs</a>.</p>'
+    )
+    return [section("The bearing", [lead, *table_of, where], name="bearing")]
 
 
 def life_section(report: Found) -> list[str]:
@@ -186,8 +208,8 @@ def film_section(report: Found) -> list[str]:
     """The lubricated contact: in words, over speed, and at a few speeds."""
     if report.film is None:
         return []
+    from ..film_figure import draw_film
     from ..film_words import bodies, point, summary
-    from ..plot.film import stribeck
 
     states, oil = report.film.states, report.film.conditions.oil
     total = len(states["speed"])
@@ -195,9 +217,12 @@ def film_section(report: Found) -> list[str]:
     pressed = "the load of the study" if report.study.own_load else "this Hertz pressure"
     lead += f"What follows after this section leaves the oil out, under {pressed}."
     out = [f"<p>{words(text)}</p>" for text in (lead, *summary(report.film))]
-    if total > 1:
-        drawn = svg_of(stribeck(states, report.film.regime_speeds))
-        caption = "Friction, load shares and film thickness over speed; grey: the regimes."
+    slow = any(each.strength is not None for each in report.contact.populations)
+    if total > 1 or not slow:  # around one speed dozens of others are solved
+        drawn = svg_of(draw_film(report.film))
+        friction = "Friction, load" if np.any(np.isfinite(states["mu"])) else "Load"
+        caption = f"{friction} shares and film thickness over speed; grey: the regimes."
+        caption += " Dotted: the speed of the study." if total == 1 else ""
         out.append(f'<div class="figures tall">{figure(drawn, caption)}</div>')
     which = some_of(total, MOST_COLUMNS)
     columns = [point(report.film, i) for i in which]

@@ -1,0 +1,597 @@
+"""States of one field of heights with particles on its ground: the balance of each, by itself."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numba import njit
+from scipy.interpolate import make_interp_spline
+
+from ...contact.field_ground import TINY as TINIEST
+from ...laws.field.table import COLUMNS as OF_SURFACE
+from ..compiled.cached import Cached
+from ..compiled.machine import apart
+from .curves import MOST_PANELS, PANEL, ROOM
+from .field import TERMS, add_field, lay_field
+from .fields import (
+    F_SA,
+    F_SS,
+    HEIGHTS_OF_TABLE,
+    NOT_MONOTONE,
+    NOT_RESOLVED,
+    OK,
+    POLYNOMIAL,
+    SHADE,
+    SIDE,
+    TOO_LONG,
+    UNSOLVED,
+)
+from .ground import (
+    A_CELL,
+    BETA,
+    CELLS,
+    COLUMNS,
+    DARK,
+    DENSE,
+    FIXED,
+    K_PP,
+    LEFT,
+    LOWEST,
+    MOST_CELLS,
+    OF_CELL,
+    OF_NODES,
+    PLACES,
+    ROWS,
+    SIGMA,
+    STEP,
+    TAUS,
+    UNIT,
+    UNKNOWNS,
+    WAVES,
+    U,
+    lay_gaps,
+    lay_surface,
+    round_of,
+    weigh_ground,
+)
+from .sides import scalar
+from .squeeze import lay_panels
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["SPLINES", "solve_grounded"]
+
+BESIDE = 22
+"""Rows beside a cell that decide what the spline is there: others change it by 1e-5 of what cells
+of the table leave out."""
+MOST_ROWS = 600
+NEGLIGIBLE, LOOSE, SURE, LOOSEST = 1e-8, 1e-5, 3e-12, 1e-6
+"""Of the load, from where on rows are solved; accuracy of u [σ] coming down, of rows beside the
+root, and of any that the spline needs."""
+AFTERWARDS = 30.0
+"""By how much the step after a round makes it better, at least: another round sees whether."""
+KEPT, ROUNDS, OLDER = 6, 40, 5
+"""Pairs of steps that are remembered, rounds at most, and rows from which others are guessed."""
+SAME = 1e-4
+"""Of a pair, what must be left beside the others."""
+BALANCED, STEPS = 4e-13, 60
+ASKED = 1e-9
+SAFE, FADES = 20.0, 0.43
+"""Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
+FEWER, PART = 3, 1.0
+"""So many rows less on either side say how much the others leave out: this part of the difference,
+at most, where each row fades to 0.43 (0.43³ is 0.08)."""
+SETTLED = 2e-10
+"""What the ground of tables is iterated to."""
+DONE, GUESSED, NONE = 2, 1, 0
+"""Of a row: solved, guessed roughly, or neither."""
+
+
+def _fill_splines() -> Array:
+    """Of quintic splines through rows below and above a cell: coefficients in the cell."""
+    out = np.zeros((BESIDE + 1, BESIDE + 1, TERMS, 2 * BESIDE + 2))
+    for below in range(BESIDE + 1):
+        for above in range(BESIDE + 1):
+            count = below + above + 2
+            if count < TERMS:
+                continue
+            whole = make_interp_spline(np.arange(float(count)), np.eye(count), k=TERMS - 1)
+            for k in range(TERMS):
+                power = TERMS - 1 - k
+                out[below, above, k, :count] = whole(float(below), power) / math.factorial(power)
+    return out
+
+
+SPLINES = _fill_splines()
+
+
+@scalar
+def _remember(pairs, memory, state, miss, old_state, old_miss):
+    """Note a pair of steps of the state and of what it misses."""
+    apart()
+    k, size = int(memory[0]) % KEPT, 0.0
+    for n in range(UNKNOWNS):
+        pairs[0, k, n], pairs[1, k, n] = state[n] - old_state[n], miss[n] - old_miss[n]
+        size += pairs[1, k, n] ** 2
+    if size > 0:
+        memory[0] += 1
+
+
+@scalar
+def _follow(pairs, memory, state, miss, turned):
+    """Take the step of a round, and what the steps before say of the rest (after Anderson)."""
+    apart()
+    count, used = int(memory[0]), 0
+    for back in range(min(count, KEPT)):
+        k = (count - 1 - back) % KEPT
+        size = 0.0
+        for n in range(UNKNOWNS):
+            turned[0, used, n], turned[1, used, n] = pairs[0, k, n], pairs[1, k, n]
+            size += pairs[1, k, n] ** 2
+        for _ in range(2):
+            for m in range(used):
+                part = 0.0
+                for n in range(UNKNOWNS):
+                    part += turned[1, m, n] * turned[1, used, n]
+                for n in range(UNKNOWNS):
+                    turned[0, used, n] -= part * turned[0, m, n]
+                    turned[1, used, n] -= part * turned[1, m, n]
+        left = 0.0
+        for n in range(UNKNOWNS):
+            left += turned[1, used, n] ** 2
+        if left <= SAME * SAME * size:
+            continue
+        over = 1 / math.sqrt(left)
+        for n in range(UNKNOWNS):
+            turned[0, used, n] *= over
+            turned[1, used, n] *= over
+        used += 1
+    for m in range(used):
+        turned[2, m, 0] = 0.0
+        for n in range(UNKNOWNS):
+            turned[2, m, 0] += turned[1, m, n] * miss[n]
+    for n in range(UNKNOWNS):
+        step = miss[n]
+        for m in range(used):
+            step -= turned[2, m, 0] * (turned[0, m, n] + turned[1, m, n])
+        state[n] += step
+
+
+@scalar
+def _solve_row(field, k, accuracy, whole, rows, work):
+    """Solve the ground of row k from what stands there; rounds, or −1 where it does not settle.
+
+    Its state and lift go into the rows and, if the whole is asked, its columns and what it misses.
+    """
+    apart()
+    own, kernels, skin, surface, cells, floor = field
+    states, lifts, columns, misses, lowest, done = rows
+    small, nodes, pairs, memory, turned, other = work
+    found, miss, old_state, old_miss = other[0], other[1], other[2], other[3]
+    h, state, close = own[LOWEST] + k * own[STEP], states[k], False
+    for n in range(ROUNDS):
+        full = whole and close
+        lifts[k], off, lowest[k] = round_of(
+            own, kernels, skin, surface, cells, floor, h, state, lowest[k], small, nodes, found,
+            columns[k], full,
+        )  # fmt: skip
+        size = 0.0
+        for m in range(UNKNOWNS):
+            miss[m] = found[m] - state[m]
+            if m < BETA:
+                size = max(size, abs(WAVES * kernels[K_PP + m] * miss[m]))
+        size = max(size, abs(miss[BETA]))
+        if size != size:
+            return -1
+        if n > 0:
+            _remember(pairs, memory, state, miss, old_state, old_miss)
+        if full and size <= accuracy:
+            misses[k], done[k] = max(size, off), DONE
+            return n + 1
+        for m in range(UNKNOWNS):
+            old_state[m], old_miss[m] = state[m], miss[m]
+        _follow(pairs, memory, state, miss, turned)
+        if not whole and size <= accuracy:
+            misses[k], done[k] = size, GUESSED
+            return n + 1
+        close = size <= AFTERWARDS * accuracy
+    return -1
+
+
+@scalar
+def _guess_row(k, way, rows, last):
+    """Put what the rows before, on one side, say of row k into it."""
+    apart()
+    states, _, _, _, lowest, done = rows
+    known, near = 0, k + way
+    while known < OLDER:
+        m = k + way * (known + 1)
+        if not 0 <= m <= last or done[m] == NONE or not states[m, 0] > 0:
+            break
+        known += 1
+    lowest[k] = math.nan
+    if known == 0:
+        for n in range(UNKNOWNS):
+            states[k, n] = 0.0
+        if 0 <= near <= last and done[near] != NONE:
+            for n in range(UNKNOWNS):
+                states[k, n] = states[near, n]
+        return
+    for n in range(UNKNOWNS):
+        states[k, n] = 0.0
+    low, part = 0.0, 1.0
+    for j in range(1, known + 1):
+        part *= -(known - j + 1) / j
+        m = k + way * j
+        states[k, 0] -= part * math.log(states[m, 0])
+        for n in range(1, UNKNOWNS):
+            states[k, n] -= part * states[m, n] / states[m, 0]
+        low -= part * lowest[m]
+    lowest[k] = low
+    states[k, 0] = math.exp(min(max(states[k, 0], -600.0), 100.0))
+    for n in range(1, UNKNOWNS):
+        states[k, n] *= states[k, 0]
+
+
+@scalar
+def _load_of(own, skin, held, h, w, load, shadow, out):
+    """Total load [Pa] at h with lift w, where particles carry a load and shade so much."""
+    apart()
+    if not add_field(skin, held, h + w, out):
+        return math.nan
+    if own[DARK] == 0:
+        shadow = own[FIXED]
+    return (1 - min(max(shadow, 0.0), 1.0)) * out[F_SS] + load
+
+
+@scalar
+def _plain_load(field, held, k, work, out):
+    """Load at row k on ground that does not give way: more than is carried there, or nearly."""
+    apart()
+    own, _, skin, _, cells, floor = field
+    h, u, other = own[LOWEST] + k * own[STEP], work[0][U], work[5]
+    for n in range(BETA):
+        u[n] = 0.0
+    weigh_ground(own, cells, floor, h, u, math.nan, work[1], other[0], other[4], False)
+    if not add_field(skin, held, h, out):
+        return math.inf
+    return out[F_SS] + other[0, 0] * own[UNIT]
+
+
+@scalar
+def _first_row(field, held, target, work, out):
+    """The row above which next to nothing of the target is carried, and how many were asked."""
+    apart()
+    low, high, count = 0, int(field[0][ROWS]) - 1, 0
+    while high - low > 1:
+        middle = (low + high) // 2
+        count += 1
+        if _plain_load(field, held, middle, work, out) > NEGLIGIBLE * target:
+            low = middle
+        else:
+            high = middle
+    return high, count
+
+
+@scalar
+def _come_down(field, held, k, target, h, rows, work, out):
+    """Solve rows roughly from row k down to the one that carries the target or lies below h.
+
+    That row, −1 without one; rounds; and the fate.
+    """
+    apart()
+    own, skin, states, lifts = field[0], field[2], rows[0], rows[1]
+    last, rounds, before = int(own[ROWS]) - 1, 0, 0.0
+    while k >= 0:
+        _guess_row(k, 1, rows, last)
+        n = _solve_row(field, k, LOOSE, False, rows, work)
+        if n < 0:
+            return -1, rounds, UNSOLVED
+        rounds += n
+        at = own[LOWEST] + k * own[STEP]
+        if target > 0:
+            load = _load_of(
+                own, skin, held, at, lifts[k], states[k, 0] * own[UNIT], states[k, BETA], out
+            )
+            if not load >= before * (1 - 1e-9):
+                return -1, rounds, NOT_MONOTONE if load == load else UNSOLVED
+            before = load
+            if load >= target:
+                return k, rounds, OK
+        elif at <= h:
+            return k, rounds, OK
+        k -= 1
+    return -1, rounds, UNSOLVED
+
+
+@scalar
+def _finish_rows(field, k, low, high, rows, work):
+    """Solve every row of a window as well as it counts in cell k; rounds, or −1."""
+    apart()
+    done, rounds, last = rows[5], 0, int(field[0][ROWS]) - 1
+    first = high
+    while first > low and done[first] == NONE:
+        first -= 1
+    for way in range(2):  # up from the rows that are known, then down
+        i = first + 1 if way == 0 else first
+        while low <= i <= high:
+            if done[i] == NONE:
+                _guess_row(i, -1 if way == 0 else 1, rows, last)
+            if done[i] != DONE:
+                accuracy = min(SURE * 2.0 ** max(k - i, i - k - 1), LOOSEST)
+                n = _solve_row(field, i, accuracy, True, rows, work)
+                if n < 0:
+                    return -1
+                rounds += n
+            i += 1 if way == 0 else -1
+    return rounds
+
+
+@scalar
+def _lay_cell(splines, k, low, high, last, rows, poly):
+    """Polynomials of the splines in cell k through rows from low to high, of particles to last.
+
+    False where too few rows carry anything.
+    """
+    apart()
+    lifts, columns = rows[1], rows[2]
+    if last < k + 1 or last - low + 1 < TERMS or high - low + 1 < TERMS:
+        return False
+    for j in range(TERMS):
+        for c in range(COLUMNS + 1):
+            poly[j, c] = 0.0
+    for i in range(low, high + 1):
+        for j in range(TERMS):
+            poly[j, COLUMNS] += splines[k - low, high - k - 1, j, i - low] * lifts[i]
+    for i in range(low, last + 1):
+        load = columns[i, 0]
+        for j in range(TERMS):
+            part = splines[k - low, last - k - 1, j, i - low]
+            poly[j, 0] += part * math.log(load)
+            for c in range(1, COLUMNS):
+                poly[j, c] += part * columns[i, c] / load
+    return True
+
+
+@scalar
+def _read_cell(own, skin, held, poly, k, t, row):
+    """Columns at part t of cell k; the load."""
+    apart()
+    load = 0.0
+    for c in range(COLUMNS + 1):
+        value = 0.0
+        for j in range(TERMS):
+            value = value * t + poly[j, c]
+        if c == 0:
+            load = own[DENSE] * math.exp(value)
+            row[F_SA] = load
+        elif c < COLUMNS:
+            row[F_SA + c] = max(load * value, 0.0)
+        elif not add_field(skin, held, own[LOWEST] + (k + t) * own[STEP] + value, row):
+            return math.nan
+    if own[DARK] == 0:
+        row[SHADE] = own[FIXED]
+    return (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA]
+
+
+@scalar
+def _root_in(own, skin, held, poly, k, target, row):
+    """Part of cell k at which the target is carried, and the slope of ln F; −1 or 2 beside it."""
+    apart()
+    low, high = 0.0, 1.0
+    f_low = math.log(_read_cell(own, skin, held, poly, k, low, row) / target)
+    f_high = math.log(_read_cell(own, skin, held, poly, k, high, row) / target)
+    if not f_low >= 0:
+        return -1.0, 0.0
+    if not f_high <= 0:
+        return 2.0, 0.0
+    t = f = side = 0.0
+    for _ in range(STEPS):
+        t = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else low
+        f = math.log(_read_cell(own, skin, held, poly, k, t, row) / target)
+        if abs(f) <= BALANCED or high - low < 1e-15:
+            break
+        if f > 0:
+            low, f_low = t, f
+            f_high *= 0.5 if side == 1 else 1.0
+            side = 1.0
+        else:
+            high, f_high = t, f
+            f_low *= 0.5 if side == -1 else 1.0
+            side = -1.0
+    near = t - 1e-4 if t > 0.5 else t + 1e-4
+    beside = math.log(_read_cell(own, skin, held, poly, k, near, row) / target)
+    _read_cell(own, skin, held, poly, k, t, row)
+    return t, (beside - f) / (near - t)
+
+
+@scalar
+def _left_out(field, held, splines, k, t, low, high, last, rows, poly, row, out):
+    """What rows beyond the window change at most, from what fewer rows do."""
+    apart()
+    count = int(field[0][ROWS])
+    fewer = low + FEWER if low > 0 else low
+    most = high - FEWER if high < count - 1 else high
+    end = min(last, most)
+    if fewer == low and most == high:
+        return 0.0
+    if not _lay_cell(splines, k, fewer, most, end, rows, poly):
+        return math.inf
+    _read_cell(field[0], field[2], held, poly, k, t, out)
+    load, area, worst = (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA], 0.0, 0.0
+    for c in range(1, F_SA):
+        area += row[c] + row[F_SA + c]
+    for c in range(10):
+        unit = 1.0 if c == SHADE else area
+        if c in (F_SS, F_SA):
+            unit = load
+        worst = max(worst, abs(out[c] - row[c]) / unit)
+    return PART * worst
+
+
+@scalar
+def _error_of(field, k, low, high, rows):
+    """What the rows of a window miss in cell k; infinite where asperities leave their table."""
+    apart()
+    own, lifts, misses, error = field[0], rows[1], rows[3], 0.0
+    for i in range(low, high + 1):
+        at = own[LOWEST] + i * own[STEP]
+        if lifts[i] < 0 and at + lifts[i] <= own[LOWEST] + 1e-9:
+            return math.inf
+        error += SAFE * misses[i] * FADES ** max(k - i, i - k - 1)
+    return error
+
+
+@scalar
+def _begin(field, held, target, h, rows, work, out):
+    """The row from which to come down, evaluations, and whether there is one."""
+    apart()
+    own, done = field[0], rows[5]
+    count = int(own[ROWS])
+    work[3][0] = 0.0
+    for k in range(count):
+        done[k] = NONE
+    if target > 0:
+        k, rounds = _first_row(field, held, target, work, out)
+        return k, rounds, True
+    k = math.floor((h - own[LOWEST]) / own[STEP])
+    return min(k + 1 + BESIDE, count - 1), 0, 0 <= k < count - 1
+
+
+@scalar
+def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row):
+    """Find the part of a cell, from cell k on, at which the target is carried, or h is.
+
+    Fate, rounds, the cell, the part, the slope of ln F over the cell, and the window of rows.
+    """
+    apart()
+    own, skin, columns = field[0], field[2], rows[2]
+    count, rounds, t, slope, low, high, last = int(own[ROWS]), 0, -1.0, 0.0, 0, 0, 0
+    for _ in range(3):
+        if not 0 <= k < count - 1:
+            break
+        low, high = max(k - BESIDE, 0), min(k + 1 + BESIDE, count - 1)
+        n = _finish_rows(field, k, low, high, rows, work)
+        if n < 0:
+            break
+        rounds, last = rounds + n, low - 1
+        while last < high and columns[last + 1, 0] > TINIEST * own[SIGMA] ** 2:
+            last += 1
+        if not _lay_cell(splines, k, low, high, last, rows, poly):
+            break
+        if target > 0:
+            t, slope = _root_in(own, skin, held, poly, k, target, row)
+        else:
+            t = (h - own[LOWEST]) / own[STEP] - k
+            if not _read_cell(own, skin, held, poly, k, t, row) >= 0:
+                break
+        if 0 <= t <= 1:
+            fate = OK if target <= 0 or slope < 0 else NOT_MONOTONE
+            return fate, rounds, k, t, slope, low, high, last
+        k += -1 if t < 0 else 1
+    return UNSOLVED, rounds, k, t, slope, low, high, last
+
+
+@scalar
+def _ground_state(field, held, splines, target, h, rows, work, poly, row, out):
+    """Separation [σ], rounds, fate and error of one state; its columns into ``row``."""
+    apart()
+    own = field[0]
+    if own[ROWS] > MOST_ROWS:
+        return h, 0, TOO_LONG, math.inf
+    k, rounds, good = _begin(field, held, target, h, rows, work, out)
+    if not good:
+        return h, rounds, UNSOLVED, math.inf
+    k, n, fate = _come_down(field, held, k, target, h, rows, work, out)
+    rounds += n
+    if fate != OK:
+        return h, rounds, fate, math.inf
+    fate, n, k, t, slope, low, high, last = _settle_cell(
+        field, held, splines, k, target, h, rows, work, poly, row
+    )
+    rounds += n
+    if fate != OK:
+        return h, rounds, fate, math.inf
+    if target > 0:
+        h = own[LOWEST] + (k + t) * own[STEP]
+    error = own[LEFT] + SETTLED + _error_of(field, k, low, high, rows)
+    error += _left_out(field, held, splines, k, t, low, high, last, rows, poly, row, out)
+    if slope < 0:
+        error = max(error, error * own[STEP] / -slope)
+    return h, rounds, OK if error <= ASKED else NOT_RESOLVED, error
+
+
+@scalar
+def _is_alike(numbers, others):
+    """Whether two rows of numbers are equal."""
+    for k in range(len(numbers)):  # noqa: SIM110
+        if numbers[k] != others[k]:
+            return False
+    return True
+
+
+@Cached
+@njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
+def solve_grounded(skins, parts, bodies, tables, grounds, series, which, basis, splines, rules,
+                   target, h, count, fate, error, rows):  # fmt: skip
+    """Solve states by their own numbers: skins (N, 1, ...), one population each (N, 1, ...) and its
+    sides (N, 2, ...), tables of surfaces (N, M, ...), grounds (N, ...).
+
+    Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
+    that ``which`` says. For the loads target [Pa] or, where they are zero, at the separations ``h``
+    of the mean planes [σ]. Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and
+    the columns ``rows`` (N, 10).
+    """
+    sides = np.zeros((2, SIDE))
+    panels = np.empty((1, MOST_PANELS + ROOM, PANEL))
+    cells, floor = np.zeros((MOST_CELLS, A_CELL)), np.zeros(COLUMNS)
+    edges, values = np.empty(MOST_CELLS), np.empty((2, COLUMNS, OF_CELL))
+    surface, held = np.zeros((HEIGHTS_OF_TABLE, TERMS, OF_SURFACE)), np.zeros((2, 2 * OF_SURFACE))
+    kernels, out, poly = np.empty(series.shape[2]), np.zeros(10), np.zeros((TERMS, COLUMNS + 1))
+    lines = (
+        np.zeros((MOST_ROWS, UNKNOWNS)), np.zeros(MOST_ROWS), np.zeros((MOST_ROWS, COLUMNS)),
+        np.zeros(MOST_ROWS), np.zeros(MOST_ROWS), np.zeros(MOST_ROWS, np.int64),
+    )  # fmt: skip
+    work = (
+        np.zeros((6, max(OF_SURFACE, TAUS))), np.zeros((OF_NODES, PLACES)),
+        np.zeros((2, KEPT, UNKNOWNS)), np.zeros(1), np.zeros((3, KEPT + 1, UNKNOWNS)),
+        np.zeros((5, UNKNOWNS)),
+    )  # fmt: skip
+    laid, left = 0, 0.0
+    for i in range(len(target)):
+        if i == 0 or not (
+            _is_alike(parts[i, 0], parts[i - 1, 0])
+            and _is_alike(bodies[i, 0], bodies[i - 1, 0])
+            and _is_alike(bodies[i, 1], bodies[i - 1, 1])
+        ):
+            for s in range(2):
+                for k in range(bodies.shape[2]):
+                    sides[s, k] = bodies[i, s, k]
+            laid = lay_panels(parts[i], sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:])
+            if laid > 0:
+                laid, left = lay_gaps(
+                    parts[i], sides, panels, laid, rules[1], rules[0, POLYNOMIAL:], cells, floor,
+                    edges, values[0], values[1], out,
+                )  # fmt: skip
+        if laid <= 0:
+            fate[i], error[i] = TOO_LONG, math.inf
+            continue
+        own = grounds[i]
+        own[CELLS] = laid
+        own[LEFT] += left
+        lay_surface(skins[i], tables[i], surface)
+        lay_field(held)
+        for m in range(series.shape[2]):
+            kernels[m] = 0.0
+        for j in range(series.shape[1]):
+            for m in range(series.shape[2]):
+                kernels[m] += basis[i, j] * series[which[i], j, m]
+        field = own, kernels, skins[i], surface, cells, floor
+        h[i], count[i], fate[i], error[i] = _ground_state(
+            field, held, splines, target[i], h[i], lines, work, poly, rows[i], out
+        )

@@ -1,0 +1,243 @@
+"""The numbers of states with particles on the ground of one field of heights."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...contact.field_ground import TERMS, rows_between
+from ...contact.particle_averages import NORMAL_REACH, WIDEST
+from ...errors import NotCompiled
+from ...laws.field.programme import MOMENTS
+from ...laws.field.spectrum import _powers, rolled_off
+from ...laws.field.table import COLUMNS, rows_of, separations
+from ...numerics.chebyshev import chebyshev_transform
+from ...numerics.quadrature import gauss_legendre
+from ...populations import distributions as sizes
+from . import fields as f
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Grounds", "check_grounded", "mean_diameters"]
+
+WIDTH, NODES = 0.5, 16
+"""Of cells over the distance from which others are felt, and nodes of their series."""
+BANDWIDTHS, WAVES = (2.5, 3.3, 4.4, 6.2, 8.4), 16
+"""Ends of cells over the bandwidth, and nodes over ln(α − 2); beyond, integrals over distances end
+where their panels do, and jump."""
+FELT = 0.5
+"""Of what series leave out in ground over σ: loads are some hundredths of E*g, at most tenths."""
+FARTHEST = 40.0
+"""Distance up to which 40 nodes do."""
+SHORT = "the ground of particles on a field of heights is a table of its own"
+"""What is said where the kernel does not know it."""
+
+
+def check_grounded(contact: Any, arrays: Mapping[str, Array], found: list[Any]) -> None:
+    """Refuse populations whose ground the kernel does not know."""
+    one = found[0][0]
+    if len(found) > 1 or one.strength is not None or found[0][2].seat != "rough":
+        raise NotCompiled(SHORT)
+    law = contact.asperity_law
+    if law.spectrum is not None:
+        raise NotCompiled(SHORT)
+
+
+def mean_diameters(one: Any, changed: Any, arrays: Mapping[str, Array], rows: Array) -> Any:
+    """Mean diameter of each state [m], of sizes as they are and with arrays in them."""
+    if not any(name.startswith("particles.") and ".diameter." in name for name in arrays):
+        return one.mean_diameter
+    if type(one) is sizes.Monodisperse:
+        return changed.mean
+    if type(one) is sizes.TruncatedGaussian:
+        mean, std = changed.mean, changed.std
+        low, high = rows[:, f.LOW], rows[:, f.HIGH]
+        A, B = (low - mean) / std, (high - mean) / std
+        # norm std √(2π) is one over the mass between the ends
+        return mean + std**2 * rows[:, f.NORM] * (np.exp(-0.5 * A * A) - np.exp(-0.5 * B * B))
+    if type(one) is sizes.LogNormal:
+        return changed.median * np.exp(0.5 * np.log(changed.gsd) ** 2)
+    if type(one) is sizes.Uniform:
+        return 0.5 * (changed.low + changed.high)
+    raise NotCompiled(SHORT)
+
+
+# ------------------------------------------------------------------------------ displacements
+class Displacements:
+    """What k_n of particles, of asperities under them and of particles under those are made of.
+
+    Attributes
+    ----------
+    series : array (C, K, 429)
+        Of each cell over the distance from which others are felt, and over the bandwidth.
+    which, basis : array (N,), (N, K)
+        Cell of each state, and what its terms are there.
+    tails : array (N,)
+        What the series leave out, at most.
+    """
+
+    def __init__(self, keys: list[tuple[Any, ...]], which: Any, basis: Array):
+        self.series = np.array([_series(*key) for key in keys])
+        self.which, self.basis = which, basis
+        tails = np.array([_tail(one, basis.shape[1] > NODES) for one in self.series])
+        self.tails = tails[which]
+
+
+def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
+    """Of states with bandwidths α, or one, and distances over √(m0/m2) (N,)."""
+    place = np.minimum(apart / WIDTH, 1e9).astype(int)
+    terms = _terms(2 * (apart / WIDTH - place) - 1, NODES)
+    if not varies:
+        if apart.max() * float(rolled_off(alpha).q.max()) > FARTHEST:
+            raise NotCompiled(SHORT)
+        cells, which = np.unique(place, return_inverse=True)
+        keys: list[tuple[Any, ...]] = [(float(alpha), n, -1) for n in cells.tolist()]
+        return Displacements(keys, which.ravel().astype(np.int64), terms)
+    if np.any((alpha < BANDWIDTHS[0]) | (alpha > BANDWIDTHS[-1])):
+        raise NotCompiled("bandwidths vary so far that the ground of particles is not known")
+    if apart.max() * float(rolled_off(BANDWIDTHS[-1]).q.max()) > FARTHEST:
+        raise NotCompiled(SHORT)
+    cell = np.clip(np.searchsorted(BANDWIDTHS, alpha, side="right") - 1, 0, len(BANDWIDTHS) - 2)
+    ends = np.log(np.array(BANDWIDTHS) - 2)
+    x = 2 * (np.log(alpha - 2) - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1
+    across = _terms(x, WAVES)
+    both, which = np.unique(np.stack([cell, place]), axis=1, return_inverse=True)
+    keys = [(math.nan, n, m) for m, n in both.T.tolist()]
+    basis = (across[:, :, None] * terms[:, None, :]).reshape(len(alpha), -1)
+    return Displacements(keys, which.ravel().astype(np.int64), basis)
+
+
+def _terms(x: Array, count: int) -> Array:
+    """Chebyshev polynomials at x (N,): (N, count)."""
+    return np.cos(np.arange(count) * np.arccos(np.clip(x, -1.0, 1.0))[:, None])
+
+
+def _tail(series: Array, across: bool) -> float:
+    """Last two terms of a series, in either direction."""
+    last = np.abs(series[-2:]).sum(axis=0)
+    if across:
+        square = np.abs(series.reshape(WAVES, NODES, -1))
+        last = square[-2:].sum(axis=(0, 1)) + square[:, -2:].sum(axis=(0, 1))
+    return float(last.max())
+
+
+@lru_cache(maxsize=64)
+def _series(alpha: float, n: int, cell: int) -> Array:
+    """Series over the distance in cell n at α, or over α in a cell of bandwidths too: (K, 429)."""
+    if cell < 0:
+        return _along(alpha, n)
+    low, high = np.log(np.array(BANDWIDTHS[cell : cell + 2]) - 2)
+    x, transform = chebyshev_transform(WAVES)
+    alphas = 2 + np.exp(low + 0.5 * (high - low) * (1 + x))
+    known = np.array([_along(one, n) for one in alphas.tolist()])
+    return np.tensordot(transform, known, 1).reshape(WAVES * NODES, -1)
+
+
+@lru_cache(maxsize=256)
+def _along(alpha: float, n: int) -> Array:
+    """Series over the distance in cell n at α: (NODES, 429)."""
+    x, transform = chebyshev_transform(NODES)
+    places = WIDTH * (n + 0.5 * (1 + x))
+    return transform @ np.array([_numbers(alpha, each) for each in places.tolist()])
+
+
+@lru_cache(maxsize=64)
+def _far(alpha: float) -> tuple[Array, Array]:
+    """Integrals over all distances."""
+    x, _ = chebyshev_transform(TERMS)
+    return rolled_off(alpha).integrals_from(0.0, 0.5 * (1 + x), MOMENTS)
+
+
+def _numbers(alpha: float, apart: float) -> Array:
+    """k_n of particles, and series in τ of the others, in a row."""
+    own, mixed = _far(alpha)
+    _, transform = chebyshev_transform(TERMS)
+    near = _near(alpha, apart)[0]
+    other = _near(alpha, 0.5 * apart)[1]
+    rows = transform @ (mixed - other), transform @ mixed
+    return np.concatenate([own - near, rows[0].ravel(), rows[1].ravel()])
+
+
+def _near(alpha: float, r: float) -> tuple[Array, Array]:
+    """What `Spectrum.integrals_from` leaves out up to r, by its nodes."""
+    spectrum = rolled_off(alpha)
+    at, weight = gauss_legendre(40)
+    plain, once, _ = spectrum.correlations(0.5 * r * (1 + at))
+    weight = 0.5 * r * weight
+    own, mixed = _powers(plain, weight, MOMENTS), []
+    x, _ = chebyshev_transform(TERMS)
+    for tau in (0.5 * (1 + x)).tolist():
+        a = 1 - tau
+        root = math.sqrt(a * a + 2 * a * tau * spectrum.mean(1) + tau * tau * spectrum.mean(2))
+        mixed.append(_powers((a * plain + tau * once) / root, weight, MOMENTS))
+        mixed[-1][0] = r
+    own[0] = r
+    return own, np.array(mixed)
+
+
+# ------------------------------------------------------------------------------ of a state
+class Grounds:
+    """What states have beside the numbers of asperities, populations and sides.
+
+    Parameters
+    ----------
+    skins, parts : array (N, 1, ...)
+        Of asperities and populations, filled.
+    alpha : float or array (N,)
+        Bandwidth, an array where it varies.
+    law, rough : Any
+        Law of the particles and roughness, with arrays in them.
+    diameter : float or array (N,)
+        Mean diameter [m].
+    datum : float
+        Height over σ from which d counts.
+    """
+
+    def __init__(
+        self, skins: Array, parts: Array, alpha: Any, law: Any, rough: Any, diameter: Any,
+        datum: float,
+    ):  # fmt: skip
+        from . import ground as g
+
+        skin, part, count = skins[:, 0], parts[:, 0], len(skins)
+        width, chi = np.broadcast_to(law.zeta_std, count), skin[:, f.CHI]
+        if np.any(part[:, f.HIGH] > WIDEST * width * rough.sigma):
+            raise NotCompiled(SHORT)
+        self.parts = parts.copy()
+        fixed = np.where(part[:, f.SHADOW] == f.COVERED, part[:, f.COVERAGE], 0.0)
+        plain = {f.SEAT: f.PLANE, f.DENSITY: 1.0, f.OFFSET: 0.0, f.WIDTH: 0.0, f.COVERAGE: 0.0}
+        for column, value in plain.items():
+            self.parts[:, 0, column] = value
+        soft = skin[:, f.IS_SOFT] == 1
+        lowest = np.where(soft, separations(True)[0], separations(False)[0])
+        top = part[:, f.HIGH] / rough.sigma
+        reach = top + NORMAL_REACH * width + law.zeta_mean - datum
+        last = np.maximum(reach, lowest + 1.0)
+        steps = rows_between(lowest, reach, np.minimum(1.0, width))
+        self.numbers = np.zeros((count, g.OF_GROUND))
+        for column, value in {
+            **{g.LOWEST: lowest, g.STEP: (last - lowest) / steps, g.ROWS: steps + 1},
+            **{g.MEAN: law.zeta_mean, g.SPREAD: width, g.TOP: top, g.SIGMA: rough.sigma},
+            **{g.DENSE: part[:, f.DENSITY], g.UNIT: skin[:, f.FORCE], g.FIXED: fixed},
+            g.DARK: (part[:, f.SHADOW] == f.FOOTPRINT) | (part[:, f.SHADOW] == f.PROJECTED),
+            g.POWER: np.where(part[:, f.KIND] == f.ONE_SIZE, 2.0, 4.0),
+        }.items():
+            self.numbers[:, column] = value
+        every = np.broadcast_to(np.asarray(alpha, float), count)
+        self.tables = np.zeros((count, f.HEIGHTS_OF_TABLE, COLUMNS))
+        for some in (soft, ~soft):
+            if some.any():
+                rows = rows_of(chi[some], every[some], soft=bool(soft[some][0]))
+                self.tables[some, : rows.shape[1]] = rows
+        apart = np.broadcast_to(diameter * rough.slope / (math.sqrt(2) * rough.sigma), count)
+        known = displacements_of(alpha, np.array(apart), np.ndim(alpha) > 0)
+        self.displacements = known
+        self.numbers[:, g.LEFT] = FELT * known.tails

@@ -1,0 +1,201 @@
+"""States of particles on one field of heights by the compiled engine, against tables of each."""
+
+import math
+import os
+from unittest import mock
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.equilibrium import states
+from thirdbody.equilibrium.engine import grounds
+from thirdbody.equilibrium.engine.run import own_columns
+from thirdbody.equilibrium.states import state_columns
+from thirdbody.laws.field.own import RollOff
+from thirdbody.laws.field.programme import MOMENTS
+from thirdbody.laws.field.spectrum import rolled_off
+
+pytestmark = pytest.mark.slow  # its kernel is compiled for it alone
+BOUND = 1e-9
+"""Of d over σ, of loads over the load, of areas over the area."""
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+HARD = tb.Particles(
+    material=SILICA,
+    areal_density=1e11,
+    diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9, n=3.0),
+)
+SOFT = HARD.replace(material=STEEL.replace(H=1e9))
+
+
+def contact(particles=HARD, law=None):
+    return tb.Contact(
+        surfaces=tb.MaterialPair(STEEL, STEEL),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6, alpha=5.0),
+        asperity_law=tb.asperity.Field(),
+        particles=particles,
+        particle_law=law or tb.particle.Series(seat="rough"),
+    )
+
+
+SIZES = {"particles.diameter.mean": (150e-9, 450e-9), "particles.diameter.n": (1.5, 5.0)}
+FIRST = {"surfaces.first.H": (1e9, 9e9), "surfaces.first.E": (8e10, 3e11)}
+SEAT = {"particle_law.zeta_std": (0.5, 1.0), "particle_law.zeta_mean": (0.5, 1.5)}
+CASES = {
+    "hard": (contact(), {"roughness.alpha": (2.6, 8.3), **SIZES}),
+    "squashed": (contact(SOFT), {"particles.diameter.mean": (150e-9, 450e-9)}),
+    "two different sides": (contact(), FIRST),
+    "another seat": (contact(), SEAT),
+    "one size": (
+        contact(HARD.replace(diameter=tb.Monodisperse(mean=300e-9))),
+        {"particles.diameter.mean": (150e-9, 450e-9)},
+    ),
+    "log-normal": (
+        contact(HARD.replace(diameter=tb.LogNormal(median=300e-9, gsd=1.2))),
+        {"particles.diameter.median": (200e-9, 400e-9)},
+    ),
+    "uniform, covered": (
+        contact(
+            HARD.replace(diameter=tb.Uniform(low=200e-9, high=400e-9)),
+            tb.particle.Series(seat="rough", shadow="covered"),
+        ),
+        {"particles.diameter.low": (150e-9, 250e-9)},
+    ),
+    "not deep, no shadow": (
+        contact(SOFT, tb.particle.Series(seat="rough", deep="off", shadow="none")),
+        {"particle_law.friction_factor": (0.1, 1.0)},
+    ),
+    "grit": (
+        contact(HARD.replace(shape=tb.Angular(roundness=0.25, angle=math.radians(35)))),
+        {"particles.shape.angle": (0.5, 0.7)},
+    ),
+}
+USUAL = {
+    "roughness.sigma": (50e-9, 200e-9),
+    "roughness.R": (1e-6, 8e-6),
+    "particles.areal_density": (1e9, 3e11),
+    "particles.material.E": (5e10, 3e11),
+    "particles.material.H": (1e9, 2e10),
+}
+
+
+def drawn(more, count, seed):
+    """Inputs of so many states, and F*."""
+    rng = np.random.default_rng(seed)
+    ends = {**USUAL, **more}
+    vary = {
+        name: np.exp(rng.uniform(math.log(low), math.log(high), count))
+        for name, (low, high) in ends.items()
+    }
+    return vary, np.exp(rng.uniform(math.log(1e-7), math.log(1e-3), count))
+
+
+def by_numpy(case, loads, vary, load="F_star"):
+    with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+        return state_columns(case, vary=vary, **{load: loads})
+
+
+def errors(got, want, sigma):
+    """The largest error of each state."""
+    found = [np.abs(got["d"] - want["d"]) / sigma, np.abs(got["shadow"] - want["shadow"])]
+    for name in ("F_sa_star", "F_ss_star"):
+        found.append(np.abs(got[name] - want[name]) / want["F_star"])
+    for name in ("A_t", "A_sa", "A_ss", "A_sa2", "A_e", "A_ep", "A_p"):
+        found.append(np.abs(got[name] - want[name]) / want["A_t"])
+    return np.max(found, axis=0)
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_states_hold_to_tables_of_each(name, seed):
+    case, more = CASES[name]
+    vary, loads = drawn(more, 40, seed)
+    got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
+    known = got["doubt"] == ""
+    assert known.mean() > 0.7
+    assert np.all(got["status"][known] == 0)
+    assert set(want["status_code"][known]) <= {0}
+    off = errors(got, want, vary["roughness.sigma"])[known]
+    assert off.max() <= BOUND
+    assert np.all(off <= got["error"][known])
+    assert np.all(got["error"][known] <= BOUND)
+    assert np.all(got["residual"][known] <= 1e-11)
+
+
+def test_a_fixed_bandwidth_of_any_size():
+    rough = tb.Roughness(sigma=100e-9, R=2.8e-6, alpha=20.0)
+    case, (vary, loads) = contact().replace(roughness=rough), drawn({}, 30, 3)
+    del vary["roughness.R"]
+    got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
+    known = got["doubt"] == ""
+    assert known.mean() > 0.7
+    off = errors(got, want, vary["roughness.sigma"])[known]
+    assert np.all(off <= got["error"][known])
+
+
+def test_at_given_separations():
+    case, (vary, _) = contact(), drawn({}, 30, 4)
+    d = vary["roughness.sigma"] * np.linspace(0.5, 5.0, 30)
+    got, want = own_columns(case, vary, "d", d), by_numpy(case, d, vary, "d")
+    known = (got["doubt"] == "") & (want["status_code"] == 0)
+    assert known.mean() > 0.7
+    for name in ("F_sa_star", "F_ss_star"):
+        assert np.max(np.abs(got[name] / want[name] - 1)[known]) <= 3 * BOUND
+    assert np.max(np.abs(got["A_t"] / want["A_t"] - 1)[known]) <= 3 * BOUND
+
+
+@pytest.mark.parametrize("name", ["hard", "two different sides"])
+def test_alone_among_others_and_in_any_order(name):
+    case, more = CASES[name]
+    vary, loads = drawn(more, 30, 5)
+    together = own_columns(case, vary, "F_star", loads)
+    order = np.random.default_rng(0).permutation(30)
+    turned = own_columns(case, {k: v[order] for k, v in vary.items()}, "F_star", loads[order])
+    for column in ("d", "A_t", "A_p", "F_sa_star", "shadow", "error"):
+        np.testing.assert_array_equal(turned[column], np.asarray(together[column])[order])
+        alone = own_columns(case, {k: v[[7]] for k, v in vary.items()}, "F_star", loads[[7]])
+        np.testing.assert_array_equal(alone[column][0], together[column][7])
+
+
+def test_what_is_not_resolved_is_solved_by_tables_and_says_so():
+    law = tb.particle.Series(seat="rough", shadow="projected")  # whose areas have kinks
+    case, (vary, loads) = contact(SOFT, law), drawn({}, 25, 6)
+    found, want = state_columns(case, F_star=loads, vary=vary), by_numpy(case, loads, vary)
+    again = np.array([str(each).startswith("numpy: its error") for each in found["engine"]])
+    assert again.any()
+    assert set(found["engine"][~again]) <= {"compiled"}
+    assert set(found["status"]) == {"ok"}
+    np.testing.assert_array_equal(found["d"][again], want["d"][again])
+
+
+def test_what_the_kernel_does_not_know_is_left_to_tables():
+    case = contact()
+    high = case.replace(roughness=case.roughness.replace(alpha=20.0))
+    own = case.replace(asperity_law=tb.asperity.Field(spectrum=RollOff(corner="sharp")))
+    assert states.solves_each(case, ["roughness.sigma", "roughness.alpha"])
+    assert states.solves_each(high, ["roughness.sigma"])
+    assert not states.solves_each(high, ["roughness.alpha"])
+    assert not states.solves_each(own, ["roughness.sigma"])
+    assert not states.solves_each(contact((HARD, SOFT)), ["roughness.sigma"])
+
+
+@pytest.mark.parametrize("alpha", [2.8, 5.0, 7.9])
+def test_displacements_are_the_integrals_over_distances(alpha):
+    spectrum = rolled_off(alpha)
+    tau = np.array([0.0, 0.2, 0.55, 1.0])
+    basis = np.polynomial.chebyshev.chebvander(2 * tau - 1, grounds.TERMS - 1)
+    for apart in (0.07, 0.5, 1.93, 4.4):
+        own, _ = spectrum.integrals_from(apart, tau, MOMENTS)
+        _, under = spectrum.integrals_from(0.5 * apart, tau, MOMENTS)
+        _, all_over = spectrum.integrals_from(0.0, tau, MOMENTS)
+        for varies in (False, True):
+            given = np.array([alpha]) if varies else alpha
+            found = grounds.displacements_of(given, np.array([apart]), varies)
+            numbers = found.basis[0] @ found.series[found.which[0]]
+            bound = 1e-12 + 2 * found.tails[0]
+            count = MOMENTS + 1
+            series = numbers[count:].reshape(2, grounds.TERMS, count)
+            assert np.max(np.abs(numbers[:count] - own)) <= bound
+            # the tables themselves have so many terms over τ
+            assert np.max(np.abs(basis @ series[0] - under)) <= bound + 1e-7
+            assert np.max(np.abs(basis @ series[1] - all_over)) <= bound + 1e-7
