@@ -12,7 +12,7 @@ import numpy as np
 
 from ...errors import InvalidValue, Mistake, Problem
 from ...populations.measured.cleanliness import read_iso4406
-from ...quantities.arguments import names_arguments
+from ...quantities.carried import takes_units
 from ...quantities.csv_cells import numbered_cells
 from ...quantities.units import say, to_si
 
@@ -28,7 +28,7 @@ MOST_MISTAKES = 20
 """Mistakes of a file that are said one by one."""
 
 
-@names_arguments
+@takes_units
 def read_reports(
     path: str | Path, *, fewest: int = 1
 ) -> tuple[Array, list[str] | Array, Array | None]:
