@@ -161,7 +161,7 @@ def test_formulas_say_where_they_hold():
 
 
 def test_refusals():
-    with refuses(Mistake.RANGE, "Oil.eta", value="-1.0", says="0.04"):
+    with refuses(Mistake.RANGE, "Oil.eta", value="-1.0", says="0.0001"):
         films.Oil(eta=-1.0, alpha=2e-8)
     with refuses(Mistake.RANGE, "Point.R", value="0.0"):
         films.Point(R=0.0)
