@@ -70,7 +70,8 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
     told = said(done)
     found = run_life(load_life("dry-contact.toml", [SHORT[1]]))
     first, second = (" ".join(sentence.split()) for sentence in answer(found))
-    assert told.startswith(f"{found.title} (thirdbody {tb.__version__}) {first} {second} time")
+    head = f"{found.title}, with life.duration = 1 h (thirdbody {tb.__version__})"
+    assert told.startswith(f"{head} {first} {second} time")
     assert found.history.reproduction in first
     assert "The contact comes to" in first
     assert "After 60 min wear has taken surface 1 by" in second
