@@ -250,7 +250,10 @@ MISTAKES = [
     (['life.oil.leak="1 L/min"'], "the leak has emptied the circuit"),
     (['life.oil.viscosity="30 mm"'], "is a length"),
     (['life.until.iso4406="18"'], "must be three numbers"),
-    (['life.oil.ingress={ test_dust = "A3", rate = "-1 mg/h" }'], "> 0 [kg/s]; leave out the minus sign"),
+    (
+        ['life.oil.ingress={ test_dust = "A3", rate = "-1 mg/h" }'],
+        "> 0 [kg/s]; leave out the minus sign",
+    ),
     (['life.duration="-1 h"'], "must be > 0"),
     (['life.durations="1 h"'], "did you mean duration?"),
 ]

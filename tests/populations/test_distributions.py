@@ -367,7 +367,10 @@ def test_supports():
         (lambda: tb.Monodisperse(mean=0.0), ["Monodisperse.mean = 0.0", "> 0 [m]"]),
         (lambda: tb.Monodisperse(mean="300 nm"), ["must be a number in SI units [m]"]),
         (lambda: tb.Monodisperse(mean=math.nan), ["> 0 [m]"]),
-        (lambda: tb.TruncatedGaussian(mean=-1e-7, std=1e-8), ["TruncatedGaussian.mean", "leave out the minus sign"]),
+        (
+            lambda: tb.TruncatedGaussian(mean=-1e-7, std=1e-8),
+            ["TruncatedGaussian.mean", "leave out the minus sign"],
+        ),
         (lambda: tb.TruncatedGaussian(mean=1e-7, std=0), ["std", "Monodisperse"]),
         (lambda: tb.TruncatedGaussian(mean=1e-7, std=1e-8, n=0), ["TruncatedGaussian.n"]),
         (lambda: tb.TruncatedGaussian(mean=math.inf, std=1e-8), ["mean = inf"]),

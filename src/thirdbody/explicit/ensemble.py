@@ -330,18 +330,18 @@ def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, obje
         )
     if damaged:
         what = f"{kept} is damaged ({', '.join(damaged[:3])}): these surfaces are pressed again"
-        _tell(Note(what, code="kept.damaged", effect=math.inf))
+        _warn_caller(Note(what, code="kept.damaged", effect=math.inf))
     if unchecked:
         what = (
             f"{kept}: {plural(unchecked, 'surface')} of an earlier version of thirdbody kept no "
             "digest, so that damage in them is not seen; take another folder where that matters"
         )
-        _tell(Note(what, code="kept.unchecked", effect=math.inf))
+        _warn_caller(Note(what, code="kept.unchecked", effect=math.inf))
     return out
 
 
-def _tell(note: Note) -> None:
-    """What happened to a folder, to whoever called `ensemble`."""
+def _warn_caller(note: Note) -> None:
+    """Warn whoever called `ensemble` of what happened to a folder."""
     tell_of_range(note, UserWarning)
 
 

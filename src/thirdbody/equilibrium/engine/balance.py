@@ -98,7 +98,7 @@ from .seats import (
     lay_broken,
     lay_pieces,
 )
-from .sides import scalar
+from .sides import is_alike, scalar
 from .skins import MOST_HEIGHTS, add_skin, lay_skin
 from .squeeze import lay_panels
 from .sums import MOST_SIZES, add_plane
@@ -584,15 +584,6 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
     return h, count, OK, error
 
 
-@scalar
-def _alike(numbers, others):
-    """Whether two rows of numbers are equal; one with NaN equals none."""
-    for k in range(len(numbers)):  # noqa: SIM110
-        if numbers[k] != others[k]:
-            return False
-    return True
-
-
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fate, error, rows):
@@ -626,9 +617,9 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
             for p in range(most):
                 parts[i, p, LEAST] = parts[i - 1, p, LEAST]  # which is found, not given
         if i == 0 or not (
-            _alike(skins[i].ravel(), skins[i - 1].ravel())
-            and _alike(parts[i].ravel(), parts[i - 1].ravel())
-            and _alike(bodies[i].ravel(), bodies[i - 1].ravel())
+            is_alike(skins[i].ravel(), skins[i - 1].ravel())
+            and is_alike(parts[i].ravel(), parts[i - 1].ravel())
+            and is_alike(bodies[i].ravel(), bodies[i - 1].ravel())
         ):
             ready[0] = NOTHING
             for s in range(2 * most):

@@ -56,7 +56,7 @@ from .ground import (
     round_of,
     weigh_ground,
 )
-from .sides import scalar
+from .sides import is_alike, scalar
 from .squeeze import lay_panels
 
 if TYPE_CHECKING:
@@ -526,15 +526,6 @@ def _ground_state(field, held, splines, target, h, rows, work, poly, row, out):
     return h, rounds, OK if error <= ASKED else NOT_RESOLVED, error
 
 
-@scalar
-def _is_alike(numbers, others):
-    """Whether two rows of numbers are equal."""
-    for k in range(len(numbers)):  # noqa: SIM110
-        if numbers[k] != others[k]:
-            return False
-    return True
-
-
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def solve_grounded(skins, parts, bodies, tables, grounds, series, which, basis, splines, rules,
@@ -565,9 +556,9 @@ def solve_grounded(skins, parts, bodies, tables, grounds, series, which, basis, 
     laid, left = 0, 0.0
     for i in range(len(target)):
         if i == 0 or not (
-            _is_alike(parts[i, 0], parts[i - 1, 0])
-            and _is_alike(bodies[i, 0], bodies[i - 1, 0])
-            and _is_alike(bodies[i, 1], bodies[i - 1, 1])
+            is_alike(parts[i, 0], parts[i - 1, 0])
+            and is_alike(bodies[i, 0], bodies[i - 1, 0])
+            and is_alike(bodies[i, 1], bodies[i - 1, 1])
         ):
             for s in range(2):
                 for k in range(bodies.shape[2]):

@@ -55,7 +55,7 @@ from .fields import (
     ZMC,
 )  # fmt: skip
 
-__all__ = ["break_at", "breaks", "law_at", "prepare", "regime_of", "side_at"]
+__all__ = ["break_at", "breaks", "is_alike", "law_at", "prepare", "regime_of", "side_at"]
 
 scalar = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False)
 """Options of functions that only the kernel calls."""
@@ -91,6 +91,15 @@ FIRST, LAST = math.log(LAW_ENDS / (1 - LAW_ENDS)), math.log(TABLE_ENDS / (1 - TA
 THINNEST, EARLIEST, DEEPEST = math.exp(deep.THINNEST), deep.EARLIEST, deep.DEEPEST
 GRADING = 4.0
 """Ratio of heights left at neighbouring kinks of a disc."""
+
+
+@scalar
+def is_alike(numbers, others):
+    """Whether two rows of numbers are equal; one with NaN equals none."""
+    for k in range(len(numbers)):  # noqa: SIM110
+        if numbers[k] != others[k]:
+            return False
+    return True
 
 
 @scalar

@@ -78,7 +78,7 @@ def read_reports(
         raise InvalidValue(f"{path} has a first line but no reports below it", code=Mistake.EMPTY)
     if len(rows) < fewest:
         rule = f"one report; {fewest} or more say what entered between them"
-        reading.tell(rows[0].number, None, rule, Mistake.EMPTY)
+        reading.add_mistake(rows[0].number, None, rule, Mistake.EMPTY)
     reading.check_order(rows, f" {columns[0].unit}")
     reading.end()
     times = np.array([row.time for row in rows])
@@ -126,7 +126,7 @@ class _Reading:
             shown.append(Problem("", f"{self.path} has {more} more mistakes like these"))
         raise InvalidValue(*shown)
 
-    def tell(self, line: int, column: int | None, rule: str, code: Mistake) -> None:
+    def add_mistake(self, line: int, column: int | None, rule: str, code: Mistake) -> None:
         """Add a mistake at a place, columns counted from 1."""
         at = f"{self.path}, line {line}" + ("" if column is None else f", column {column}")
         self.mistakes.append((line, column or 0, Problem("", f"{at}: {rule}", code=code)))
@@ -139,11 +139,13 @@ class _Reading:
             first = error.problems[0]
             bare = re.fullmatch(r"[+-]?[\d.]+([eE][+-]?\d+)?|nan|inf", cell.strip())
             rule = str(first) if bare else f"{say(cell)} is not a number [{unit}]"
-            self.tell(line, column, rule, first.code if bare else Mistake.KIND)
+            self.add_mistake(line, column, rule, first.code if bare else Mistake.KIND)
             return math.nan
         if not math.isfinite(found):
             what = "time" if of == "s" else "number"
-            self.tell(line, column, f"{say(cell)} is not a finite {what} [{unit}]", Mistake.RANGE)
+            self.add_mistake(
+                line, column, f"{say(cell)} is not a finite {what} [{unit}]", Mistake.RANGE
+            )
             return math.nan
         return found
 
@@ -155,7 +157,7 @@ class _Reading:
                 "needs a column of times and one of codes, or of counts, e.g. "
                 '"time [h],ISO 4406" or "time [h],4 um [1/mL],6 um [1/mL],14 um [1/mL]"'
             )
-            self.tell(line, None, rule, Mistake.SHAPE)
+            self.add_mistake(line, None, rule, Mistake.SHAPE)
             return []
         out = [_Column(self._unit(line, 1, names[0], "s", "time [h]"))]
         if len(names) == 2 and not _is_count(names[1]):
@@ -164,7 +166,7 @@ class _Reading:
         for i, (a, b) in enumerate(pairwise(out[1:]), 3):
             if b.size and b.size <= a.size:
                 rule = f"{say(names[i - 1])} must be of a larger size than the column before it"
-                self.tell(line, i, rule, Mistake.ORDER)
+                self.add_mistake(line, i, rule, Mistake.ORDER)
         return out
 
     def _unit(self, line: int, column: int, name: str, of: str, example: str) -> str:
@@ -172,12 +174,12 @@ class _Reading:
         found = re.search(r"\[\s*([^\]]+?)\s*\]", name)
         if not found:
             rule = f'{say(name)} has no unit; write it in brackets, e.g. "{example}"'
-            self.tell(line, column, rule, Mistake.UNIT)
+            self.add_mistake(line, column, rule, Mistake.UNIT)
             return ""
         try:
             to_si(f"1 {found[1]}", of)
         except InvalidValue as error:
-            self.tell(line, column, f"{say(name)}: {error.problems[0]}", Mistake.UNIT)
+            self.add_mistake(line, column, f"{say(name)}: {error.problems[0]}", Mistake.UNIT)
         return found[1]
 
     def _counts(self, line: int, column: int, name: str) -> _Column:
@@ -187,7 +189,7 @@ class _Reading:
             at = to_si(size, "m")
         except InvalidValue:
             rule = f'{say(name)} must be a size and a unit of counts, e.g. "4 um [1/mL]"'
-            self.tell(line, column, rule, Mistake.FORM)
+            self.add_mistake(line, column, rule, Mistake.FORM)
             return _Column()
         return _Column(self._unit(line, column, name, "1/m^3", f"{size} [1/mL]"), at)
 
@@ -196,14 +198,14 @@ class _Reading:
         """A report of a line."""
         if len(cells) != len(names):
             rule = f"{len(cells)} values where the first line names {len(names)} columns"
-            self.tell(line, None, rule, Mistake.SHAPE)
+            self.add_mistake(line, None, rule, Mistake.SHAPE)
             return _Row(line, cells[0], math.nan, "", [])
         time = self.number(line, 1, cells[0], columns[0].unit, "s")
         if not columns[1].size:
             try:
                 read_iso4406(cells[1])
             except InvalidValue as error:
-                self.tell(line, 2, str(error.problems[0]), error.problems[0].code)
+                self.add_mistake(line, 2, str(error.problems[0]), error.problems[0].code)
             return _Row(line, cells[0], time, cells[1], [])
         counts = [
             self._count(line, i, cell, column.unit)
@@ -215,14 +217,14 @@ class _Reading:
                     f"{say(cells[i - 1])} is more than {say(cells[i - 2])} from the smaller size: "
                     "larger particles are among the smaller; do the columns count from a size on?"
                 )
-                self.tell(line, i, rule, Mistake.ORDER)
+                self.add_mistake(line, i, rule, Mistake.ORDER)
         return _Row(line, cells[0], time, "", counts)
 
     def _count(self, line: int, column: int, cell: str, unit: str) -> float:
         found = self.number(line, column, cell, unit, "1/m^3")
         if found < 0:
             rule = f"{say(cell)} [{unit}] must be 0 or more: it counts particles"
-            self.tell(line, column, rule, Mistake.RANGE)
+            self.add_mistake(line, column, rule, Mistake.RANGE)
             return math.nan
         return found
 
@@ -235,7 +237,7 @@ class _Reading:
                     f"{say(row.said)}{unit} is not later than the report of line {before.number}: "
                     "reports stand in the order of their times"
                 )
-                self.tell(row.number, 1, rule, Mistake.ORDER)
+                self.add_mistake(row.number, 1, rule, Mistake.ORDER)
 
 
 def _is_count(name: str) -> bool:
