@@ -14,6 +14,7 @@ from ...errors import InvalidValue, Mistake, Problem
 from ...populations.measured.cleanliness import read_iso4406
 from ...quantities.carried import takes_units
 from ...quantities.csv_cells import numbered_cells
+from ...quantities.say import plural
 from ...quantities.units import say, to_si
 
 if TYPE_CHECKING:
@@ -197,7 +198,7 @@ class _Reading:
     def row(self, line: int, cells: list[str], names: list[str], columns: list[_Column]) -> _Row:
         """A report of a line."""
         if len(cells) != len(names):
-            rule = f"{len(cells)} values where the first line names {len(names)} columns"
+            rule = f"{plural(len(cells), 'value')} where the first line names {len(names)} columns"
             self.add_mistake(line, None, rule, Mistake.SHAPE)
             return _Row(line, cells[0], math.nan, "", [])
         time = self.number(line, 1, cells[0], columns[0].unit, "s")
