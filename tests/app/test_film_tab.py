@@ -1,6 +1,8 @@
 """The tab of the lubricated contact: its numbers are those of the library."""
 
+import pickle
 import tomllib
+from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,9 @@ from thirdbody.study.run import MOST_SPEEDS, run_film_curve
 
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
-from thirdbody.app.tabs.film import START, film_figures
+from thirdbody.app.state import look
+from thirdbody.app.tabs.film import START, film_figures, oil_of
+from thirdbody.quantities.say import Least
 from thirdbody.views.film_words import point
 
 STUDY = Path(__file__).parents[2] / "examples" / "oil_film.toml"
@@ -66,3 +70,21 @@ def test_what_is_added_is_a_study():
     data = study_of()
     data["film"] = START
     assert np.all(np.diff(check(data).film.speed) > 0)
+
+
+@pytest.mark.parametrize("fine", ["", "5=75, 10=1000"])
+def test_what_the_oil_does_comes_whole_from_another_process(fine):
+    """Shares too small to be read keep their number; the page shows them all the same."""
+    text = (
+        resources.files("thirdbody").joinpath("data/studies/ball-bearing.toml").read_text("utf-8")
+    )
+    answer, problems, _ = look(tomllib.loads(text), Path())
+    assert not problems
+    oil = oil_of(answer, fine)
+    assert any("< 0.0001 %" in cell for row in oil.rows for cell in row)
+    back = pickle.loads(pickle.dumps(oil))
+    assert back == oil
+    small = [cell for row in oil.rows for cell in row if isinstance(cell, Least)]
+    kept = [cell for row in back.rows for cell in row if isinstance(cell, Least)]
+    assert [each.value for each in kept] == [each.value for each in small]
+    assert small

@@ -228,7 +228,7 @@ def test_edge_of_the_feasible_region(at):
 )
 def test_too_extreme_is_refused_when_built(skew, kurtosis):
     code, place = (Mistake.BEYOND, "") if kurtosis < 1e40 else (Mistake.RANGE, ".kurtosis")
-    with refuses(code, "JohnsonHeights" + place, says=f"{kurtosis:.4g}"):
+    with refuses(code, "JohnsonHeights" + place, says=f"{kurtosis:g}"):
         tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
 
 

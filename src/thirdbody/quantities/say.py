@@ -89,6 +89,9 @@ class Least(str):
         self.value = value
         return self
 
+    def __reduce__(self) -> tuple[type[Least], tuple[str, float]]:
+        return type(self), (str(self), self.value)
+
 
 def unbroken(text: str) -> str:
     """A text whose numbers stay beside their units where its lines break.
