@@ -596,3 +596,21 @@ def test_inputs_without_a_symbol_have_words_beside_their_bars():
     )
     words = [each.get_text() for each in plot.tornado(found, "A_t").get_yticklabels()]
     assert set(words) == {"$R$", words_of(contact, hardness)}
+
+
+@pytest.mark.parametrize("width", [1, 3])
+@pytest.mark.parametrize("each", [32, 256])
+def test_errors_of_quantiles_are_as_large_as_they_are(width, each):
+    """Of sums of normal numbers, whose quantiles are known, over 60 seeds."""
+    from scipy.stats import norm
+
+    from thirdbody.analysis.uncertainty.samples import points_of, quantiles_of
+
+    probabilities = (0.05, 0.25, 0.5, 0.75, 0.95)
+    off = []
+    for seed in range(60):
+        numbers = norm.ppf(points_of(each, width, seed, 8)).reshape(8, each, width).sum(axis=-1)
+        found, error = quantiles_of(numbers, probabilities)
+        off.append((found - math.sqrt(width) * norm.ppf(probabilities)) / error)
+    rms = np.sqrt(np.mean(np.square(off), axis=0))
+    assert np.all((rms > 0.4) & (rms < 1.6)), rms

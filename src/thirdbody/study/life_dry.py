@@ -18,10 +18,10 @@ from ..systems.life.ingress import Ingress
 from ..systems.life.surfaces import RunningIn
 from ..systems.life.until import CodeReached, FilterFull, Until
 from .described import BareNumber, Described
-from .life_contact import HARDNESS
+from .life_contact import HARDNESS, WORN_AREA, need_debris
 from .life_dirt import ARRIVALS, dirts_of
 from .life_uncertainty import FACTOR, KnownOfLife, known_of_life
-from .reader import NOTHING, Key, Reader, get, quantity_key, read_numbers, word, wrong
+from .reader import NOTHING, Key, Reader, get, quantity_key, word
 from .surfaces import MATERIAL
 from .vocabulary import LOADS
 
@@ -48,7 +48,6 @@ LOSS = (
     "--set life.dry.loss=..."
 )
 BANDS_HARDNESS = "debris.hardness"
-WORN = quantity("A_w", "m^2", "area that is worn in turn", gt=0).metadata["quantity"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -116,14 +115,6 @@ class AskedDry:
         return tuple(self.conditions["arrivals"])
 
 
-def _worn(reader: Reader, path: str, value: Any) -> tuple[float, float]:
-    """Areas of both surfaces."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise wrong(path, 'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]', value)
-    first, second = read_numbers(WORN, reader, path, value)
-    return first, second
-
-
 @cache
 def _keys() -> dict[str, Key]:
     """Keys of [life.dry]."""
@@ -132,7 +123,6 @@ def _keys() -> dict[str, Key]:
         for name, about in QUANTITIES.items()
     }
     loss = keys["loss"]
-    one = quantity_key("worn_area", WORN).schema
     return keys | {
         "loss": loss._replace(about=loss.about + LOSS),
         "moving": word(
@@ -140,12 +130,7 @@ def _keys() -> dict[str, Key]:
         ),
         "arrivals": ARRIVALS._replace(required=True),
         "material": MATERIAL._replace(about="what the particles that arrive are of"),
-        "worn_area": Key(
-            _worn,
-            about='area of each surface that is worn in turn, e.g. ["10 cm^2", "1 cm^2"]: a whole '
-            "track, and a pin",
-            schema={"type": "array", "items": one},
-        ),
+        "worn_area": WORN_AREA,
     }
 
 
@@ -208,6 +193,7 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
     if "particles" not in parts:
         parts.pop("particle_law", None)
     contact = reader.make(Contact, "", parts)
+    need_debris(contact, given)
     conditions = dict(given["dry"])
     arrivals = dirts_of(
         conditions.pop("arrivals"), conditions.pop("material", None), ingress=True, of="life.dry"

@@ -131,7 +131,7 @@ def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -
     Returns
     -------
     array (J,)
-        [1/m³]; NaN where each particle breeds one or more, R₀ ≥ 1.
+        [1/m³]; NaN where each particle breeds one or more, R₀ ≥ 1, or some are never taken out.
 
     Examples
     --------
@@ -145,7 +145,10 @@ def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -
         raise InvalidValue(Problem("source", f"must have a number for each of {len(L)} classes"))
     if reproduction(losses, births=births) >= 1:
         return np.full_like(some, math.nan)
-    return np.asarray(np.linalg.solve(L - G, some), dtype=float)
+    try:
+        return np.asarray(np.linalg.solve(L - G, some), dtype=float)
+    except np.linalg.LinAlgError:
+        return np.full_like(some, math.nan)
 
 
 def _matrices(losses: ArrayLike, births: ArrayLike) -> tuple[Array, Array]:
@@ -217,7 +220,14 @@ def dirt_gain(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -> flo
         𝓛 and 𝒢, of class j in column j [1/s].
     source : array (J,)
         s [1/(m³ s)].
+
+    Returns
+    -------
+    float
+        1 without births; NaN where there is no steady state: see `steady_numbers`.
     """
+    if not np.any(births):
+        return 1.0
     none = np.zeros_like(_matrices(losses, births)[1])
     alone = steady_numbers(losses, births=none, source=source)
     return float(np.sum(steady_numbers(losses, births=births, source=source)) / np.sum(alone))
