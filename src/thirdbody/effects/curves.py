@@ -164,7 +164,7 @@ def _rounding(values: Array, top: float) -> Array:
 def _read_between(
     eps: Array, roots: Array, at: NDArray[np.intp], nearest: NDArray[np.intp], wanted: Array
 ) -> Array:
-    """ε of wanted roots in the intervals ``at``, by the cubic through four nodes from ``nearest``."""
+    """ε of wanted roots in intervals ``at``, by cubics through four nodes from ``nearest`` on."""
     start = nearest[:, None] + np.arange(4)
     return _horner(_cubics(roots[start], eps[start], at - start[:, 0]), roots, at, wanted)
 
@@ -212,7 +212,7 @@ def _read(roots: Array, cubics: Array, wanted: Array) -> Array:
     return _horner(cubics[at], roots, at, wanted)
 
 
-def _runs(eps: Array, values: Array, seams: Array) -> Iterator[_Run]:
+def _runs(eps: Array, values: Array, seams: NDArray[np.intp]) -> Iterator[_Run]:
     """The stretches along which f rises or falls; of where it is 0 none is made."""
     change = np.diff(values)
     top = float(np.max(values))
@@ -233,7 +233,9 @@ def _runs(eps: Array, values: Array, seams: Array) -> Iterator[_Run]:
         yield _run(eps[nodes], np.sqrt(values[nodes]), own, ends, rises)
 
 
-def _run(eps: Array, roots: Array, seams: Array, ends: tuple[float, float], rises: bool) -> _Run:
+def _run(
+    eps: Array, roots: Array, seams: NDArray[np.intp], ends: tuple[float, float], rises: bool
+) -> _Run:
     group = np.zeros(len(eps), dtype=int)
     group[seams] = 1
     group = np.cumsum(group)
