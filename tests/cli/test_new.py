@@ -37,11 +37,14 @@ def empty_folder(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "kind",
     [
-        pytest.param(kind, marks=pytest.mark.slow) if kind in ("linear-guide", "gear") else kind
+        pytest.param(kind, marks=pytest.mark.slow)
+        if kind in ("linear-guide", "gear")
+        else pytest.param(kind, marks=pytest.mark.spread(3))
         for kind in KINDS
     ],
 )
 def test_every_kind_runs_at_once(kind, empty_folder):
+    """That each is solved, tests/cli/test_every_way.py holds as well."""
     made = run("new", kind)
     assert made.exit_code == 0
     assert made.stdout == f"thirdbody {FIRST.get(kind, 'solve')} {kind}.toml\n"

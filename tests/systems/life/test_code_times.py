@@ -159,10 +159,12 @@ def test_a_contact_says_why_it_is_0(changes, debris, words):
         surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         outputs=(tb.outputs.Friction(tau_ss=1e8, tau_sa=1e8), tb.outputs.Wear(**wear)),
     )  # fmt: skip
+    coarse = tb.SizeClasses.covering(smallest=0.5e-6, largest=260e-6, per_octave=2)
+    circuit = oil(settling_area=0.1, classes=coarse)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         found = tb.life(
-            contact, oil=oil(settling_area=0.1), conjunction=tb.films.Point(R=9.5e-3),
+            contact, oil=circuit, conjunction=tb.films.Point(R=9.5e-3),
             lubricant=tb.films.Oil(eta=0.03, alpha=2e-8), load=50.0, speed=1.0,
             slide_roll=changes.get("slide_roll", 0.05), entry_ratio=0.1,
             debris=tb.Debris.boundary_lubricated(**debris), duration=600.0,
@@ -170,7 +172,7 @@ def test_a_contact_says_why_it_is_0(changes, debris, words):
     assert found.R0 == 0
     assert words in found.reproduction
     # without feedback the counts end as those of the oil alone do
-    alone = history_of(oil(settling_area=0.1), duration=600.0)
+    alone = history_of(circuit, duration=600.0)
     assert found.code_times == pytest.approx(alone.code_times, rel=1e-3)
 
 
