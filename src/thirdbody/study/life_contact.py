@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
@@ -192,16 +192,20 @@ def contact_of(
         for name in ("debris", "running_in"):
             if name in given:
                 rule = "has no effect without [life.contact], with entry_ratio"
-                raise InvalidValue(Problem(f"life.{name}", rule))
+                raise InvalidValue(Problem(f"life.{name}", rule, code=Mistake.IDLE))
         idle = [each for each in given.get("until", ()) if isinstance(each, ContactUntil)]
         if idle:
             rule = "has no effect without [life.contact], with entry_ratio"
-            raise InvalidValue(Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule))
+            raise InvalidValue(
+                Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule, code=Mistake.IDLE)
+            )
         return None
     missing = [f"[{name}]" for name in ("surfaces", "roughness", "outputs") if name not in values]
     missing += [] if rolling is not None else [FILM_NEEDS]
     if missing:
-        raise InvalidValue(Problem("life.contact", f"needs {', '.join(missing)}"))
+        raise InvalidValue(
+            Problem("life.contact", f"needs {', '.join(missing)}", code=Mistake.MISSING)
+        )
     assert rolling is not None
     contact, film = rolling.contact, rolling.film
     conditions = {
