@@ -16,11 +16,12 @@ from types import SimpleNamespace
 import jsonschema
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody import cli, study
+from thirdbody import study
 from thirdbody.quantities import files
+
+from .records import run
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 DUSTY = next(path for path in EXAMPLES if path.stem == "dusty_ball_screw")
@@ -28,10 +29,6 @@ CLEAN = next(path for path in EXAMPLES if path.stem == "two_body_reference")
 SCHEMA = json.loads(
     resources.files("thirdbody").joinpath("data/solve.schema.json").read_text("utf-8")
 )
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
 
 
 def process(*arguments, **options):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.installed import offers
 from .streams import SHOWS_ALL, WARNINGS, answer_first, at_once, remark, warn
 
@@ -240,5 +240,5 @@ def metres(option: str, text: str, problems: list[str]) -> float:
     try:
         return to_si(text, "m")
     except InvalidValue as error:
-        problems += [f"{option}: {sentence}" for sentence in error.problems]
+        problems += [Problem(option, f": {each}", code=each.code) for each in error.problems]
         return math.nan

@@ -202,7 +202,7 @@ def _in_beta(name: str) -> str:
 def _filters(reader: Reader, path: str, data: Any) -> Any:
     """A list of filters."""
     if not isinstance(data, list):
-        raise wrong(path, "must be a table, headed [[life.filters]]", data)
+        raise wrong(path, "must be a table, headed [[life.filters]]", data, code=Mistake.KIND)
     return reader.read_each({f"{path}.{i}": each for i, each in enumerate(data)}, _filter)
 
 
@@ -242,7 +242,12 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
 def _read_entries(reader: Reader, path: str, value: Any) -> Any:
     """A table of which the circuit says what its keys mean."""
     if not isinstance(value, dict) or not value:
-        raise wrong(path, 'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }', value)
+        raise wrong(
+            path,
+            'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }',
+            value,
+            code=Mistake.KIND,
+        )
     return value
 
 

@@ -81,7 +81,9 @@ def _sizes(reader: Reader, path: str, value: Any) -> Any:
     """The word of the one estimate there is."""
     if value != BOUNDARY:
         table = '{ distribution = "log-normal", median = "1 um", gsd = 1.6 }'
-        raise wrong(path, f'must be "{BOUNDARY}" or a table, e.g. {table}', value)
+        raise wrong(
+            path, f'must be "{BOUNDARY}" or a table, e.g. {table}', value, code=Mistake.KIND
+        )
     return Debris.boundary_lubricated()
 
 

@@ -49,7 +49,9 @@ def design_key(one_filter: Callable[[Reader, str, Any], Any]) -> Key:
 
     def filters(reader: Reader, path: str, data: Any) -> Any:
         if not isinstance(data, list):
-            raise wrong(path, "must be a table, headed [[life.design.filters]]", data)
+            raise wrong(
+                path, "must be a table, headed [[life.design.filters]]", data, code=Mistake.KIND
+            )
         return reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, one_filter)
 
     def read_table(reader: Reader, path: str, data: Any) -> Any:
@@ -86,13 +88,13 @@ def _choice(reader: Reader, path: str, data: Any) -> Any:
     if reader.every_way:
         return {"type": "object"}
     if not isinstance(data, dict) or not isinstance(data.get("name"), str):
-        raise wrong(path, f"must be a table with a name, {CHOICES}", data)
+        raise wrong(path, f"must be a table with a name, {CHOICES}", data, code=Mistake.KIND)
     return data
 
 
 def _choices(reader: Reader, path: str, data: Any) -> Any:
     if not isinstance(data, list) or len(data) < 2:
-        raise wrong(path, f"must be a list of tables, {CHOICES}", data)
+        raise wrong(path, f"must be a list of tables, {CHOICES}", data, code=Mistake.SHAPE)
     found = reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, _choice)
     names = [each["name"] for each in found]
     if twice := next((name for name in names if names.count(name) > 1), None):

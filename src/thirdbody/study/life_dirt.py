@@ -96,7 +96,7 @@ def sized_numbers(about: Quantity, what: str) -> Key:
 
     def read(reader: Reader, path: str, data: Any) -> tuple[tuple[float, float], ...]:
         if not isinstance(data, dict) or not data:
-            raise wrong(path, f"must be a table of sizes, e.g. {what}", data)
+            raise wrong(path, f"must be a table of sizes, e.g. {what}", data, code=Mistake.KIND)
 
         def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[float, float]:
             size, value = pair
@@ -130,7 +130,7 @@ def _dirt_table(reader: Reader, path: str, data: Any) -> Any:
 def _reports(reader: Reader, path: str, value: Any) -> Any:
     """Reports of the oil, from a file."""
     if not isinstance(value, str):
-        raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value)
+        raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value, code=Mistake.KIND)
     beside = reader.folder / value
     try:
         return read_reports(beside if beside.exists() else Path(value), fewest=2)
@@ -201,7 +201,9 @@ def _no_ingress(reader: Reader, path: str, value: Any) -> Any:
     if value == CLEAN:
         return []
     ways = '{ test_dust = "A3", rate = "125 mg/h" }, { counts = { "4 um" = "1e6 / min" } }'
-    raise wrong(path, f'must be a table, e.g. {ways}, or "{CLEAN}" for none', value)
+    raise wrong(
+        path, f'must be a table, e.g. {ways}, or "{CLEAN}" for none', value, code=Mistake.KIND
+    )
 
 
 DIRT = Key(

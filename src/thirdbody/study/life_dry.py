@@ -119,7 +119,12 @@ class AskedDry:
 def _worn(reader: Reader, path: str, value: Any) -> tuple[float, float]:
     """Areas of both surfaces."""
     if not isinstance(value, list) or len(value) != 2:
-        raise wrong(path, 'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]', value)
+        raise wrong(
+            path,
+            'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]',
+            value,
+            code=Mistake.SHAPE,
+        )
     first, second = read_numbers(WORN, reader, path, value)
     return first, second
 

@@ -1,0 +1,62 @@
+"""Wording is asserted by one test a renderer; elsewhere tests compare fields of records."""
+
+import ast
+import re
+from collections import Counter
+from pathlib import Path
+
+TESTS = Path(__file__).parent
+PROSE = re.compile(r"[A-Za-z]{2,} [a-z]{2,} [a-z]{2,}")
+"""Three words in a row: a sentence, and no name, number or heading."""
+MOST = {}
+"""Assertions that compare English, by room; these numbers only fall."""
+
+
+def text_of(node):
+    """The text of a literal, without what an f-string puts in."""
+    if isinstance(node, ast.JoinedStr):
+        return "\0".join(str(getattr(each, "value", "")) for each in node.values
+                         if isinstance(each, ast.Constant))  # fmt: skip
+    value = getattr(node, "value", "") if isinstance(node, ast.Constant) else ""
+    return value if isinstance(value, str) else ""
+
+
+def holds_prose(node):
+    """Whether a literal inside is prose."""
+    return any(PROSE.search(text_of(each)) for each in ast.walk(node))
+
+
+def lines_of(tree):
+    """Lines at which English is compared: in assertions, and in what an error or warning says."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assert):
+            compared = (each for each in ast.walk(node.test) if isinstance(each, ast.Compare))
+            if any(holds_prose(each) for each in compared):
+                yield node.lineno
+        elif isinstance(node, ast.keyword) and node.arg in ("match", "says"):
+            if holds_prose(node.value):
+                yield node.value.lineno
+
+
+def test_what_counts_as_a_comparison_of_english():
+    compared = """
+assert "the leak has emptied it" in told
+assert told == f"after {x} the oil is clean"
+with raises(InvalidValue, match="must not be so"): pass
+"""
+    fields = """
+assert (problem.code, problem.place) == (Mistake.RANGE, "life.oil.leak"), "of the three codes"
+assert data["inner ring"] == 3
+with refuses(Mistake.RANGE, "a", says="σ = 3"): pass
+"""
+    assert sorted(lines_of(ast.parse(compared))) == [2, 3, 4]
+    assert list(lines_of(ast.parse(fields))) == []
+
+
+def test_wording_is_asserted_in_few_places():
+    """Fewer than stated is no mistake, but lower the number."""
+    found = Counter()
+    for path in sorted(TESTS.rglob("*.py")):
+        room = path.relative_to(TESTS).parts[0] if path.parent != TESTS else "tests"
+        found[room] += len(set(lines_of(ast.parse(path.read_text(encoding="utf-8")))))
+    assert {room: number for room, number in found.items() if number} == MOST
