@@ -33,9 +33,9 @@ def lines_of(tree):
             compared = (each for each in ast.walk(node.test) if isinstance(each, ast.Compare))
             if any(holds_prose(each) for each in compared):
                 yield node.lineno
-        elif isinstance(node, ast.keyword) and node.arg in ("match", "says"):
-            if holds_prose(node.value):
-                yield node.value.lineno
+        says = isinstance(node, ast.keyword) and node.arg in ("match", "says")
+        if says and holds_prose(node.value):
+            yield node.value.lineno
 
 
 def test_what_counts_as_a_comparison_of_english():

@@ -6,7 +6,6 @@ from typer.testing import CliRunner
 
 from thirdbody import cli
 from thirdbody.cli import streams
-from thirdbody.errors import note_of
 
 
 class Done:
@@ -41,35 +40,35 @@ class Done:
 def run(*arguments):
     """The command line, in this process."""
     problems, notes, remarks = [], [], []
-    complain, warn, remark = streams.complain, streams.warn, streams.remark
+    complain, note_of, wrap = streams.complain, streams.note_of, streams._wrap_line
 
     def complained(sentences):
         sentences = list(sentences)
         problems.extend(sentences)
         complain(sentences)
 
-    def warned(message, *rest, **more):
+    def warned(message):
         notes.append(note_of(message))
-        warn(message, *rest, **more)
+        return notes[-1]
 
-    def remarked(sentence, **more):
-        remarks.append(sentence)
-        remark(sentence, **more)
+    def wrapped(line):
+        if line.startswith("note: "):
+            remarks.append(line.removeprefix("note: "))
+        return wrap(line)
 
     with (
         mock.patch.object(streams, "complain", complained),
-        mock.patch.object(streams, "warn", warned),
-        mock.patch.object(streams, "remark", remarked),
-        mock.patch("thirdbody.cli.answers.remark", remarked),
+        mock.patch.object(streams, "note_of", warned),
+        mock.patch.object(streams, "_wrap_line", wrapped),
     ):
         result = CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
     return Done(result, problems, notes, remarks)
 
 
 def refused(*arguments):
-    """Kind and place of each mistake for which a command ends with status 2, none of them lost."""
+    """A command that ends with status 2 for mistakes, each of which is printed."""
     done = run(*arguments)
     assert done.exit_code == 2, done.stdout
     assert "Traceback" not in done.stderr
     assert done.stderr.count("error: ") >= len(done.problems) > 0
-    return done.mistakes
+    return done

@@ -7,7 +7,9 @@ import zipfile
 import pytest
 
 from thirdbody.cli import streams
+from thirdbody.errors import Mistake
 
+from .records import refused
 from .test_cli import EXAMPLES, run
 
 ADDITIVE, FILM, SWEEP = (
@@ -134,9 +136,9 @@ def test_files_of_a_run_appear_together_or_not_at_all(tmp_path, monkeypatch):
     again = run("solve", SWEEP, *options)
     assert again.exit_code == 0, again.output
     names[1].write_text('{"mine": 1}')
-    refused = run("solve", SWEEP, *options)
-    assert refused.exit_code == 2
-    assert "it exists and is no JSON of thirdbody" in refused.stderr
+    (problem,) = refused("solve", SWEEP, *options).problems
+    assert problem.code is Mistake.UNWRITABLE
+    assert str(names[1]) in problem
 
 
 def test_json_goes_to_the_output_or_into_a_file(tmp_path):
