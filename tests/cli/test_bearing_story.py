@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import refused
 from refusals import Mistake, refuses
 from typer.testing import CliRunner
 
@@ -20,8 +21,6 @@ from thirdbody.systems.bearing_life import contamination_factor, life_factor, vi
 from thirdbody.systems.bearing_sizes import DESIGNATIONS
 from thirdbody.systems.oil_filter import Filter
 from thirdbody.systems.oil_particles import FilmParticles
-
-from .records import refused
 
 
 def run(*arguments, code=0):
@@ -191,5 +190,6 @@ def test_soft_debris_is_flattened_and_an_oil_too_dirty_has_no_factor():
     dirty = [f'particles.{i}.iso4406="24/22/19"' for i in (0, 1)]
     found = dirty_oil(load_study("b.toml", dirty))
     assert math.isnan(found.life.a_ISO)
+    assert "24/22/19" in found.life.why
     shown = run("film", "b.toml", *(word for each in dirty for word in ("--set", each)))
     assert "gives no life factor" in " ".join(shown.split())

@@ -16,14 +16,13 @@ from types import SimpleNamespace
 import jsonschema
 import numpy as np
 import pytest
+from command_line import refused, run
 from refusals import refuses
 
 import thirdbody as tb
 from thirdbody import study
 from thirdbody.errors import Mistake
 from thirdbody.quantities import files
-
-from .records import refused, run
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 DUSTY = next(path for path in EXAMPLES if path.stem == "dusty_ball_screw")

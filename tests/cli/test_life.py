@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import refused
 
 import thirdbody as tb
 from thirdbody.errors import Mistake
@@ -18,7 +19,6 @@ from thirdbody.views.life_words import answer
 from thirdbody.views.report import report
 
 from .life_shell import CONTACT, HOUR, complained, enter, run, said, setting
-from .records import refused
 
 
 @pytest.fixture(autouse=True)

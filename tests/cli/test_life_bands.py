@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import refused
 
 import thirdbody as tb
 from thirdbody.errors import Mistake
@@ -18,7 +19,6 @@ from thirdbody.study.run_life import load_life, load_oil
 from thirdbody.systems.life.loop import Loop
 
 from .life_shell import CONTACT, HOUR, enter, run, said, study
-from .records import refused
 
 OIL = """
 [life.until]

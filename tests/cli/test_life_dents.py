@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from command_line import refused
 
 from thirdbody import load_study
 from thirdbody.errors import Mistake
@@ -19,7 +20,6 @@ from thirdbody.systems.oil_filter import Filter
 from thirdbody.views.report.tables import life_section
 
 from .life_shell import CONTACT, enter, quarry, run, said, setting, study
-from .records import refused
 
 DESIGN = """
 [life.design]

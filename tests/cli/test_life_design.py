@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import refused
 
 import thirdbody as tb
 from thirdbody.errors import Mistake
@@ -13,7 +14,6 @@ from thirdbody.study.run_life_design import design_life
 from thirdbody.systems.life.oil_history import run_oil_history
 
 from .life_shell import CONTACT, enter, run, said, study
-from .records import refused
 
 FILTERS = """
 [life.design]

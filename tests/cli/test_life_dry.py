@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from command_line import refused
 
 import thirdbody as tb
 from thirdbody.errors import Mistake
@@ -21,7 +22,6 @@ from thirdbody.views.life_dry_words import answer
 from thirdbody.views.report.tables import life_section
 
 from .life_shell import HOUR, enter, run, said
-from .records import refused
 
 SHORT = ("--set", 'life.duration="1 h"')
 
@@ -75,6 +75,7 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
     head = f"{found.title}, with life.duration = 1 h (thirdbody {tb.__version__})"
     assert told.startswith(f"{head} {first} {second} time")
     assert found.history.reproduction in first
+    assert "After 60 min wear has taken surface 1 by" in second
     assert "residence of what rolls 0.2 s" in told
     assert max(map(len, done.stdout.splitlines())) <= 80
 

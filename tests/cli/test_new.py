@@ -8,13 +8,12 @@ from importlib import resources
 from pathlib import Path
 
 import pytest
+from command_line import refused
 from typer.testing import CliRunner
 
 from thirdbody import cli, load_study
 from thirdbody.cli.commands.new import KINDS
 from thirdbody.errors import Mistake
-
-from .records import refused
 
 ROOT = Path(__file__).parents[2]
 FIRST = {

@@ -13,6 +13,7 @@ from unittest import mock
 
 import numpy as np
 import pytest
+from command_line import refused
 from scipy.integrate import quad
 from typer.testing import CliRunner
 
@@ -23,8 +24,6 @@ from thirdbody.errors import Mistake
 from thirdbody.laws import asperity
 from thirdbody.quantities import installed
 from thirdbody.study import own_code
-
-from .records import refused
 
 ROOT = Path(__file__).parents[2]
 END = 6**0.5

@@ -3,11 +3,11 @@
 import sys
 
 import pytest
+from command_line import refused
 
 from thirdbody.errors import Mistake
 from thirdbody.views import pdf
 
-from .records import refused
 from .test_cli import CLEAN, run
 
 browser = pytest.mark.skipif(pdf.find_browser() is None, reason="needs Chromium, Chrome or Edge")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import refused, run
 
 from thirdbody.errors import Mistake
 from thirdbody.study import check, load_study, run_film
@@ -17,8 +18,6 @@ from thirdbody.study.run import run_film_curve
 from thirdbody.study.run_connector import load_connector, run_connector
 from thirdbody.study.run_plate import load_plate, run_plate
 from thirdbody.views.plate_words import answer
-
-from .records import refused, run
 
 FILES = {"probability": "connector", "plate": "wafer-chuck"}
 
@@ -43,6 +42,7 @@ def test_how_often_a_connector_fails_to_close():
     (at,) = found.places
     every = found.failure_of_all[at]
     assert f"Under 0.5 N the connector fails to close once in {1 / every:.0f} closings" in told
+    assert "20 contacts" in told
     assert told.index("fails to close") < told.index("contact force") < told.index("Most uncertain")
     assert "tape lift" in told or "measure the sizes" in told
 

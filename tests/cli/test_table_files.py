@@ -5,11 +5,11 @@ import importlib.util
 import zipfile
 
 import pytest
+from command_line import refused
 
 from thirdbody.cli import streams
 from thirdbody.errors import Mistake
 
-from .records import refused
 from .test_cli import EXAMPLES, run
 
 ADDITIVE, FILM, SWEEP = (

@@ -6,6 +6,7 @@ from typer.testing import CliRunner
 
 from thirdbody import cli
 from thirdbody.cli import streams
+from thirdbody.errors import Mistake
 
 
 class Done:
@@ -71,4 +72,5 @@ def refused(*arguments):
     assert done.exit_code == 2, done.stdout
     assert "Traceback" not in done.stderr
     assert done.stderr.count("error: ") >= len(done.problems) > 0
+    assert Mistake.UNSAID not in {each.code for each in done.problems}
     return done
