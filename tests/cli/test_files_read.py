@@ -27,7 +27,7 @@ def test_a_file_may_have_so_many_bytes_and_no_more(tmp_path):
     file = tmp_path / "own.toml"
     file.write_bytes(b"x" * 100)
     assert read_bytes(file, "a study file", most=100) == b"x" * 100
-    with refuses(Mistake.TOO_LARGE, "", says="a study file"):
+    with refuses(Mistake.UNREADABLE, "", says="a study file"):
         read_bytes(file, "a study file", most=99)
 
 

@@ -13,6 +13,7 @@ from command_line import refused
 import thirdbody as tb
 from thirdbody.errors import Mistake
 from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
+from thirdbody.systems.life.report_notes import below_counts, beyond_counts
 from thirdbody.systems.life.sizing import least_flow
 from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_words import answer
@@ -151,15 +152,18 @@ def test_a_study_takes_its_ingress_from_reports():
 def test_the_mass_of_reports_says_what_it_leaves_out():
     Path("oil.csv").write_text(CODES)
     told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert "Particles below 4 µm are not counted and not in it" in told
-    assert "% of this mass is of particles beyond 14 µm, whose sizes no report says" in told
-    assert "lies somewhere in the range of its code" in told
+    found = reports_of(load_circuit("oil-circuit.toml"), "oil.csv").reports
+    assert found.coded
+    for sentence in (below_counts(found), beyond_counts(found)):
+        assert sentence in told
+    assert "4 µm" in below_counts(found)
+    assert "14 µm" in beyond_counts(found)
     text = Path("oil-circuit.toml").read_text("utf-8")
     old = 'ingress  = { test_dust = "A3-lot", rate = "125 mg/h" }'
     Path("from.toml").write_text(text.replace(old, 'ingress = { reports = "oil.csv" }'), "utf-8")
-    note = " ".join(run("life", "from.toml").stderr.split())
-    assert note.count("None below 4 µm enter") == 1
-    assert "of the test dusts A4 to A1 they are 7.2 % to 48 % of the mass" in note
+    (remark,) = (r for r in run("life", "from.toml").remarks if r.startswith("life.oil.ingress: "))
+    assert remark.count("below 4 µm") == 1
+    assert "7.2 % to 48 %" in remark
 
 
 def test_counts_in_a_file_are_no_codes_and_may_be_0():
@@ -370,10 +374,10 @@ def test_the_book_shows_what_is_printed():
 def test_the_report_has_a_page_on_the_oil():
     study = tb.load_study("oil-circuit.toml")
     page = report(study).html()
-    assert "<h2>The oil over time</h2>" in page or "The oil over time" in page
-    assert words_in_html(answer(run_life(study.life))[0]) in page
+    words = words_in_html(answer(run_life(study.life))[0])
+    assert words in page
     other = tb.load_study("oil-circuit.toml", ["title=another"])
-    assert "The oil over time" not in report(dataclasses.replace(other, life=None)).html()
+    assert words not in report(dataclasses.replace(other, life=None)).html()
 
 
 # ------------------------------------------------------------------------------ contacts in the oil

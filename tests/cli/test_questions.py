@@ -129,7 +129,7 @@ def test_a_bifurcated_contact_fails_less_often():
 def test_a_wipe_of_unknown_effect_is_told_with_both_ends():
     told = said(run("probability", "connector.toml", "--set", "connector.wipe=0.3 mm"))
     assert "what the wipe pushes aside" in told
-    assert "give connector.pushed_aside" in told
+    assert "connector.pushed_aside" in told
     known = said(
         run("probability", "connector.toml", "--set", "connector.wipe=0.3 mm",
             "--set", "connector.pushed_aside=0.9")
@@ -142,7 +142,7 @@ def test_a_plate_without_a_limit_tells_its_height_alone():
     kept = [line for line in text.splitlines() if not line.startswith("limit")]
     Path("wafer-chuck.toml").write_text("\n".join(kept), "utf-8")
     told = said(run("plate", "wafer-chuck.toml"))
-    assert "bumps on a plate" not in told
+    assert " bumps " not in told
     assert "Most uncertain: the size of the particle" in told
     assert run_plate(load_plate("wafer-chuck.toml")).bumps is None
 

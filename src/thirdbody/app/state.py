@@ -21,7 +21,7 @@ import thirdbody as tb
 
 from ..contact.output import AbstractOutput
 from ..equilibrium.load import as_load
-from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError, note_of
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
 from ..study.life_contact import BOUNDARY
 from ..study.load import pressed
@@ -554,4 +554,4 @@ def refuse_foreign_files(study: Tables, folder: Path) -> None:
         if name not in WORDS and not (Path(name).name == name and (folder / name).is_file())
     ]
     if wrong:
-        raise InvalidValue(*wrong)
+        raise InvalidValue(*wrong, code=Mistake.UNREADABLE)

@@ -78,7 +78,7 @@ def command(options: Options) -> None:
     tell_written(options.out)
 
 
-def _format(form: str | None, out: Path, units: str | None) -> tuple[str, list[Problem]]:
+def _format(form: str | None, out: Path, units: str | None) -> tuple[str, list[str]]:
     """Format by its name or the suffix of the file, and its problems."""
     from ...equilibrium.table.writers import FORMATS
 
