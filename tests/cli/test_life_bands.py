@@ -66,7 +66,7 @@ def test_how_sure_an_oil_is_and_what_decides():
     assert 0 < missed < data["samples"] == 64
     assert data["reached"]["code 13/11/7"] == 1 - missed / 64
     assert f"in {missed} of 64 histories not by 2 h" in told
-    assert data["swings"][0]["name"] == "ingress"
+    assert data["swings"][0][0] == "ingress"
     assert data["times"]["code 13/11/7"][-1] is None  # censored
 
 
@@ -202,7 +202,7 @@ def test_contacts_in_an_oil_are_varied_with_it(few):
     )  # fmt: skip
     bands = json.loads(run("life", file, *SHORT, "--json").stdout)["bands"]
     assert 0 < bands["wear"][0] < bands["wear"][-1]
-    assert bands["swings"][0]["name"] == "entry_ratio"
+    assert bands["swings"][0][0] == "entry_ratio"
     asked = load_oil(file, [SHORT[1], SHORT[3]])
     given = {"contact": asked.contact.contact, "debris": asked.contact.debris}
     found = propagate_life(
@@ -358,7 +358,7 @@ def test_a_factor_whose_tail_alone_is_impossible_is_allowed():
 "filters.0.service" = { median = 0.9, gsd = 1.15 }
 """)  # fmt: skip
     bands = json.loads(run("life", file, *SHORT, "--json").stdout)["bands"]
-    assert bands["swings"][0]["name"] == "filters.0.service"
+    assert bands["swings"][0][0] == "filters.0.service"
 
 
 def test_a_file_of_another_study_is_refused():

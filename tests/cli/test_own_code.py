@@ -105,8 +105,8 @@ def test_a_distribution_of_ones_own_is_solved(file, setting, place):
     """As by Python; a study that does not import it is refused."""
     run("new", "two-body")
     command = ["solve", "two-body.toml", f"--set={setting}"]
-    (problem,) = refused(*command).problems
-    assert (problem.code, problem.value) == (Mistake.OPTION, '"triangular"')
+    told = {(each.code, each.value) for each in refused(*command).problems}
+    assert (Mistake.OPTION, '"triangular"') in told
     with registries_kept():
         found = run(*command, "--import", file, "--json")
         schema = run("schema", "--import", file).stdout
