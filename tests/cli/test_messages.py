@@ -9,7 +9,15 @@ from pathlib import Path
 import pytest
 
 from thirdbody.cli.streams import warn
-from thirdbody.errors import Advice, InvalidValue, Note, Problem, in_study
+from thirdbody.errors import (
+    Advice,
+    InvalidValue,
+    Note,
+    Problem,
+    RangeWarning,
+    in_study,
+    note_of,
+)
 
 from .test_cli import DUSTY, run
 
@@ -110,6 +118,12 @@ area = "100 um^2"
 [load]
 force = "10 uN"
 """
+
+
+def test_a_note_that_is_printed_keeps_its_words_for_studies():
+    note = Note("A_t reaches 0.3", action=Advice("field=Field()", 'name = "field"'))
+    assert in_study(note_of(note)) == in_study(note_of(RangeWarning(note))) == note.study
+    assert note.study != str(note)
 
 
 def test_a_contact_of_which_most_meet_no_particle_is_not_said_to_rest_on_particles(tmp_path):

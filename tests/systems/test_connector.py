@@ -231,7 +231,7 @@ def test_particles_that_break_are_refused():
 
 @pytest.mark.parametrize("load", [-1.0, math.nan, math.inf])
 def test_loads_that_are_none(load):
-    with refuses(Mistake.RANGE, "load"):
+    with refuses(Mistake.RANGE, "", says="load"):
         plug(dust(1.0)).bounds(load)
 
 
