@@ -86,7 +86,12 @@ class LifeContact:
 def _worn(reader: Reader, path: str, value: Any) -> tuple[float, float]:
     """Areas of both surfaces."""
     if not isinstance(value, list) or len(value) != 2:
-        raise wrong(path, 'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]', value)
+        raise wrong(
+            path,
+            'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]',
+            value,
+            code=Mistake.SHAPE,
+        )
     first, second = read_numbers(WORN, reader, path, value)
     return first, second
 
@@ -124,7 +129,9 @@ def _sizes(reader: Reader, path: str, value: Any) -> Any:
     """The word of the one estimate there is."""
     if value != BOUNDARY:
         table = '{ distribution = "log-normal", median = "1 um", gsd = 1.6 }'
-        raise wrong(path, f'must be "{BOUNDARY}" or a table, e.g. {table}', value)
+        raise wrong(
+            path, f'must be "{BOUNDARY}" or a table, e.g. {table}', value, code=Mistake.KIND
+        )
     return Debris.boundary_lubricated()
 
 
@@ -242,16 +249,20 @@ def contact_of(
         for name in ("debris", "running_in"):
             if name in given:
                 rule = "has no effect without [life.contact], with entry_ratio"
-                raise InvalidValue(Problem(f"life.{name}", rule))
+                raise InvalidValue(Problem(f"life.{name}", rule, code=Mistake.IDLE))
         idle = [each for each in given.get("until", ()) if isinstance(each, ContactUntil)]
         if idle:
             rule = "has no effect without [life.contact], with entry_ratio"
-            raise InvalidValue(Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule))
+            raise InvalidValue(
+                Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule, code=Mistake.IDLE)
+            )
         return None
     missing = [f"[{name}]" for name in ("surfaces", "roughness", "outputs") if name not in values]
     missing += [] if rolling is not None else [FILM_NEEDS]
     if missing:
-        raise InvalidValue(Problem("life.contact", f"needs {', '.join(missing)}"))
+        raise InvalidValue(
+            Problem("life.contact", f"needs {', '.join(missing)}", code=Mistake.MISSING)
+        )
     assert rolling is not None
     contact, film = rolling.contact, rolling.film
     need_debris(contact, given)

@@ -10,7 +10,7 @@ from typing import Any
 from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.contact import Contact
 from ..contact.evaluation import bodies_of
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.units import Quantity
 from ..quantities.value import quantity
 from ..systems.life.debris import Debris
@@ -153,10 +153,12 @@ def _pressure(values: Mapping[str, Any], contact: Contact) -> float:
     name, loads = values["load"]
     if name not in ("pressure", "F_star"):
         rule = "does not go with [life.dry], which needs pressure or F_star"
-        raise InvalidValue(Problem(f"load.{name}", rule))
+        raise InvalidValue(Problem(f"load.{name}", rule, code=Mistake.CLASH))
     if len(loads) != 1:
         rule = f"has {len(loads)} values, and a history has one"
-        raise InvalidValue(Problem(f"load.{name}", rule, hint="--set load.pressure=..."))
+        raise InvalidValue(
+            Problem(f"load.{name}", rule, hint="--set load.pressure=...", code=Mistake.SHAPE)
+        )
     return float(loads[0]) * (1.0 if name == "pressure" else contact.E_ss)
 
 
@@ -179,14 +181,22 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
     """The dry contact that a study asks for, from the objects that its tables stand for."""
     given = values["life"]
     problems = [
-        Problem(f"life.{name}", "does not go with [life.dry]: one is in an oil, the other is not")
+        Problem(
+            f"life.{name}",
+            "does not go with [life.dry]: one is in an oil, the other is not",
+            code=Mistake.CLASH,
+        )
         for name in ("oil", "filters", "contact", "design")
         if name in given
     ]
     if missing := [f"[{name}]" for name in NEEDED if name not in values]:
-        problems.append(Problem("life.dry", f"needs {', '.join(missing)}"))
+        problems.append(Problem("life.dry", f"needs {', '.join(missing)}", code=Mistake.MISSING))
     if lost := [e for e in given.get("until", ()) if isinstance(e, CodeReached | FilterFull)]:
-        problems.append(Problem("life.until", f"waits for what only an oil has: {lost[0].name}"))
+        problems.append(
+            Problem(
+                "life.until", f"waits for what only an oil has: {lost[0].name}", code=Mistake.CLASH
+            )
+        )
     if problems:
         raise InvalidValue(*problems)
     parts = {name: values[name] for name in OF_CONTACT if name in values}

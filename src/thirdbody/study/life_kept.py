@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..quantities.files import need_folders
 from ..version import __version__
 
@@ -57,9 +57,9 @@ class KeptEnds:
             lines = file.read_text("utf-8").split("\n")
             head = json.loads(lines[0])
         except (ValueError, UnicodeDecodeError, OSError):
-            raise InvalidValue(wrong) from None
+            raise InvalidValue(wrong, code=Mistake.UNREADABLE) from None
         if not isinstance(head, dict) or head.get("histories of") != self.of:
-            raise InvalidValue(wrong)
+            raise InvalidValue(wrong, code=Mistake.OTHER_STUDY)
         whole = []
         for line in lines[1:]:
             try:

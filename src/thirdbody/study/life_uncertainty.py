@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.say import value_of
 from ..quantities.units import Quantity, say, to_si
 from ..quantities.value import quantity
@@ -146,7 +146,7 @@ def known_of_life(
         if quantity_of is None:
             name, quantity_of = parts.get(label, (name, None))
         if quantity_of is None:
-            raise InvalidValue(Problem(where, names))
+            raise InvalidValue(Problem(where, names, code=Mistake.UNKNOWN))
         return name, read_uncertain(reader, where, quantity_of, entry)
 
     places: dict[str, str] = {}
@@ -157,7 +157,13 @@ def known_of_life(
         twice = []
         for where, (name, _) in zip(pairs, found, strict=True):
             if (before := first.setdefault(name, where)) != where:
-                twice.append(Problem(where, f"is the same number as {before}; keep one of them"))
+                twice.append(
+                    Problem(
+                        where,
+                        f"is the same number as {before}; keep one of them",
+                        code=Mistake.CLASH,
+                    )
+                )
         if twice:
             raise InvalidValue(*twice)
         places.update(first)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ...errors import InvalidValue, Note, Problem
+from ...errors import InvalidValue, Mistake, Note, Problem
 from ...populations.distributions import Distribution, LogNormal
 from ...populations.materials import Material
 from ...populations.tabulated_sizes import PowerLaw
@@ -66,7 +66,11 @@ class Debris(Value):
     def _problems(self) -> list[str]:
         if isinstance(self.diameter, Distribution):
             return []
-        return [Problem("diameter", "must be a size distribution", repr(self.diameter))]
+        return [
+            Problem(
+                "diameter", "must be a size distribution", repr(self.diameter), code=Mistake.KIND
+            )
+        ]
 
     @classmethod
     def boundary_lubricated(cls, *, hardness: float | None = None) -> Self:
@@ -118,7 +122,9 @@ class Debris(Value):
         """
         edges, numbers = tuple(map(float, sizes)), tuple(map(float, counts))
         if len(edges) != len(numbers) + 1:
-            raise InvalidValue(f"sizes ({len(edges)}) must be one more than counts")
+            raise InvalidValue(
+                Problem("sizes", f"({len(edges)}) must be one more than counts", code=Mistake.SHAPE)
+            )
         found = PowerLaw(edges=edges, counts=numbers, slopes=(3.0,) * len(numbers))
         return cls(diameter=found, hardness=hardness)
 
