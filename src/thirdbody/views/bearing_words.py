@@ -13,14 +13,14 @@ from ..systems.machine_elements import RadialBearing
 
 __all__ = ["DROP", "HEADS", "MEANS", "rows", "shares_load", "sharing"]
 
-HEADS = ("place", "load", "p_0 inner", "p_0 outer", "ellipse inner", "ellipse outer")
+HEADS = ("place", "load", "p_0 inner", "p_0 outer", "contact inner", "contact outer")
 MEANS = {
     "place": "angle from the direction of the load",
     "p_0 inner": "largest Hertz pressure on the inner ring",
-    "ellipse inner": "whole axes, along and across the motion",
+    "contact inner": "whole axes, along and across the motion",
 }
 """What the heads mean."""
-DROP = ("ellipse outer", "ellipse inner")
+DROP = ("contact outer", "contact inner")
 """Columns in the order in which they go where the width is small."""
 
 

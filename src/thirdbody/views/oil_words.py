@@ -97,12 +97,15 @@ def _ends(both: Sequence[str]) -> str:
 
 def _effects(one: OilWhatIf) -> str:
     """What an input between its ends does, and what to do about it."""
+    life = "a_ISO is {}"
+    if one.code == "number":
+        life += " (ISO 281 goes by steps of several codes)"
     clauses = {
         "there are {} dents an hour": [_count(each) for each in one.dents],
         "one in twenty dents of the deepest kind is beyond {}": [
             value_of(each, "m", 3) for each in one.depth
         ],
-        "a_ISO is {}": [number(each, 2) for each in one.a_ISO],
+        life: [number(each, 2) for each in one.a_ISO],
     }
     moved = [
         clause.format(" to ".join(ends)) for clause, ends in clauses.items() if ends[0] != ends[1]
