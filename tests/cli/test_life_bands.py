@@ -363,7 +363,7 @@ def test_a_factor_whose_tail_alone_is_impossible_is_allowed():
 
 def test_a_file_of_another_study_is_refused():
     file = study("oil-circuit", OIL)
-    KeptEnds(Path("kept.jsonl"), {"another": 1})
+    KeptEnds(Path("kept.jsonl"), {"another": 1}).add(0, {})
     before = Path("kept.jsonl").read_bytes()
     (problem,) = refused("assess", file, *SHORT, "--keep", "kept.jsonl").problems
     assert problem.code is Mistake.OTHER_STUDY

@@ -30,7 +30,7 @@ from ..systems.life.oil_history import need_oil_left, run_oil_history
 from ..systems.life.run import life
 from ..systems.life.until import Until
 from .life_kept import KeptEnds
-from .life_uncertainty import about_circuit, place_of_beta
+from .life_uncertainty import about_circuit, place_of_beta, with_numbers
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -165,30 +165,6 @@ def _number_of(circuit: OilCircuit, name: str) -> Any:
     return circuit.value_at(name)
 
 
-def _changed(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
-    """The circuit with some of its numbers changed."""
-    changes: dict[str, Any] = dict(values)
-    factor = changes.pop(INGRESS, None)
-    if factor is not None:
-        scaled = [
-            each.replace(
-                **{
-                    name: factor * getattr(each, name)
-                    for name in ("rate", "steady")
-                    if getattr(each, name) is not None
-                }
-            )
-            for each in circuit.ingress
-        ]
-        circuit = circuit.replace(ingress=tuple(scaled))
-    for name in list(changes):
-        if (place := place_of_beta(circuit, name)) is not None:
-            which, i = f"filters.{place[0]}.betas", place[1]
-            betas = changes.get(which, circuit.filters[place[0]].betas)
-            changes[which] = (*betas[:i], changes.pop(name), *betas[i + 1 :])
-    return circuit.replace(**changes) if changes else circuit
-
-
 def _check(
     circuit: OilCircuit, vary: Mapping[str, Uncertain], contact: Mapping[str, Any] | None
 ) -> None:
@@ -307,7 +283,7 @@ def _problem_of(
     about = about_circuit(circuit, name)
     value = value_of(values[name], "1" if about is None else about["unit"], 3)
     try:
-        changed = _changed(circuit, values)
+        changed = with_numbers(circuit, values)
     except InvalidValue as error:
         return error.problems[0].changed(value=value)
     try:
@@ -481,12 +457,12 @@ def propagate_life(
 
     def end(values: Mapping[str, float]) -> End:
         if contact is None:
-            return _end_of(run_oil_history(_changed(circuit, values), **shared))
+            return _end_of(run_oil_history(with_numbers(circuit, values), **shared))
         rest = dict(values)
         changed = _contact_with(contact["contact"], rest)
         own = {name: rest.pop(name) for name in (*OF_CONTACT, HARDNESS) if name in rest}
         given = _with_hardness(contact, own) | {"contact": changed}
-        return _end_of(life(**given, oil=_changed(circuit, rest), **shared))
+        return _end_of(life(**given, oil=with_numbers(circuit, rest), **shared))
 
     return _bands(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),

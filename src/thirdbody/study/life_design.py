@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import InvalidValue, Mistake, Problem
+from ..quantities.say import value_of
 from ..quantities.units import Quantity, say
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.until import Until
 from ..systems.oil_filter import Filter
 from .life_dirt import CODE
+from .life_uncertainty import one_name_of, with_numbers
 from .reader import NOTHING, Key, Reader, read_number, wrong
 
 __all__ = ["AskedDesign", "design_key", "design_of"]
@@ -111,9 +113,11 @@ def _circuit(
 
     def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, float]:
         label, value = pair
-        name = label.removeprefix("oil.")
+        name = one_name_of(circuit, label.removeprefix("oil."))
         if (quantity := about(circuit, name)) is None:
-            some = '"oil.volume", "filters.0.flow", "filters.0.capacity"'
+            some = '"oil.volume", "filters.0.flow", "filters.0.capacity", "filters.0.service"'
+            sizes = circuit.filters[0].sizes if circuit.filters else ()
+            some += "".join(f', "filters.0.beta.{value_of(x, "m")}"' for x in sizes)
             raise InvalidValue(
                 Problem(
                     where, f"is not a number of the circuit; it has {some}", code=Mistake.UNKNOWN
@@ -124,7 +128,7 @@ def _circuit(
     pairs = {f"{path}.{say(k)}": (k, v) for k, v in entry.items() if k != "name"}
     numbers = dict(reader.read_each(pairs, one))
     try:
-        changed = circuit.replace(**numbers)
+        changed = with_numbers(circuit, numbers)
         changed.terms()
     except InvalidValue as error:
         raise error.under(path) from None

@@ -25,6 +25,7 @@ __all__ = [
     "names_life",
     "one_name_of",
     "place_of_beta",
+    "with_numbers",
 ]
 
 FACTOR = quantity("f", "1", "factor on all that enters or arrives", gt=0).metadata["quantity"]
@@ -110,6 +111,30 @@ def about_circuit(circuit: OilCircuit, name: str) -> Quantity | None:
     if last not in fields or not isinstance(number_of_it, float):
         return None
     return fields[last].metadata.get("quantity")
+
+
+def with_numbers(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
+    """The circuit with some of its numbers changed."""
+    changes: dict[str, Any] = dict(values)
+    factor = changes.pop(INGRESS_FACTOR, None)
+    if factor is not None:
+        scaled = [
+            each.replace(
+                **{
+                    name: factor * getattr(each, name)
+                    for name in ("rate", "steady")
+                    if getattr(each, name) is not None
+                }
+            )
+            for each in circuit.ingress
+        ]
+        circuit = circuit.replace(ingress=tuple(scaled))
+    for name in list(changes):
+        if (place := place_of_beta(circuit, name)) is not None:
+            which, i = f"filters.{place[0]}.betas", place[1]
+            betas = changes.get(which, circuit.filters[place[0]].betas)
+            changes[which] = (*betas[:i], changes.pop(name), *betas[i + 1 :])
+    return circuit.replace(**changes) if changes else circuit
 
 
 def names_life(whole: Mapping[str, Any]) -> bool:
