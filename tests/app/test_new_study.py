@@ -203,7 +203,7 @@ def test_a_new_study_is_begun_from_a_drawing(page):
     page.locator('[data-fact="film: answer 0"]').get_by_text(said, exact=True).wait_for()
     assert page.locator('[data-slider="load.force"]').is_visible()
     page.locator('[data-path="film.filter"]').fill("5=75, 10=1000")
-    page.locator('[data-fact="film: answer 0"]', has_text="The filter takes the dents").wait_for()
+    page.locator('[data-fact="film: answer 0"]', has_text="the filter takes the dents").wait_for()
     page.locator('[data-slider="particles.iso4406"] [role="slider"]').focus()
     page.keyboard.press("ArrowLeft")
     page.locator(".sliders").get_by_text("oil 17/15/12").wait_for()

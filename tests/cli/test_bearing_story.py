@@ -56,7 +56,7 @@ def test_which_of_them_dents_and_would_a_filter_help():
     assert max(map(len, filtered.splitlines())) <= 80
     told = " ".join(filtered.split())
     assert re.search(
-        r"The filter takes the dents from \d+ to \d+ an hour, [\d.]+ times fewer", told
+        r"the filter takes the dents from \d+ to \d+ an hour, [\d.]+ times fewer", told
     )
     assert "the oil from 18/16/13 to 13/9/3" in told
     assert "before after the filter" in told

@@ -189,7 +189,9 @@ def test_dust_or_steel_in_my_bearing_and_would_a_finer_filter_help(run):
     assert re.search(most + r"the deepest kind is beyond \d+ nm to [\d.]+ µm;", whole)
     assert "For the life: the number of particles. With half and twice as many" in whole
     told = first_sentences(run("film", "ball-bearing.toml", "--filter", "5=75, 10=1000"))
-    assert told.startswith("The filter takes the dents from 28000 to 850 an hour, 33 times fewer")
+    assert told.startswith(
+        "In one pass the filter takes the dents from 28000 to 850 an hour, 33 times fewer"
+    )
     assert "a_ISO from 1.6 to 50, 31 times the life" in told
 
 

@@ -645,9 +645,9 @@ def test_a_file_without_unit_asks_for_it(tmp_path, library):
     with pytest.raises(tb.InvalidValue) as error:
         from_topography(path)
     unit, sides = error.value.problems
-    assert unit.code is sides.code is Mistake.MISSING
-    assert "unit=" in unit
-    assert "spacing=" in sides
+    assert unit.code is sides.code is Mistake.UNIT
+    assert "unit = " in unit
+    assert "spacing = " in sides
     s = from_topography(path, unit="nm", spacing=1e-7, detrend="none")
     np.testing.assert_allclose(s.heights, h - np.nanmean(h), atol=1e-18)
 

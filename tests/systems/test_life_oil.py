@@ -463,7 +463,7 @@ def test_classes_let_pass_what_the_cumulative_ratio_says(betas, service):
     edges = np.array([4.9e-6, 5e-6, 5.7e-6, 7e-6, 9.1e-6, 10e-6, 20e-6])
     got = sheet.mean_penetration(edges)
     above = edges**-3.0
-    behind = above / sheet.beta(edges) ** service
+    behind = above / tb.Filter(sizes=(5e-6, 10e-6), betas=betas).beta(edges) ** service
     want = (behind[:-1] - behind[1:]) / (above[:-1] - above[1:])
     clipped = sheet.clipped_to or 0.0
     free = (edges[:-1] >= max(clipped, 5e-6)) & (edges[1:] < 10e-6 * (1 + 1e-12))

@@ -23,7 +23,7 @@ from ..equilibrium.states import OWN_SPOTS, varied
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import LONG, SURE, Cost, Stages, counted, duration, solving
-from ..quantities.say import percent, value_of
+from ..quantities.say import number, percent, value_of
 from ..quantities.value import problem_with
 from .assessment import (
     COARSE,
@@ -233,7 +233,7 @@ class _Outputs:
             each = (now - self.start) / (self.done - self.first)
             if (whole := each * self.total) > LONG:
                 self.progress.tell(
-                    f"about {self.total:,} states with outputs, {each:.2g} s each: some "
+                    f"about {self.total:,} states with outputs, {number(each, 2)} s each: some "
                     f"{duration(whole)}"
                 )
             self.said = True

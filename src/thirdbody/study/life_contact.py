@@ -12,8 +12,7 @@ from ..quantities.say import join_words, value_of
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
-from ..systems.life.contact_life import wears
-from ..systems.life.debris import Debris
+from ..systems.life.debris import Debris, wears
 from ..systems.life.surfaces import RunningIn
 from ..systems.life.until import ContactUntil
 from ..systems.machine_elements import RadialBearing

@@ -24,7 +24,7 @@ from .contact_history import (
     contact_columns,
 )
 from .contact_tables import Kind, contact_tables
-from .debris import Debris
+from .debris import Debris, wears
 from .dry_loop import ARRIVED, LEFT, DryLoop
 from .film_loop import FRESH, INGRESS, FilmLoop
 from .history import LifeHistory
@@ -52,13 +52,6 @@ CROWDED = 0.3
 
 
 # ------------------------------------------------------------------ what is common
-def wears(contact: Contact) -> bool:
-    """Whether the Wear of a contact takes anything away."""
-    wear: Any = next((each for each in contact.outputs if each.name == "wear"), None)
-    names = ("K_ss", "K_ss_ep", "K_ss_e", "K_sa", "K_sa_ep", "K_sa_e", "f_ab", "f_roll")
-    return wear is not None and any(getattr(wear, name) for name in names)
-
-
 def _check(contact: Contact, debris: Debris | None, running_in: RunningIn | None) -> None:
     problems: list[Problem] = []
     if not isinstance(contact, Contact):

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -26,14 +26,23 @@ from .size_classes import SizeClasses
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...contact.contact import Contact
+
     Array = NDArray[np.float64]
 
-__all__ = ["Debris"]
+__all__ = ["Debris", "wears"]
 
 ESTIMATE = (
     "sizes of debris are an estimate: between two ways to measure them on one pair of steels under "
     "boundary lubrication"
 )
+
+
+def wears(contact: Contact) -> bool:
+    """Whether the Wear of a contact takes anything away."""
+    wear: Any = next((each for each in contact.outputs if each.name == "wear"), None)
+    names = ("K_ss", "K_ss_ep", "K_ss_e", "K_sa", "K_sa_ep", "K_sa_e", "f_ab", "f_roll")
+    return wear is not None and any(getattr(wear, name) for name in names)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
