@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Debris", "wears"]
+__all__ = ["Debris"]
 
 ESTIMATE = (
     "sizes of debris are an estimate: between two ways to measure them on one pair of steels under "
