@@ -29,7 +29,7 @@ from ...populations.materials import reduced_modulus
 from ...populations.particles import Particles
 from ...populations.shape import Sphere
 from . import fields as f
-from .grounds import Grounds, check_grounded, mean_diameters
+from .grounds import Grounds, check_grounded, mean_diameter
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -280,7 +280,7 @@ class Numbers:
         found = [] if bare else self._populations()
         grounded = bool(found) and self.skins[0, 0, f.CODE] == f.FIELD
         if grounded:
-            check_grounded(contact, arrays, found)
+            check_grounded(contact, found)
         self.inside = np.zeros((1, 1))
         """What particles that break have inside, if any do."""
         self.centre = 0.0
@@ -296,15 +296,11 @@ class Numbers:
         self.ground: Grounds | None = None
         """Of particles on one field of heights."""
         if grounded:
-            self._add_ground(found[0], arrays)
-
-    def _add_ground(self, found: Any, arrays: Mapping[str, Array]) -> None:
-        one, changed, law, varied = found[:4]
-        rough = self.varied.roughness
-        diameter = mean_diameters(one.diameter, changed.diameter, arrays, self.parts[:, 0])
-        self.ground = Grounds(
-            self.skins, self.parts, rough.alpha, varied, rough, diameter, law.centre
-        )
+            rough, laws = self.varied.roughness, [each[3] for each in found]
+            self.ground = Grounds(
+                *(self.skins, self.parts, rough.alpha, laws, rough),
+                *(mean_diameter(found, self.parts), found[0][2].centre),
+            )
 
     def _add_asperities(
         self, rows: Array, ratio: float | None, radius: float, share: float

@@ -20,13 +20,11 @@ from ...populations import distributions as sizes
 from . import fields as f
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-__all__ = ["Grounds", "check_grounded", "mean_diameters"]
+__all__ = ["Grounds", "check_grounded", "mean_diameter"]
 
 WIDTH, NODES = 0.5, 16
 """Of cells over the distance from which others are felt, and nodes of their series."""
@@ -41,19 +39,37 @@ SHORT = "the ground of particles on a field of heights is a table of its own"
 """What is said where the kernel does not know it."""
 
 
-def check_grounded(contact: Any, arrays: Mapping[str, Array], found: list[Any]) -> None:
+def check_grounded(contact: Any, found: list[Any]) -> None:
     """Refuse populations whose ground the kernel does not know."""
-    one = found[0][0]
-    if len(found) > 1 or one.strength is not None or found[0][2].seat != "rough":
+    if any(each[0].strength is not None or each[2].seat != "rough" for each in found):
         raise NotCompiled(SHORT)
-    law = contact.asperity_law
-    if law.spectrum is not None:
+    if contact.asperity_law.spectrum is not None:
         raise NotCompiled(SHORT)
 
 
-def mean_diameters(one: Any, changed: Any, arrays: Mapping[str, Array], rows: Array) -> Any:
+def mean_diameter(found: list[Any], rows: Array) -> Any:
+    """Mean diameter of all particles [m], a float or one of each state.
+
+    Parameters
+    ----------
+    found : list
+        Populations, or sections of their sizes, as they are and with arrays in them.
+    rows : array (N, P, ...)
+        Their numbers.
+    """
+    diameters = [
+        mean_of_sizes(one.diameter, changed.diameter, rows[:, p])
+        for p, (one, changed, *_) in enumerate(found)
+    ]
+    first, total = diameters[0], 0.0
+    for p, diameter in enumerate(diameters):
+        total = total + rows[:, p, f.DENSITY] * (diameter - first)
+    return first + total / rows[:, :, f.DENSITY].sum(axis=1)
+
+
+def mean_of_sizes(one: Any, changed: Any, rows: Array) -> Any:
     """Mean diameter of each state [m], of sizes as they are and with arrays in them."""
-    if not any(name.startswith("particles.") and ".diameter." in name for name in arrays):
+    if changed is one:
         return one.mean_diameter
     if type(one) is sizes.Monodisperse:
         return changed.mean
@@ -189,12 +205,12 @@ class Grounds:
 
     Parameters
     ----------
-    skins, parts : array (N, 1, ...)
-        Of asperities and populations, filled.
+    skins, parts : array (N, 1, ...), (N, P, ...)
+        Of asperities, and of populations or sections of their sizes, filled.
     alpha : float or array (N,)
         Bandwidth, an array where it varies.
-    law, rough : Any
-        Law of the particles and roughness, with arrays in them.
+    laws, rough : Any
+        Law of each part and roughness, with arrays in them.
     diameter : float or array (N,)
         Mean diameter [m].
     datum : float
@@ -202,35 +218,38 @@ class Grounds:
     """
 
     def __init__(
-        self, skins: Array, parts: Array, alpha: Any, law: Any, rough: Any, diameter: Any,
+        self, skins: Array, parts: Array, alpha: Any, laws: list[Any], rough: Any, diameter: Any,
         datum: float,
     ):  # fmt: skip
         from . import ground as g
 
-        skin, part, count = skins[:, 0], parts[:, 0], len(skins)
-        width, chi = np.broadcast_to(law.zeta_std, count), skin[:, f.CHI]
-        if np.any(part[:, f.HIGH] > WIDEST * width * rough.sigma):
+        skin, count = skins[:, 0], len(skins)
+        chi, sigma = skin[:, f.CHI], np.broadcast_to(rough.sigma, count)[:, None]
+        self.seats = np.zeros((*parts.shape[:2], g.OF_SEAT))
+        for s, law in enumerate(laws):
+            self.seats[:, s, g.MEAN], self.seats[:, s, g.SPREAD] = law.zeta_mean, law.zeta_std
+        mean, width = self.seats[:, :, g.MEAN], self.seats[:, :, g.SPREAD]
+        if np.any(parts[:, :, f.HIGH] > WIDEST * width * sigma):
             raise NotCompiled(SHORT)
+        fixed = np.where(parts[:, :, f.SHADOW] == f.COVERED, parts[:, :, f.COVERAGE], 0.0)
         self.parts = parts.copy()
-        fixed = np.where(part[:, f.SHADOW] == f.COVERED, part[:, f.COVERAGE], 0.0)
         plain = {f.SEAT: f.PLANE, f.DENSITY: 1.0, f.OFFSET: 0.0, f.WIDTH: 0.0, f.COVERAGE: 0.0}
         for column, value in plain.items():
-            self.parts[:, 0, column] = value
+            self.parts[:, :, column] = value
         soft = skin[:, f.IS_SOFT] == 1
         lowest = np.where(soft, separations(True)[0], separations(False)[0])
-        top = part[:, f.HIGH] / rough.sigma
-        reach = top + NORMAL_REACH * width + law.zeta_mean - datum
+        top = parts[:, :, f.HIGH] / sigma
+        reach = (top + NORMAL_REACH * width + mean - datum).max(axis=1)
         last = np.maximum(reach, lowest + 1.0)
-        steps = rows_between(lowest, reach, np.minimum(1.0, width))
+        steps = rows_between(lowest, reach, np.minimum(1.0, width.min(axis=1)))
         self.numbers = np.zeros((count, g.OF_GROUND))
         for column, value in {
             **{g.LOWEST: lowest, g.STEP: (last - lowest) / steps, g.ROWS: steps + 1},
-            **{g.MEAN: law.zeta_mean, g.SPREAD: width, g.TOP: top, g.SIGMA: rough.sigma},
-            **{g.DENSE: part[:, f.DENSITY], g.UNIT: skin[:, f.FORCE], g.FIXED: fixed},
-            g.DARK: (part[:, f.SHADOW] == f.FOOTPRINT) | (part[:, f.SHADOW] == f.PROJECTED),
-            g.POWER: np.where(part[:, f.KIND] == f.ONE_SIZE, 2.0, 4.0),
+            **{g.SIGMA: rough.sigma, g.UNIT: skin[:, f.FORCE], g.FIXED: fixed.sum(axis=1)},
         }.items():
             self.numbers[:, column] = value
+        self.seats[:, :, g.TOP], self.seats[:, :, g.DENSE] = top, parts[:, :, f.DENSITY]
+        self.seats[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
         every = np.broadcast_to(np.asarray(alpha, float), count)
         self.tables = np.zeros((count, f.HEIGHTS_OF_TABLE, COLUMNS))
         for some in (soft, ~soft):

@@ -29,7 +29,8 @@ AT_ONCE = 256
 """States handed to a thread at a time."""
 NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
-DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG)
+SQUEEZED = "particles are squeezed by more than their size on a field of heights"
+DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED)
 """Why a state is for the NumPy engine to judge."""
 CODES = {
     f.UNSOLVED: NOT_BALANCED,
@@ -37,6 +38,7 @@ CODES = {
     f.NOT_MONOTONE: NOT_MONOTONE,
     f.NOT_RESOLVED: NOT_RESOLVED,
     f.TOO_LONG: TOO_LONG,
+    f.SQUEEZED: SQUEEZED,
 }
 
 
@@ -130,7 +132,8 @@ def solve_on_ground(
     known = ground.displacements
     solve_grounded(
         *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
-        *(ground.numbers[here], known.series, known.which[here], known.basis[here]),
+        *(ground.numbers[here], ground.seats[here]),
+        *(known.series, known.which[here], known.basis[here]),
         *(SPLINES, rule),
         *found,
     )
