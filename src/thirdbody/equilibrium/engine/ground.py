@@ -2,8 +2,8 @@
 
 Particles press the ground under them down, and the ground of asperities: the equations are those of
 `thirdbody.contact.field_ground`, and so are the nodes over heights, the rows of separations and the
-splines between them. What the particles of a seat carry under a gap stands in cells over the gap,
-once for states whose particles are alike. A seat is a population, or a section of its sizes.
+splines between them. What particles carry under a gap stands in cells over the gap, once for states
+whose particles are alike: of each section of the sizes on a seat its own.
 """
 
 from __future__ import annotations
@@ -49,9 +49,12 @@ and of particles under asperities."""
 LOWEST, STEP, ROWS, SIGMA, UNIT, FIXED, LEFT, OF_GROUND = range(8)
 """Of a state: lowest row and distance of rows [σ], how many; σ [m], E*g [Pa], how much particles
 shade beside what those do that carry; what series leave out."""
-MEAN, SPREAD, TOP, DENSE, POWER, CELLS, OF_SEAT = range(7)
-"""Of a seat: its mean and width, and the largest size on it [σ]; particles per area; power of the
-root of the distance from the largest size like which all sets in, and how many cells there are."""
+MEAN, SPREAD, TOP, DENSE, SECTION, LAST_SECTION, OF_SEAT = range(7)
+"""Of a seat: its mean and width, and the largest size on it [σ]; particles per area; the first of
+its sections of sizes, and where they end."""
+POWER, CELLS, OF_SECTION = range(3)
+"""Of a section: power of the root of the distance from its largest size like which all sets in, and
+how many cells there are."""
 WAVES = 2 * math.sqrt(2)
 PLACES = NODES * (len(PANELS) - 1)
 _ROOTS, _WEIGHTS = panel_rule(np.sqrt(PANELS), NODES)
@@ -269,11 +272,11 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
 
 
 @scalar
-def _read_gaps(seat, cells, floor, whole, nodes, columns):
-    """Sums of the columns over the nodes, or of load and shadow; the load at each."""
+def _add_gaps(section, cells, floor, whole, nodes, columns):
+    """Add sums of the columns over the nodes, or of load and shadow, and the load at each."""
     apart()
-    count, gap, mass, loads = int(seat[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
-    top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], seat[POWER] == 4
+    count, gap, mass, loads = int(section[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
+    top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], section[POWER] == 4
     s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = 0.0
     n = 0
     for j in range(PLACES):
@@ -314,11 +317,14 @@ def _read_gaps(seat, cells, floor, whole, nodes, columns):
                 s_2 += max(over * a_2, 0.0)
                 s_3 += max(over * a_3, 0.0)
                 s_4 += max(over * a_4, 0.0)
-        loads[j] = load
+        loads[j] += load
         s_0 += m * load
-    columns[0], columns[5] = s_0, s_5
-    if whole:
-        columns[1], columns[2], columns[3], columns[4] = s_1, s_2, s_3, s_4
+    columns[0] += s_0
+    columns[1] += s_1
+    columns[2] += s_2
+    columns[3] += s_3
+    columns[4] += s_4
+    columns[5] += s_5
 
 
 # ------------------------------------------------------------------------------ asperities
@@ -543,23 +549,27 @@ def _take_powers(mass, load, cut, p):
 
 
 @scalar
-def _weigh_seat(own, seat, cells, floor, h, right, nodes, found, columns, whole):
+def _weigh_seat(field, seat, h, right, nodes, found, columns, whole):
     """Add what the particles of a seat carry to the loads' moments and the shadow.
 
     From the lowest ground on which one is squeezed; their columns by themselves.
     """
     apart()
+    own, sections, cells, floor = field[0], field[2], field[6], field[7]
+    for c in range(COLUMNS):
+        columns[c] = 0.0
     span = max(seat[MEAN] + REACH * seat[SPREAD] - right, 0.0)
     if span == 0:
-        for c in range(COLUMNS):
-            columns[c] = 0.0
         return
     zeta, cut, gap, mass = nodes[ZETA], nodes[CUT], nodes[GAP], nodes[MASS]
+    p, loads = nodes[SUMS], nodes[LOADS]
     _place_heights(right, span, seat[MEAN], seat[SPREAD], zeta, cut, mass)
     _find_gaps(h, own[SIGMA], nodes[POLYNOMIALS], zeta, cut, gap)
-    _read_gaps(seat, cells, floor, whole, nodes, columns)
-    p = nodes[SUMS]
-    _take_powers(mass, nodes[LOADS], cut, p)
+    for j in range(PLACES):
+        loads[j] = 0.0
+    for s in range(int(seat[SECTION]), int(seat[LAST_SECTION])):
+        _add_gaps(sections[s], cells[s], floor[s], whole, nodes, columns)
+    _take_powers(mass, loads, cut, p)
     over = seat[DENSE] / own[UNIT]
     for n in range(BETA):
         for k in range(n + 1):
@@ -568,14 +578,14 @@ def _weigh_seat(own, seat, cells, floor, h, right, nodes, found, columns, whole)
 
 
 @scalar
-def weigh_ground(own, seats, cells, floor, h, u, lowest, nodes, found, columns, whole):
+def weigh_ground(field, h, u, lowest, nodes, found, columns, whole):
     """Loads' moments and the shadow at h [σ] on ground u, and all columns if the whole is asked.
 
     ``lowest`` holds guesses of the lowest ground on which a particle of each seat is squeezed, and
     gets that.
     """
     apart()
-    p, rise = nodes[POLYNOMIALS], 0.0
+    seats, p, rise = field[1], nodes[POLYNOMIALS], 0.0
     for n in range(BETA):
         found[n] = p[n] = 0.0
         rise += TALLEST[n] * abs(u[n])
@@ -587,23 +597,21 @@ def weigh_ground(own, seats, cells, floor, h, u, lowest, nodes, found, columns, 
         if right != right:
             right = _first_squeezed(seats[s], h, u, rise, math.nan)
         lowest[s] = right
-        _weigh_seat(
-            own, seats[s], cells[s], floor[s], h, right, nodes, found, columns[s], whole
-        )  # fmt: skip
+        _weigh_seat(field, seats[s], h, right, nodes, found, columns[s], whole)
 
 
 @scalar
-def round_of(own, seats, kernels, skin, surface, cells, floor, h, state, lowest, small, nodes,
-             found, columns, whole):  # fmt: skip
+def round_of(field, h, state, lowest, small, nodes, found, columns, whole):
     """β_n and the shadow again, from those before, at h [σ].
 
     The lift and how far it is off; ``lowest`` as in `weigh_ground`.
     """
     apart()
+    own, _, _, kernels, skin, surface, _, _ = field
     w, off = lift_of(own, kernels, skin, surface, h, state, small)
     # the rows hold what asperities do a last step before, some 1e-13 of σ away
     bare, u = 1 - min(max(state[BETA], 0.0), 1.0), small[U]
     for n in range(BETA):
         u[n] = WAVES * (bare * small[PRESSED, n] + kernels[K_PP + n] * state[n])
-    weigh_ground(own, seats, cells, floor, h, u, lowest, nodes, found, columns, whole)
+    weigh_ground(field, h, u, lowest, nodes, found, columns, whole)
     return w, off

@@ -169,7 +169,7 @@ def _solve_row(field, k, accuracy, whole, rows, work):
     Its state and lift go into the rows and, if the whole is asked, its columns and what it misses.
     """
     apart()
-    own, seats, kernels, skin, surface, cells, floor = field
+    own, kernels = field[0], field[3]
     states, lifts, columns, misses, lowest, done = rows
     small, nodes, pairs, memory, turned, other = work
     found, miss, old_state, old_miss = other[0], other[1], other[2], other[3]
@@ -177,9 +177,8 @@ def _solve_row(field, k, accuracy, whole, rows, work):
     for n in range(ROUNDS):
         full = whole and close
         lifts[k], off = round_of(
-            own, seats, kernels, skin, surface, cells, floor, h, state, lowest[k], small, nodes,
-            found, columns[k], full,
-        )  # fmt: skip
+            field, h, state, lowest[k], small, nodes, found, columns[k], full
+        )
         size = 0.0
         for m in range(UNKNOWNS):
             miss[m] = found[m] - state[m]
@@ -252,16 +251,14 @@ def _load_of(own, skin, held, h, w, load, shadow, out):
 def _plain_load(field, held, k, rows, work, out):
     """Load at row k on ground that does not give way: more than is carried there, or nearly."""
     apart()
-    own, seats, _, skin, _, cells, floor = field
+    own, skin = field[0], field[4]
     columns, lowest, found = rows[2], rows[4], work[5][0]
     h, u = own[LOWEST] + k * own[STEP], work[0][U]
     for n in range(BETA):
         u[n] = 0.0
-    for s in range(len(seats)):
+    for s in range(lowest.shape[1]):
         lowest[k, s] = math.nan
-    weigh_ground(
-        own, seats, cells, floor, h, u, lowest[k], work[1], found, columns[k], False
-    )  # fmt: skip
+    weigh_ground(field, h, u, lowest[k], work[1], found, columns[k], False)
     if not add_field(skin, held, h, out):
         return math.inf
     return out[F_SS] + found[0] * own[UNIT]
@@ -289,7 +286,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
     That row, −1 without one; rounds; and the fate.
     """
     apart()
-    own, skin, states, lifts = field[0], field[3], rows[0], rows[1]
+    own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
     last, rounds, before = int(own[ROWS]) - 1, 0, 0.0
     while k >= 0:
         _guess_row(k, 1, rows, last)
@@ -440,7 +437,7 @@ def _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out
         return 0.0
     if not _lay_cell(splines, k, fewer, most, lasts, rows, poly):
         return math.inf
-    _read_cell(field[0], field[1], field[3], held, poly, k, t, out)
+    _read_cell(field[0], field[1], field[4], held, poly, k, t, out)
     load, area, worst = (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA], 0.0, 0.0
     for c in range(1, F_SA):
         area += row[c] + row[F_SA + c]
@@ -489,7 +486,7 @@ def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, last
     last rows in which particles of each seat carry anything into ``lasts``.
     """
     apart()
-    own, seats, skin, columns = field[0], field[1], field[3], rows[2]
+    own, seats, skin, columns = field[0], field[1], field[4], rows[2]
     count, rounds, t, slope, low, high = int(own[ROWS]), 0, -1.0, 0.0, 0, 0
     for _ in range(3):
         if not 0 <= k < count - 1:
@@ -548,45 +545,45 @@ def _ground_state(field, held, splines, target, h, rows, work, poly, lasts, row,
 
 
 @scalar
-def _lay_seat(given, sides, rules, scratch, cells, floor, seat):
-    """Lay the cells of a seat; what they leave out, and whether they could be laid, or why not."""
+def _lay_section(given, sides, rules, scratch, cells, floor, section):
+    """Lay the cells of a section; what they leave out, and whether they could be laid, or why not.
+    """
     apart()
     panels, edges, values, out = scratch
     count = lay_panels(given, sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:])
-    seat[CELLS] = 0.0
     if count <= 0:
         return 0.0, TOO_LONG
     laid, left = lay_gaps(
         given, sides, panels, count, rules[1], rules[0, POLYNOMIAL:], cells, floor, edges,
         values[0], values[1], out,
     )  # fmt: skip
-    seat[CELLS] = laid
+    section[CELLS] = laid
     if laid > 0:
         return left, OK
     return left, TOO_LONG if laid < 0 else SQUEEZED
 
 
 @scalar
-def _lay_seats(i, parts, bodies, rules, scratch, cells, floor, seats, left, fates, sides):
-    """Lay the cells of every seat of state i anew that differs from the one of the state before.
+def _lay_sections(i, parts, bodies, rules, scratch, cells, floor, sections, left, fates, sides):
+    """Lay the cells of every section of state i anew that differs from that of the state before.
 
     What they leave out, at most, and what became of them.
     """
     apart()
     worst, fate = 0.0, OK
-    for s in range(seats.shape[1]):
+    for s in range(sections.shape[1]):
         if i > 0 and (
             is_alike(parts[i, s], parts[i - 1, s])
             and is_alike(bodies[i, 2 * s], bodies[i - 1, 2 * s])
             and is_alike(bodies[i, 2 * s + 1], bodies[i - 1, 2 * s + 1])
         ):
-            seats[i, s, CELLS] = seats[i - 1, s, CELLS]
+            sections[i, s, CELLS] = sections[i - 1, s, CELLS]
         else:
             for one in range(2):
                 for k in range(bodies.shape[2]):
                     sides[one, k] = bodies[i, 2 * s + one, k]
-            left[s], fates[s] = _lay_seat(
-                parts[i, s : s + 1], sides, rules, scratch, cells[s], floor[s], seats[i, s]
+            left[s], fates[s] = _lay_section(
+                parts[i, s : s + 1], sides, rules, scratch, cells[s], floor[s], sections[i, s]
             )
         worst = max(worst, left[s])
         fate = max(fate, fates[s])
@@ -595,25 +592,26 @@ def _lay_seats(i, parts, bodies, rules, scratch, cells, floor, seats, left, fate
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, which, basis, splines,
-                   rules, target, h, count, fate, error, rows):  # fmt: skip
-    """Solve states by their own numbers: skins (N, 1, ...), what stands on seats (N, P, ...) and
-    its sides (N, 2P, ...), tables of surfaces (N, M, ...), grounds (N, ...) and seats (N, P, ...).
+def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, series, which, basis,
+                   splines, rules, target, h, count, fate, error, rows):  # fmt: skip
+    """Solve states by their own numbers: skins (N, 1, ...), sections of sizes ``parts`` (N, S, ...)
+    and their sides (N, 2S, ...), tables of surfaces (N, M, ...), grounds (N, ...), seats (N, P,
+    ...), and of ``sections`` (N, S, ...) what their cells are.
 
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
     that ``which`` says. For the loads target [Pa] or, where they are zero, at the separations ``h``
     of the mean planes [σ]. Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and
     the columns ``rows`` (N, 10).
     """
-    most, length = seats.shape[1], 0
+    most, every, length = seats.shape[1], sections.shape[1], 0
     for i in range(len(target)):
         length = max(length, int(min(grounds[i, ROWS], MOST_ROWS)))
-    sides, left, fates = np.zeros((2, SIDE)), np.zeros(most), np.zeros(most, np.int64)
+    sides, left, fates = np.zeros((2, SIDE)), np.zeros(every), np.zeros(every, np.int64)
     scratch = (
         np.empty((1, MOST_PANELS + ROOM, PANEL)), np.empty(MOST_CELLS),
         np.empty((2, COLUMNS, OF_CELL)), np.zeros(10),
     )  # fmt: skip
-    cells, floor = np.zeros((most, MOST_CELLS, A_CELL)), np.zeros((most, COLUMNS))
+    cells, floor = np.zeros((every, MOST_CELLS, A_CELL)), np.zeros((every, COLUMNS))
     surface, held = np.zeros((HEIGHTS_OF_TABLE, TERMS, OF_SURFACE)), np.zeros((2, 2 * OF_SURFACE))
     kernels, out = np.empty(series.shape[2]), np.zeros(10)
     poly, lasts = np.zeros((most + 1, TERMS, COLUMNS)), np.zeros(most, np.int64)
@@ -627,8 +625,8 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, which, 
         np.zeros((4, UNKNOWNS)),
     )  # fmt: skip
     for i in range(len(target)):
-        worst, fate[i] = _lay_seats(
-            i, parts, bodies, rules, scratch, cells, floor, seats, left, fates, sides
+        worst, fate[i] = _lay_sections(
+            i, parts, bodies, rules, scratch, cells, floor, sections, left, fates, sides
         )
         if fate[i] != OK:
             error[i] = math.inf
@@ -642,7 +640,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, which, 
         for j in range(series.shape[1]):
             for m in range(series.shape[2]):
                 kernels[m] += basis[i, j] * series[which[i], j, m]
-        field = own, seats[i], kernels, skins[i], surface, cells, floor
+        field = own, seats[i], sections[i], kernels, skins[i], surface, cells, floor
         h[i], count[i], fate[i], error[i] = _ground_state(
             field, held, splines, target[i], h[i], lines, work, poly, lasts, rows[i], out
         )

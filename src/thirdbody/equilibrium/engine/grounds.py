@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Grounds", "check_grounded", "mean_diameter"]
+__all__ = ["Grounds", "check_grounded"]
 
 WIDTH, NODES = 0.5, 16
 """Of cells over the distance from which others are felt, and nodes of their series."""
@@ -41,7 +41,7 @@ SHORT = "the ground of particles on a field of heights is a table of its own"
 
 def check_grounded(contact: Any, found: list[Any]) -> None:
     """Refuse populations whose ground the kernel does not know."""
-    if any(each[0].strength is not None or each[2].seat != "rough" for each in found):
+    if any(each.one.strength is not None or each.law.seat != "rough" for each in found):
         raise NotCompiled(SHORT)
     if contact.asperity_law.spectrum is not None:
         raise NotCompiled(SHORT)
@@ -52,18 +52,17 @@ def mean_diameter(found: list[Any], rows: Array) -> Any:
 
     Parameters
     ----------
-    found : list
-        Populations, or sections of their sizes, as they are and with arrays in them.
+    found : list of Section
     rows : array (N, P, ...)
         Their numbers.
     """
     diameters = [
-        mean_of_sizes(one.diameter, changed.diameter, rows[:, p])
-        for p, (one, changed, *_) in enumerate(found)
+        mean_of_sizes(each.one.diameter, each.changed.diameter, rows[:, s])
+        for s, each in enumerate(found)
     ]
     first, total = diameters[0], 0.0
-    for p, diameter in enumerate(diameters):
-        total = total + rows[:, p, f.DENSITY] * (diameter - first)
+    for s, diameter in enumerate(diameters):
+        total = total + rows[:, s, f.DENSITY] * (diameter - first)
     return first + total / rows[:, :, f.DENSITY].sum(axis=1)
 
 
@@ -205,41 +204,43 @@ class Grounds:
 
     Parameters
     ----------
-    skins, parts : array (N, 1, ...), (N, P, ...)
-        Of asperities, and of populations or sections of their sizes, filled.
-    alpha : float or array (N,)
-        Bandwidth, an array where it varies.
-    laws, rough : Any
-        Law of each part and roughness, with arrays in them.
-    diameter : float or array (N,)
-        Mean diameter [m].
-    datum : float
-        Height over σ from which d counts.
+    skins, parts : array (N, 1, ...), (N, S, ...)
+        Of asperities and of sections of sizes, filled.
+    found : list of Section
+        What these are.
+    rough : Roughness
+        With arrays in it.
     """
 
-    def __init__(
-        self, skins: Array, parts: Array, alpha: Any, laws: list[Any], rough: Any, diameter: Any,
-        datum: float,
-    ):  # fmt: skip
+    def __init__(self, skins: Array, parts: Array, found: list[Any], rough: Any):
         from . import ground as g
 
-        skin, count = skins[:, 0], len(skins)
+        skin, count, alpha = skins[:, 0], len(skins), rough.alpha
         chi, sigma = skin[:, f.CHI], np.broadcast_to(rough.sigma, count)[:, None]
-        self.seats = np.zeros((*parts.shape[:2], g.OF_SEAT))
-        for s, law in enumerate(laws):
-            self.seats[:, s, g.MEAN], self.seats[:, s, g.SPREAD] = law.zeta_mean, law.zeta_std
-        mean, width = self.seats[:, :, g.MEAN], self.seats[:, :, g.SPREAD]
-        if np.any(parts[:, :, f.HIGH] > WIDEST * width * sigma):
-            raise NotCompiled(SHORT)
         fixed = np.where(parts[:, :, f.SHADOW] == f.COVERED, parts[:, :, f.COVERAGE], 0.0)
         self.parts = parts.copy()
-        plain = {f.SEAT: f.PLANE, f.DENSITY: 1.0, f.OFFSET: 0.0, f.WIDTH: 0.0, f.COVERAGE: 0.0}
+        plain = {f.SEAT: f.PLANE, f.OFFSET: 0.0, f.WIDTH: 0.0, f.COVERAGE: 0.0}
+        plain[f.DENSITY] = np.array([each.part for each in found])
         for column, value in plain.items():
             self.parts[:, :, column] = value
+        self.sections = np.zeros((*parts.shape[:2], g.OF_SECTION))
+        self.sections[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
+        self.seats = np.zeros((count, found[-1].component + 1, g.OF_SEAT))
+        top = parts[:, :, f.HIGH] / sigma
+        for s, each in enumerate(found):
+            seat = self.seats[:, each.component]
+            if seat[0, g.LAST_SECTION] == 0:
+                seat[:, g.MEAN], seat[:, g.SPREAD] = each.varied.zeta_mean, each.varied.zeta_std
+                seat[:, g.SECTION] = s
+            seat[:, g.LAST_SECTION] = s + 1
+            seat[:, g.TOP] = np.maximum(seat[:, g.TOP], top[:, s])
+            seat[:, g.DENSE] += parts[:, s, f.DENSITY]
+        mean, width, top = (self.seats[:, :, k] for k in (g.MEAN, g.SPREAD, g.TOP))
+        if np.any(top > WIDEST * width):
+            raise NotCompiled(SHORT)
         soft = skin[:, f.IS_SOFT] == 1
         lowest = np.where(soft, separations(True)[0], separations(False)[0])
-        top = parts[:, :, f.HIGH] / sigma
-        reach = (top + NORMAL_REACH * width + mean - datum).max(axis=1)
+        reach = (top + NORMAL_REACH * width + mean - found[0].law.centre).max(axis=1)
         last = np.maximum(reach, lowest + 1.0)
         steps = rows_between(lowest, reach, np.minimum(1.0, width.min(axis=1)))
         self.numbers = np.zeros((count, g.OF_GROUND))
@@ -248,14 +249,13 @@ class Grounds:
             **{g.SIGMA: rough.sigma, g.UNIT: skin[:, f.FORCE], g.FIXED: fixed.sum(axis=1)},
         }.items():
             self.numbers[:, column] = value
-        self.seats[:, :, g.TOP], self.seats[:, :, g.DENSE] = top, parts[:, :, f.DENSITY]
-        self.seats[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
         every = np.broadcast_to(np.asarray(alpha, float), count)
         self.tables = np.zeros((count, f.HEIGHTS_OF_TABLE, COLUMNS))
         for some in (soft, ~soft):
             if some.any():
                 rows = rows_of(chi[some], every[some], soft=bool(soft[some][0]))
                 self.tables[some, : rows.shape[1]] = rows
+        diameter = mean_diameter(found, parts)
         apart = np.broadcast_to(diameter * rough.slope / (math.sqrt(2) * rough.sigma), count)
         known = displacements_of(alpha, np.array(apart), np.ndim(alpha) > 0)
         self.displacements = known

@@ -132,7 +132,7 @@ def solve_on_ground(
     known = ground.displacements
     solve_grounded(
         *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
-        *(ground.numbers[here], ground.seats[here]),
+        *(ground.numbers[here], ground.seats[here], ground.sections[here]),
         *(known.series, known.which[here], known.basis[here]),
         *(SPLINES, rule),
         *found,
