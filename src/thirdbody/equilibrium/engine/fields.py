@@ -100,6 +100,8 @@ OK, TOO_MUCH, TOO_LITTLE, UNSOLVED = range(4)
 NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED = 10, 11, 12, 13
 """For another engine: the load may rise, the error is not small enough, too many nodes, particles
 that are squeezed by more than their size."""
+FAR = 0.1
+"""Errors of a separation are over σ, or over so much of itself where that is more."""
 
 # ------------------------------------------------------------------ the rules of a level
 NODES, SPAN, SIZE_NODES, SIZE_SPAN, SEAT_NODES, SEAT_SPAN = range(6)

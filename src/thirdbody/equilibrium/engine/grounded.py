@@ -17,6 +17,7 @@ from .curves import MOST_PANELS, PANEL, ROOM
 from .field import TERMS, add_field, lay_field
 from .fields import (
     F_SA,
+    FAR,
     F_SS,
     HEIGHTS_OF_TABLE,
     NOT_MONOTONE,
@@ -69,9 +70,12 @@ __all__ = ["SPLINES", "solve_grounded"]
 BESIDE = 22
 """Rows beside a cell that decide what the spline is there: others change it by 1e-5 of what cells
 of the table leave out."""
-MOST_ROWS = 600
-NEGLIGIBLE, LOOSE, SURE, LOOSEST = 1e-8, 1e-5, 3e-12, 1e-6
-"""Of the load, from where on rows are solved; accuracy of u [σ] coming down, of rows beside the
+MOST_ROWS = 16_384
+NEGLIGIBLE, LONG, CLOSE, ABOVE = 1e-8, 128, 0.1, 48
+"""Part of the load from where on rows are solved; where that is more than so many rows up, part of
+it from which on, and rows above these."""
+LOOSE, SURE, LOOSEST = 1e-5, 3e-12, 1e-6
+"""Accuracy of u [σ] coming down, of rows beside the
 root, and of any that the spline needs."""
 AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
@@ -265,14 +269,14 @@ def _plain_load(field, held, k, rows, work, out):
 
 
 @scalar
-def _first_row(field, held, target, rows, work, out):
-    """The row above which next to nothing of the target is carried, and how many were asked."""
+def _first_row(field, held, load, high, rows, work, out):
+    """The row, up to ``high``, above which less than a load is carried; how many were asked."""
     apart()
-    low, high, count = 0, int(field[0][ROWS]) - 1, 0
+    low, count = 0, 0
     while high - low > 1:
         middle = (low + high) // 2
         count += 1
-        if _plain_load(field, held, middle, rows, work, out) > NEGLIGIBLE * target:
+        if _plain_load(field, held, middle, rows, work, out) > load:
             low = middle
         else:
             high = middle
@@ -472,7 +476,10 @@ def _begin(field, held, target, h, rows, work, out):
     for k in range(count):
         done[k] = NONE
     if target > 0:
-        k, rounds = _first_row(field, held, target, rows, work, out)
+        k, rounds = _first_row(field, held, NEGLIGIBLE * target, count - 1, rows, work, out)
+        if k > LONG:  # all the way down from particles that carry little
+            near, n = _first_row(field, held, CLOSE * target, k, rows, work, out)
+            k, rounds = min(k, near + ABOVE), rounds + n
         return k, rounds, True
     k = math.floor((h - own[LOWEST]) / own[STEP])
     return min(k + 1 + BESIDE, count - 1), 0, 0 <= k < count - 1
@@ -540,7 +547,7 @@ def _ground_state(field, held, splines, target, h, rows, work, poly, lasts, row,
     error = own[LEFT] + SETTLED + _error_of(field, k, low, high, rows)
     error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
     if slope < 0:
-        error = max(error, error * own[STEP] / -slope)
+        error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
     return h, rounds, OK if error <= ASKED else NOT_RESOLVED, error
 
 
