@@ -97,9 +97,9 @@ F_SS, A_E, F_SA, A_SA, A_SA2, SHADE = 0, 1, 4, 5, 8, 9
 
 # ------------------------------------------------------------------ what became of a state
 OK, TOO_MUCH, TOO_LITTLE, UNSOLVED = range(4)
-NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED = 10, 11, 12, 13
+NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES = range(10, 15)
 """For another engine: the load may rise, the error is not small enough, too many nodes, particles
-that are squeezed by more than their size."""
+that are squeezed by more than their size, ground that gives way as no series says."""
 FAR = 0.1
 """Errors of a separation are over σ, or over so much of itself where that is more."""
 

@@ -606,7 +606,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
     ...), and of ``sections`` (N, S, ...) what their cells are.
 
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
-    that ``which`` says. For the loads target [Pa] or, where they are zero, at the separations ``h``
+    that ``which`` says. States whose ``fate`` is not `OK` are left out. For the loads target [Pa] or, where they are zero, at the separations ``h``
     of the mean planes [σ]. Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and
     the columns ``rows`` (N, 10).
     """
@@ -632,9 +632,10 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
         np.zeros((4, UNKNOWNS)),
     )  # fmt: skip
     for i in range(len(target)):
-        worst, fate[i] = _lay_sections(
+        worst, laid = _lay_sections(
             i, parts, bodies, rules, scratch, cells, floor, sections, left, fates, sides
         )
+        fate[i] = max(fate[i], laid)
         if fate[i] != OK:
             error[i] = math.inf
             continue

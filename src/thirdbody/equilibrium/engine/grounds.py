@@ -97,37 +97,46 @@ class Displacements:
         Cell of each state, and what its terms are there.
     tails : array (N,)
         What the series leave out, at most.
+    known : array (N,)
+        Whether a state has series: those without are no states of the kernel.
     """
 
-    def __init__(self, keys: list[tuple[Any, ...]], which: Any, basis: Array):
+    def __init__(
+        self, keys: list[tuple[Any, ...]], which: Any, basis: Array, known: NDArray[np.bool_]
+    ):
         self.series = np.array([_series(*key) for key in keys])
-        self.which, self.basis = which, basis
+        self.which, self.basis = np.zeros(len(known), np.int64), np.zeros((len(known), len(basis.T)))
+        self.which[known], self.basis[known], self.known = which.ravel(), basis, known
         tails = np.array([_tail(one, basis.shape[1] > NODES) for one in self.series])
-        self.tails = tails[which]
+        self.tails = tails[self.which]
 
 
 def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
     """Of states with bandwidths α, or one, and distances over √(m0/m2) (N,)."""
-    place = np.minimum(apart / WIDTH, 1e9).astype(int)
+    every = np.broadcast_to(np.asarray(alpha, float), len(apart))
+    finest = rolled_off(BANDWIDTHS[-1] if varies else alpha).q.max()
+    known = apart * float(finest) <= FARTHEST
+    if not known.any():
+        raise NotCompiled(SHORT)
+    if varies:
+        known &= (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1])
+        if not known.any():
+            raise NotCompiled("bandwidths vary so far that the ground of particles is not known")
+    every, apart = every[known], apart[known]
+    place = (apart / WIDTH).astype(int)
     terms = _terms(2 * (apart / WIDTH - place) - 1, NODES)
     if not varies:
-        if apart.max() * float(rolled_off(alpha).q.max()) > FARTHEST:
-            raise NotCompiled(SHORT)
         cells, which = np.unique(place, return_inverse=True)
         keys: list[tuple[Any, ...]] = [(float(alpha), n, -1) for n in cells.tolist()]
-        return Displacements(keys, which.ravel().astype(np.int64), terms)
-    if np.any((alpha < BANDWIDTHS[0]) | (alpha > BANDWIDTHS[-1])):
-        raise NotCompiled("bandwidths vary so far that the ground of particles is not known")
-    if apart.max() * float(rolled_off(BANDWIDTHS[-1]).q.max()) > FARTHEST:
-        raise NotCompiled(SHORT)
-    cell = np.clip(np.searchsorted(BANDWIDTHS, alpha, side="right") - 1, 0, len(BANDWIDTHS) - 2)
+        return Displacements(keys, which, terms, known)
+    cell = np.clip(np.searchsorted(BANDWIDTHS, every, side="right") - 1, 0, len(BANDWIDTHS) - 2)
     ends = np.log(np.array(BANDWIDTHS) - 2)
-    x = 2 * (np.log(alpha - 2) - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1
+    x = 2 * (np.log(every - 2) - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1
     across = _terms(x, WAVES)
     both, which = np.unique(np.stack([cell, place]), axis=1, return_inverse=True)
     keys = [(math.nan, n, m) for m, n in both.T.tolist()]
-    basis = (across[:, :, None] * terms[:, None, :]).reshape(len(alpha), -1)
-    return Displacements(keys, which.ravel().astype(np.int64), basis)
+    basis = (across[:, :, None] * terms[:, None, :]).reshape(len(every), -1)
+    return Displacements(keys, which, basis, known)
 
 
 def _terms(x: Array, count: int) -> Array:

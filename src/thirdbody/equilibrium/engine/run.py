@@ -30,7 +30,8 @@ AT_ONCE = 256
 NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
 SQUEEZED = "particles are squeezed by more than their size on a field of heights"
-DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED)
+NO_SERIES = "the ground of particles is not known at such a bandwidth, or under such large ones"
+DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES)
 """Why a state is for the NumPy engine to judge."""
 CODES = {
     f.UNSOLVED: NOT_BALANCED,
@@ -39,6 +40,7 @@ CODES = {
     f.NOT_RESOLVED: NOT_RESOLVED,
     f.TOO_LONG: TOO_LONG,
     f.SQUEEZED: SQUEEZED,
+    f.NO_SERIES: NO_SERIES,
 }
 
 
@@ -96,6 +98,8 @@ def solve(
     goal = np.array(np.broadcast_to(0.0 if target is None else target, count), dtype=float)
     evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
+    if numbers.ground is not None:
+        fate[~numbers.ground.displacements.known] = f.NO_SERIES
     rule = rules(bool(numbers.inside[0, 0] > 0))
 
     def solve_from(start: int) -> None:
