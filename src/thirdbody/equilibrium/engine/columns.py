@@ -26,7 +26,6 @@ from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
 from ...populations.heights import COMPLETE, ExponentialHeights, GaussianHeights, WeibullHeights
 from ...populations.materials import reduced_modulus
-from ...populations.particles import Particles
 from ...populations.shape import Sphere
 from . import fields as f
 from .grounds import Grounds, check_grounded

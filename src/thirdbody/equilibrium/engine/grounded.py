@@ -17,8 +17,8 @@ from .curves import MOST_PANELS, PANEL, ROOM
 from .field import TERMS, add_field, lay_field
 from .fields import (
     F_SA,
-    FAR,
     F_SS,
+    FAR,
     HEIGHTS_OF_TABLE,
     NOT_MONOTONE,
     NOT_RESOLVED,
@@ -180,9 +180,7 @@ def _solve_row(field, k, accuracy, whole, rows, work):
     h, state, close = own[LOWEST] + k * own[STEP], states[k], False
     for n in range(ROUNDS):
         full = whole and close
-        lifts[k], off = round_of(
-            field, h, state, lowest[k], small, nodes, found, columns[k], full
-        )
+        lifts[k], off = round_of(field, h, state, lowest[k], small, nodes, found, columns[k], full)
         size = 0.0
         for m in range(UNKNOWNS):
             miss[m] = found[m] - state[m]
@@ -553,8 +551,7 @@ def _ground_state(field, held, splines, target, h, rows, work, poly, lasts, row,
 
 @scalar
 def _lay_section(given, sides, rules, scratch, cells, floor, section):
-    """Lay the cells of a section; what they leave out, and whether they could be laid, or why not.
-    """
+    """Lay the cells of a section; what they leave out, and whether they are laid, or why not."""
     apart()
     panels, edges, values, out = scratch
     count = lay_panels(given, sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:])
@@ -606,9 +603,9 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
     ...), and of ``sections`` (N, S, ...) what their cells are.
 
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
-    that ``which`` says. States whose ``fate`` is not `OK` are left out. For the loads target [Pa] or, where they are zero, at the separations ``h``
-    of the mean planes [σ]. Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and
-    the columns ``rows`` (N, 10).
+    that ``which`` says. For the loads target [Pa] or, where they are zero, at the separations ``h``
+    of the mean planes [σ]. States whose ``fate`` is not `OK` are left out. Fills ``h``, the rounds
+    ``count``, ``fate``, the estimated ``error`` and the columns ``rows`` (N, 10).
     """
     most, every, length = seats.shape[1], sections.shape[1], 0
     for i in range(len(target)):

@@ -105,7 +105,10 @@ class Displacements:
         self, keys: list[tuple[Any, ...]], which: Any, basis: Array, known: NDArray[np.bool_]
     ):
         self.series = np.array([_series(*key) for key in keys])
-        self.which, self.basis = np.zeros(len(known), np.int64), np.zeros((len(known), len(basis.T)))
+        self.which, self.basis = (
+            np.zeros(len(known), np.int64),
+            np.zeros((len(known), len(basis.T))),
+        )
         self.which[known], self.basis[known], self.known = which.ravel(), basis, known
         tails = np.array([_tail(one, basis.shape[1] > NODES) for one in self.series])
         self.tails = tails[self.which]
