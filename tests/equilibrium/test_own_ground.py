@@ -170,7 +170,7 @@ def test_states_hold_to_tables_of_each(name, seed):
     vary, loads = drawn(more, 12 if several else 40, seed, ROUGH if several else USUAL)
     got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
     known = got["doubt"] == ""
-    assert known.mean() > 0.7
+    assert known.mean() > (0.5 if several else 0.7)
     assert np.all(got["status"][known] == 0)
     assert set(want["status_code"][known]) <= {0}
     off = errors(got, want, vary["roughness.sigma"])[known]
@@ -247,7 +247,7 @@ def test_each_population_shades_by_its_own_rule():
     for some in (parts, parts[::-1]):
         got = own_columns(contact(some), vary, "F_star", loads)
         known = got["doubt"] == ""
-        assert known.mean() > 0.7
+        assert known.mean() > 0.5
         off = errors(got, by_numpy(contact(some), loads, vary), vary["roughness.sigma"])
         assert off[known].max() <= BOUND
 

@@ -231,9 +231,8 @@ class Grounds:
         chi, sigma = skin[:, f.CHI], np.broadcast_to(rough.sigma, count)[:, None]
         fixed = np.where(parts[:, :, f.SHADOW] == f.COVERED, parts[:, :, f.COVERAGE], 0.0)
         self.parts = parts.copy()
-        plain = {f.SEAT: f.PLANE, f.OFFSET: 0.0, f.WIDTH: 0.0, f.COVERAGE: 0.0}
-        plain[f.DENSITY] = np.array([each.part for each in found])
-        for column, value in plain.items():
+        self.parts[:, :, f.DENSITY] = [each.part for each in found]
+        for column, value in {f.SEAT: f.PLANE, f.OFFSET: 0, f.WIDTH: 0, f.COVERAGE: 0}.items():
             self.parts[:, :, column] = value
         self.sections = np.zeros((*parts.shape[:2], g.OF_SECTION))
         self.sections[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
