@@ -253,11 +253,26 @@ def test_each_population_shades_by_its_own_rule():
 
 
 def test_few_states_go_to_the_kernel_and_one_without_series_alone_to_numpy():
-    vary = {"roughness.alpha": np.array([5.0, 6.0, 25.0, 7.0])}
-    found = state_columns(contact((HARD, SOFT)), F_star=1e-5, vary=vary)
+    vary = {"roughness.sigma": np.array([2e-7, 3e-7, 5e-8, 2.5e-7])}
+    large = HARD.replace(
+        areal_density=1e8, diameter=tb.TruncatedGaussian(mean=8e-6, std=8e-7, n=3.0)
+    )
+    found = state_columns(contact(large), F_star=1e-6, vary=vary)
     assert found["engine"][[0, 1, 3]].tolist() == ["compiled"] * 3
-    assert str(found["engine"][2]).startswith("numpy: the ground of particles is not known")
+    assert str(found["engine"][2]).startswith("numpy: the ground of such large particles")
     assert set(found["status"]) == {"ok"}
+
+
+def test_bandwidths_beyond_the_series_have_their_own():
+    case, (vary, loads) = contact((HARD, SOFT)), drawn({}, 8, 11, ROUGH)
+    vary["roughness.alpha"] = np.array([5.0, 8.41, 12.0, 25.0, 2.5, 29.9, 8.39, 16.0])
+    got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
+    known = got["doubt"] == ""
+    assert known.mean() > 0.5
+    off = errors(got, want, vary["roughness.sigma"])[known]
+    assert off.max() <= BOUND
+    alone = own_columns(case, {k: v[[3]] for k, v in vary.items()}, "F_star", loads[[3]])
+    assert alone["d"][0] == got["d"][3]
 
 
 def test_flakes_squeezed_beyond_their_size_say_so():
@@ -298,7 +313,7 @@ def test_what_the_kernel_does_not_know_is_left_to_tables():
     own = case.replace(asperity_law=tb.asperity.Field(spectrum=RollOff(corner="sharp")))
     assert states.solves_each(case, ["roughness.sigma", "roughness.alpha"])
     assert states.solves_each(high, ["roughness.sigma"])
-    assert not states.solves_each(high, ["roughness.alpha"])
+    assert states.solves_each(high, ["roughness.alpha"])
     assert not states.solves_each(own, ["roughness.sigma"])
     assert states.solves_each(contact((HARD, SOFT)), ["roughness.sigma"])
     strength = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)

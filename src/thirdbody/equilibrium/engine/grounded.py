@@ -596,16 +596,17 @@ def _lay_sections(i, parts, bodies, rules, scratch, cells, floor, sections, left
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, series, which, basis,
-                   splines, rules, target, h, count, fate, error, rows):  # fmt: skip
+def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, series, alone, which,
+                   basis, splines, rules, target, h, count, fate, error, rows):  # fmt: skip
     """Solve states by their own numbers: skins (N, 1, ...), sections of sizes ``parts`` (N, S, ...)
     and their sides (N, 2S, ...), tables of surfaces (N, M, ...), grounds (N, ...), seats (N, P,
     ...), and of ``sections`` (N, S, ...) what their cells are.
 
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
-    that ``which`` says. For the loads target [Pa] or, where they are zero, at the separations ``h``
-    of the mean planes [σ]. States whose ``fate`` is not `OK` are left out. Fills ``h``, the rounds
-    ``count``, ``fate``, the estimated ``error`` and the columns ``rows`` (N, 10).
+    that ``which`` says, or rows of ``alone``. For the loads target [Pa] or, where they are zero, at
+    the separations ``h`` of the mean planes [σ]. States whose ``fate`` is not `OK` are left out.
+    Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and the columns ``rows``
+    (N, 10).
     """
     most, every, length = seats.shape[1], sections.shape[1], 0
     for i in range(len(target)):
@@ -641,8 +642,8 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
         lay_surface(skins[i], tables[i], surface)
         lay_field(held)
         for m in range(series.shape[2]):
-            kernels[m] = 0.0
-        for j in range(series.shape[1]):
+            kernels[m] = alone[-1 - which[i], m] if which[i] < 0 else 0.0
+        for j in range(series.shape[1] if which[i] >= 0 else 0):
             for m in range(series.shape[2]):
                 kernels[m] += basis[i, j] * series[which[i], j, m]
         field = own, seats[i], sections[i], kernels, skins[i], surface, cells, floor

@@ -31,6 +31,8 @@ WIDTH, NODES = 0.5, 16
 BANDWIDTHS, WAVES = (2.5, 3.3, 4.4, 6.2, 8.4), 16
 """Ends of cells over the bandwidth, and nodes over ln(α − 2); beyond, integrals over distances end
 where their panels do, and jump."""
+OF_STATE = (MOMENTS + 1) * (1 + 2 * TERMS)
+"""k_n of particles, and series of two more in τ."""
 FELT = 0.5
 """Of what series leave out in ground over σ: loads are some hundredths of E*g, at most tenths."""
 FARTHEST = 40.0
@@ -94,52 +96,72 @@ class Displacements:
     series : array (C, K, 429)
         Of each cell over the distance from which others are felt, and over the bandwidth.
     which, basis : array (N,), (N, K)
-        Cell of each state, and what its terms are there.
+        Cell of each state, and what its terms are there. Below zero, −1 − m for row m of ``alone``.
+    alone : array (M, 429)
+        Of states whose bandwidth has series of its own: their sums.
     tails : array (N,)
         What the series leave out, at most.
     known : array (N,)
         Whether a state has series: those without are no states of the kernel.
     """
 
-    def __init__(
-        self, keys: list[tuple[Any, ...]], which: Any, basis: Array, known: NDArray[np.bool_]
-    ):
+    def __init__(self, known: NDArray[np.bool_], terms: int):
+        self.series, self.basis = np.zeros((1, terms, OF_STATE)), np.zeros((len(known), terms))
+        self.which, self.alone = np.zeros(len(known), np.int64), np.zeros((1, OF_STATE))
+        self.known, self.tails = known, np.zeros(len(known))
+
+    def fill(self, states: Array, keys: list[tuple[Any, ...]], which: Any, basis: Array) -> None:
+        """Take the series of these keys, of which each of these states has one."""
         self.series = np.array([_series(*key) for key in keys])
-        self.which, self.basis = (
-            np.zeros(len(known), np.int64),
-            np.zeros((len(known), len(basis.T))),
-        )
-        self.which[known], self.basis[known], self.known = which.ravel(), basis, known
+        self.which[states], self.basis[states] = which.ravel(), basis
         tails = np.array([_tail(one, basis.shape[1] > NODES) for one in self.series])
-        self.tails = tails[self.which]
+        self.tails[states] = tails[self.which[states]]
+
+    def fill_alone(self, states: Array, alpha: Array, apart: Array) -> None:
+        """Sum up the series of each of these states by itself."""
+        self.alone = np.zeros((max(len(states), 1), OF_STATE))
+        place, terms = _places(apart)
+        for m, i in enumerate(states.tolist()):
+            series = _series(float(alpha[m]), int(place[m]), -1)
+            self.which[i], self.tails[i] = -1 - m, _tail(series, False)
+            self.alone[m] = (terms[m][:, None] * series).sum(axis=0)
 
 
 def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
     """Of states with bandwidths α, or one, and distances over √(m0/m2) (N,)."""
     every = np.broadcast_to(np.asarray(alpha, float), len(apart))
-    finest = rolled_off(BANDWIDTHS[-1] if varies else alpha).q.max()
-    known = apart * float(finest) <= FARTHEST
+    together = (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1]) if varies else every > 0
+    finest = np.full(len(apart), rolled_off(BANDWIDTHS[-1] if varies else alpha).q.max())
+    for i in np.flatnonzero(~together):
+        finest[i] = rolled_off(float(every[i])).q.max()
+    known = apart * finest <= FARTHEST
     if not known.any():
         raise NotCompiled(SHORT)
-    if varies:
-        known &= (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1])
-        if not known.any():
-            raise NotCompiled("bandwidths vary so far that the ground of particles is not known")
-    every, apart = every[known], apart[known]
-    place = (apart / WIDTH).astype(int)
-    terms = _terms(2 * (apart / WIDTH - place) - 1, NODES)
+    out = Displacements(known, WAVES * NODES if varies else NODES)
+    few, many = np.flatnonzero(known & ~together), np.flatnonzero(known & together)
+    out.fill_alone(few, every[few], apart[few])
+    if not len(many):
+        return out
+    place, terms = _places(apart[many])
     if not varies:
         cells, which = np.unique(place, return_inverse=True)
-        keys: list[tuple[Any, ...]] = [(float(alpha), n, -1) for n in cells.tolist()]
-        return Displacements(keys, which, terms, known)
+        out.fill(many, [(float(alpha), n, -1) for n in cells.tolist()], which, terms)
+        return out
+    every = every[many]
     cell = np.clip(np.searchsorted(BANDWIDTHS, every, side="right") - 1, 0, len(BANDWIDTHS) - 2)
     ends = np.log(np.array(BANDWIDTHS) - 2)
     x = 2 * (np.log(every - 2) - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1
     across = _terms(x, WAVES)
     both, which = np.unique(np.stack([cell, place]), axis=1, return_inverse=True)
-    keys = [(math.nan, n, m) for m, n in both.T.tolist()]
     basis = (across[:, :, None] * terms[:, None, :]).reshape(len(every), -1)
-    return Displacements(keys, which, basis, known)
+    out.fill(many, [(math.nan, n, m) for m, n in both.T.tolist()], which, basis)
+    return out
+
+
+def _places(apart: Array) -> tuple[Any, Array]:
+    """Cells over the distance, and the terms of series there: (N,), (N, NODES)."""
+    place = (apart / WIDTH).astype(int)
+    return place, _terms(2 * (apart / WIDTH - place) - 1, NODES)
 
 
 def _terms(x: Array, count: int) -> Array:

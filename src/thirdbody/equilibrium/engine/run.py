@@ -30,7 +30,7 @@ AT_ONCE = 256
 NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
 SQUEEZED = "particles are squeezed by more than their size on a field of heights"
-NO_SERIES = "the ground of particles is not known at such a bandwidth, or under such large ones"
+NO_SERIES = "the ground of such large particles on a field of heights is not known"
 DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES)
 """Why a state is for the NumPy engine to judge."""
 CODES = {
@@ -137,7 +137,7 @@ def solve_on_ground(
     solve_grounded(
         *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
         *(ground.numbers[here], ground.seats[here], ground.sections[here]),
-        *(known.series, known.which[here], known.basis[here]),
+        *(known.series, known.alone, known.which[here], known.basis[here]),
         *(SPLINES, rule),
         *found,
     )
