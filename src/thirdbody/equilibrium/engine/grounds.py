@@ -28,8 +28,8 @@ __all__ = ["Grounds", "check_grounded"]
 
 WIDTH, NODES = 0.5, 16
 """Of cells over the distance from which others are felt, and nodes of their series."""
-BANDWIDTHS, WAVES = (2.5, 3.3, 4.4, 6.2, 8.4), 16
-"""Ends of cells over the bandwidth, and nodes over ln(α − 2); beyond, integrals over distances end
+BANDWIDTHS, WAVES = (2.8, 3.3, 4.4, 6.2, 8.4), 16
+"""Ends of cells over the bandwidth, and nodes over ln(α − 2); outside, integrals over distances end
 where their panels do, and jump."""
 OF_STATE = (MOMENTS + 1) * (1 + 2 * TERMS)
 """k_n of particles, and series of two more in τ."""
