@@ -110,14 +110,14 @@ class Displacements:
         self.which, self.alone = np.zeros(len(known), np.int64), np.zeros((1, OF_STATE))
         self.known, self.tails = known, np.zeros(len(known))
 
-    def fill(self, states: Array, keys: list[tuple[Any, ...]], which: Any, basis: Array) -> None:
+    def fill(self, states: Any, keys: list[tuple[Any, ...]], which: Any, basis: Array) -> None:
         """Take the series of these keys, of which each of these states has one."""
         self.series = np.array([_series(*key) for key in keys])
         self.which[states], self.basis[states] = which.ravel(), basis
         tails = np.array([_tail(one, basis.shape[1] > NODES) for one in self.series])
         self.tails[states] = tails[self.which[states]]
 
-    def fill_alone(self, states: Array, alpha: Array, apart: Array) -> None:
+    def fill_alone(self, states: Any, alpha: Array, apart: Array) -> None:
         """Sum up the series of each of these states by itself."""
         self.alone = np.zeros((max(len(states), 1), OF_STATE))
         place, terms = _places(apart)
