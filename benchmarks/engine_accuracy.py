@@ -30,6 +30,8 @@ SPREAD, LOADS = 1.5, (1e-8, 1e-3)
 """Factor by which an input varies at most, and F*."""
 AT_ONCE = 50
 """States between two looks at the clock."""
+SEED = 11
+"""Of the random states."""
 TITLE = "## The compiled engine against NumPy, state by state"
 ABOUT = (
     "By `benchmarks/engine_accuracy.py`: random states, all inputs of a row varied at once by a "
@@ -75,9 +77,19 @@ def inputs_of(
     return np.exp(rng.uniform(*np.log(LOADS), count)), vary
 
 
-def compared(case: str, contact: tb.Contact, names: list[str], most: int, seconds: float) -> Row:
-    """The largest errors of one row, of as many states as the time allows."""
-    rng = np.random.default_rng(11)
+def compared(
+    case: str,
+    contact: tb.Contact,
+    names: list[str],
+    most: int,
+    seconds: float,
+    chosen: np.ndarray | None = None,
+) -> Row:
+    """The largest errors of one row, of as many states as the time allows.
+
+    All of them, or of the ``chosen`` ones of one block; every state is solved.
+    """
+    rng = np.random.default_rng(SEED)
     row, start = Row(case, 0, 0.0, 0.0, 0.0, np.nan, 0, 0, 0), time.process_time()
     while row.states < most and (not row.states or time.process_time() - start < seconds):
         loads, vary = inputs_of(contact, names, min(AT_ONCE, most - row.states), rng)
@@ -93,6 +105,8 @@ def compared(case: str, contact: tb.Contact, names: list[str], most: int, second
         row.states += len(loads)
         row.failed += int(np.sum(~ok))
         row.numpy += int(np.sum([str(each).startswith("numpy") for each in found["engine"]]))
+        if chosen is not None:
+            ok = ok & np.isin(np.arange(len(loads)), chosen)
         d, F, A_t, beyond = np.full((4, len(loads)), np.nan)
         for columns, mine in ((found, ok), (own, by_own & ok)):
             if not mine.any():

@@ -62,7 +62,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 COMPILING = "THIRDBODY_COMPILING"
 """Environment variable with a file that lies there while the engines are compiled."""
 EARLY = ("laws", "numerics", "populations", "quantities")
-"""Folders of tests of which few need an engine."""
+"""Folders of tests of which few need an engine: every worker begins with its part of them."""
 
 
 def pytest_sessionstart(session):
@@ -111,20 +111,23 @@ def pytest_sessionfinish(session):
         compiling.join()
 
 
-def wait_for_engines(prepare):
+def wait_for_engines():
     """What a worker needs compiled is not compiled twice."""
+    running = Path(os.environ.get(COMPILING, ""))
+    while running.is_file():
+        time.sleep(0.1)
 
+
+def waiting_first(prepare):
     def wait_and_prepare(self, signature):
-        running = Path(os.environ.get(COMPILING, ""))
-        while running.is_file():
-            time.sleep(0.1)
+        wait_for_engines()
         prepare(self, signature)
 
     return wait_and_prepare
 
 
 if "PYTEST_XDIST_WORKER" in os.environ:
-    Cached._prepare = wait_for_engines(Cached._prepare)
+    Cached._prepare = waiting_first(Cached._prepare)
 
 
 # what a test draws at random is named when it fails: every generator by its seed
@@ -145,8 +148,10 @@ def pytest_collection_finish():
     gc.enable()
 
 
-def pytest_runtest_setup():
+def pytest_runtest_setup(item):
     SEEDS.clear()
+    if not is_early(item):  # processes that a test starts know of no other that compiles
+        wait_for_engines()
 
 
 @pytest.hookimpl(wrapper=True)
@@ -157,9 +162,13 @@ def pytest_runtest_makereport():
     return report
 
 
-@pytest.hookimpl(tryfirst=True)
+def is_early(item):
+    return item.path.parent.name in EARLY
+
+
+@pytest.hookimpl(wrapper=True)
 def pytest_collection_modifyitems(items):
-    """What needs no engine first, while the engines are compiled; then files with long studies, so that no worker is left alone with one at the end; whole,
+    """Files with long studies first, so that no worker is left alone with one at the end; whole,
     so that what the tests of a file share is made once. Cases of which a spread is quick are
     counted as they stand, so a step that divides no number of values takes each value."""
     long = {item.path for item in items if item.get_closest_marker("slow")}
@@ -170,7 +179,22 @@ def pytest_collection_modifyitems(items):
             if cases[of] % mark.args[0]:
                 item.add_marker(pytest.mark.slow)
             cases[of] += 1
-    items.sort(key=lambda item: (item.path.parent.name not in EARLY, item.path not in long))
+    items.sort(key=lambda item: item.path not in long)
+    yield
+    items[:] = dealt(items, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))
+
+
+def dealt(items, workers):
+    """The tests that are run, as one stretch for each worker, which is how they are dealt to them:
+    what needs no engine begins every stretch, while the engines are compiled."""
+    early = [item for item in items if is_early(item)]
+    others = [item for item in items if not is_early(item)]
+    stretches = []
+    for worker in range(workers):
+        for part in (early, others):
+            start, stop = (len(part) * each // workers for each in (worker, worker + 1))
+            stretches += part[start:stop]
+    return stretches
 
 
 @pytest.fixture(scope="session")

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.equilibrium.engine import columns
 from thirdbody.equilibrium.states import state_columns
 
 pytest.importorskip("numba")
@@ -75,15 +76,37 @@ def test_every_kind_of_grain_is_solved(monkeypatch):
 
 
 def test_particles_that_break_are_as_exact_as_the_engine_says(monkeypatch):
-    """Twelve nodes a panel were off by 1e-9 in one of these states, and said 1e-11."""
+    """Twelve nodes a panel were off by 1e-9 in some of a hundred states, and said 1e-11.
+
+    NumPy takes seconds for each, so those are compared that fewer nodes move most.
+    """
     monkeypatch.syspath_prepend(FOLDER)
     accuracy = importlib.import_module("engine_accuracy")
     mine = [(contact, name) for case, contact, name in accuracy.cases() if case == "breaking rough"]
-    names = [name for _, name in mine]
-    row = accuracy.compared("breaking rough", mine[0][0], names, most=50, seconds=math.inf)
+    contact, names = mine[0][0], [name for _, name in mine]
+    rng = np.random.default_rng(accuracy.SEED)
+    loads, vary = accuracy.inputs_of(contact, names, 50, rng)
+    by_all, by_few = (_areas(contact, loads, vary, count, monkeypatch) for count in (None, (6, 12)))
+    moved = np.abs(by_few / by_all - 1)
+    chosen = np.argsort(-moved)[:12]
+    assert moved[chosen[0]] > 0
+    row = accuracy.compared("breaking rough", contact, names, 50, math.inf, chosen)
     assert row.states == 50
     assert (row.above, row.numpy, row.failed) == (0, 0, 0)
+    assert row.load > 0
     assert max(row.load, row.area, row.d) < 1e-11
+
+
+def _areas(contact, loads, vary, nodes, monkeypatch):
+    """A_t by so many nodes of a panel at the first level, few and all."""
+    with monkeypatch.context() as patch:
+        if nodes:
+            patch.setattr(columns, "BREAKING", nodes)
+        columns.rules.cache_clear()
+        found = state_columns(contact, F_star=loads, vary=vary)
+    columns.rules.cache_clear()
+    assert {*found["engine"]} == {"compiled"}
+    return found["A_t"]
 
 
 def test_oils_are_balanced_and_agree_with_steps():

@@ -298,8 +298,10 @@ def code_of(note: str) -> str:
 
 
 def note_of(message: Warning | str) -> str:
-    """The note that a warning carries."""
-    return next(iter(getattr(message, "args", ())), str(message))
+    """The note that a warning carries; a note itself, with the words that it has for studies."""
+    if isinstance(message, str):
+        return message
+    return next(iter(message.args), str(message))
 
 
 def ranked(notes: Iterable[str]) -> list[str]:

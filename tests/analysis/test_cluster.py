@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import refused
 from numpy.testing import assert_array_equal
 from refusals import Mistake, refuses
 from steel_and_dust import DUSTY as CONTACT
@@ -188,10 +189,10 @@ def test_a_bad_address_has_one_message(command, address, tmp_path, monkeypatch):
     monkeypatch.setattr("thirdbody.quantities.sharing.TIMEOUT", 1.0)
     study = {"sweep": EXAMPLE, "explicit": POINTS}[command]
     arguments = [command, str(study), "--out", str(tmp_path), "--scheduler", address]
-    done = CliRunner().invoke(app, arguments)
-    assert done.exit_code == 2, done.output
+    done = refused(*arguments)
     (line,) = (line for line in done.stderr.splitlines() if not line.startswith("warning: "))
-    assert f"no Dask scheduler answers at {address}" in line
+    assert done.problems[0].code is Mistake.ABSENT
+    assert address in line
 
 
 def test_nobody_there(tmp_path):

@@ -890,7 +890,7 @@ def test_command(tmp_path):
     file.write_text(SMALL)
     done = command(file, "--out", tmp_path / "o", "--workers", 2)
     assert done.exit_code == 0
-    assert "particles carry 0 % of the load" in done.stdout
+    assert " 0 % " in done.stdout
     assert re.search(r"24 states in .*states\.zarr", done.stderr)
     stored = xr.open_zarr(tmp_path / "o" / "states.zarr", chunks=None)
     assert stored.sizes == {"roughness.R": 2, "asperity_law.k": 2, "F_star": 6}

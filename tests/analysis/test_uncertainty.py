@@ -113,8 +113,8 @@ def test_of_one_input_the_bands_are_the_states_at_its_quantiles():
     }
     for name in names:
         assert np.all(np.abs(found.bands[name] - exact[name]) < 6 * found.error[name])
-        # 4096 samples of the state, 2048 of the critical load
-        assert np.all(found.error[name] < 0.01 * np.array(exact[name]))
+        # 4096 samples of the state, 2048 of the critical load: off by up to 2 % at its 5 %
+        assert np.all(found.error[name] < 0.04 * np.array(exact[name]))
 
 
 @SALIB
@@ -596,3 +596,21 @@ def test_inputs_without_a_symbol_have_words_beside_their_bars():
     )
     words = [each.get_text() for each in plot.tornado(found, "A_t").get_yticklabels()]
     assert set(words) == {"$R$", words_of(contact, hardness)}
+
+
+@pytest.mark.parametrize("width", [1, 3])
+@pytest.mark.parametrize("each", [32, 256])
+def test_errors_of_quantiles_are_as_large_as_they_are(width, each):
+    """Of sums of normal numbers, whose quantiles are known, over 60 seeds."""
+    from scipy.stats import norm
+
+    from thirdbody.analysis.uncertainty.samples import points_of, quantiles_of
+
+    probabilities = (0.05, 0.25, 0.5, 0.75, 0.95)
+    off = []
+    for seed in range(60):
+        numbers = norm.ppf(points_of(each, width, seed, 8)).reshape(8, each, width).sum(axis=-1)
+        found, error = quantiles_of(numbers, probabilities)
+        off.append((found - math.sqrt(width) * norm.ppf(probabilities)) / error)
+    rms = np.sqrt(np.mean(np.square(off), axis=0))
+    assert np.all((rms > 0.4) & (rms < 1.6)), rms

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from typer.testing import CliRunner
+from command_line import run
 
-from thirdbody import cli
+__all__ = ["CONTACT", "HOUR", "complained", "enter", "quarry", "run", "said", "setting", "study"]
 
 HOUR = 3600.0
 CONTACT = """
@@ -28,11 +28,6 @@ sizes = "boundary-lubricated"
 contacts = 20
 """
 """Contacts in the oil of the template, without an entry ratio."""
-
-
-def run(*arguments):
-    """The command line."""
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
 
 
 def said(done):

@@ -8,9 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import refused
 
 import thirdbody as tb
+from thirdbody.errors import Mistake
 from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_life
+from thirdbody.systems.life.report_notes import below_counts, beyond_counts
 from thirdbody.systems.life.sizing import least_flow
 from thirdbody.views.html import words as words_in_html
 from thirdbody.views.life_words import answer
@@ -70,33 +73,33 @@ def test_the_table_alone_is_enough():
     text = Path("oil-circuit.toml").read_text("utf-8").split("# The contact that")[0]
     Path("short.toml").write_text(text, "utf-8")
     assert run("life", "short.toml").stdout == run("life", "oil-circuit.toml").stdout
-    done = run("solve", "short.toml")
-    assert done.exit_code == 2
-    assert "surfaces is missing" in done.stderr
+    assert (Mistake.MISSING, "surfaces") in refused("solve", "short.toml").mistakes
 
 
 def test_what_is_waited_for_ends_it():
-    told = said(run("life", "oil-circuit.toml", *setting('life.until.iso4406="16/14/11"')))
     asked = load_life("oil-circuit.toml", ['life.until.iso4406="16/14/11"'])
     history = run_life(asked).history
     assert history.times[-1] < HOUR
     assert "16" in history.codes[-1]
-    assert (
-        f"the oil reaches 16/14/11: the oil has gone from 20/18/15 to {history.codes[-1]}" in told
-    )
-    full = said(run("life", "oil-circuit.toml", *setting("life.until.filter_full=true")))
-    assert "return filter is full with 50 g, and is changed: the oil has gone" in full
+    assert (history.codes[0], history.events[-1].name) == ("20/18/15", "code 16/14/11")
+    keys = setting("life.until.filter_full=true")
+    events = json.loads(run("life", "oil-circuit.toml", *keys, "--json").stdout)["events"]
+    assert [event["name"] for event in events] == ["filter full"]
+    (full,) = run_life(
+        load_life("oil-circuit.toml", ["life.until.filter_full=true"])
+    ).history.events
+    assert events[0]["time"] == full.time
 
 
 def test_a_count_that_grows_for_ever_is_told():
-    beta = 'life.filters.0.beta={ "6 um" = 75 }'
     Path("one.toml").write_text(
         Path("oil-circuit.toml").read_text("utf-8")
         .replace('beta = { "2 um" = 2, "4 um" = 5, "7 um" = 75, "14 um" = 1000 }', 'beta = { "6 um" = 75 }')
         .replace('settling_area = "0.5 m^2"', "")
     )  # fmt: skip
-    told = said(run("life", "one.toml"))
-    assert "The count from 4 µm on grows for ever" in told, beta
+    (steady,) = json.loads(run("life", "one.toml", "--json").stdout)["steady"]
+    assert steady["code"].startswith("-/")
+    assert "4 µm" in answer(run_life(load_life("one.toml")))[1]
 
 
 def test_the_figure_is_drawn_and_files_of_others_stay():
@@ -120,8 +123,8 @@ def test_reports_say_what_enters():
     Path("oil.csv").write_text(CODES)
     told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
     found = reports_of(load_circuit("oil-circuit.toml"), "oil.csv").reports
-    assert f"{3600e6 * found.mass_rate:.3g} mg/h of dirt from 4 µm on entered the oil" in told
-    assert "A constant ingress fits them (χ² = " in told
+    assert f"{3600e6 * found.mass_rate:.3g} mg/h" in told
+    assert f"χ² = {found.chi2:.3g}" in told
     assert "4 µm" in told.split("lowest")[1]
     data = json.loads(run("life", "oil-circuit.toml", "--reports", "oil.csv", "--json").stdout)
     assert data["rate"] == found.rate.tolist()
@@ -130,8 +133,9 @@ def test_reports_say_what_enters():
 
 def test_two_reports_cannot_say_whether_it_is_constant():
     Path("oil.csv").write_text("".join(CODES.splitlines(keepends=True)[:3]))
-    told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert "Two reports fit any ingress" in told
+    assert reports_of(load_circuit("oil-circuit.toml"), "oil.csv").reports.is_constant is None
+    done = run("life", "oil-circuit.toml", "--reports", "oil.csv", "--json")
+    assert json.loads(done.stdout)["is_constant"] is None
 
 
 def test_a_study_takes_its_ingress_from_reports():
@@ -140,23 +144,26 @@ def test_a_study_takes_its_ingress_from_reports():
     old = 'ingress  = { test_dust = "A3-lot", rate = "125 mg/h" }'
     assert old in text
     Path("from.toml").write_text(text.replace(old, 'ingress = { reports = "oil.csv" }'), "utf-8")
-    done = run("life", "from.toml")
-    assert "it ends at 16/1" in said(done)
-    assert "from its reports" in done.stderr
+    done = run("life", "from.toml", "--json")
+    assert json.loads(done.stdout)["steady"][0]["code"].startswith("16/1")
+    assert any(each.startswith("life.oil.ingress: ") for each in done.remarks)
 
 
 def test_the_mass_of_reports_says_what_it_leaves_out():
     Path("oil.csv").write_text(CODES)
     told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert "Particles below 4 µm are not counted and not in it" in told
-    assert "% of this mass is of particles beyond 14 µm, whose sizes no report says" in told
-    assert "lies somewhere in the range of its code" in told
+    found = reports_of(load_circuit("oil-circuit.toml"), "oil.csv").reports
+    assert found.coded
+    for sentence in (below_counts(found), beyond_counts(found)):
+        assert sentence in told
+    assert "4 µm" in below_counts(found)
+    assert "14 µm" in beyond_counts(found)
     text = Path("oil-circuit.toml").read_text("utf-8")
     old = 'ingress  = { test_dust = "A3-lot", rate = "125 mg/h" }'
     Path("from.toml").write_text(text.replace(old, 'ingress = { reports = "oil.csv" }'), "utf-8")
-    note = " ".join(run("life", "from.toml").stderr.split())
-    assert note.count("None below 4 µm enter") == 1
-    assert "of the test dusts A4 to A1 they are 7.2 % to 48 % of the mass" in note
+    (remark,) = (r for r in run("life", "from.toml").remarks if r.startswith("life.oil.ingress: "))
+    assert remark.count("below 4 µm") == 1
+    assert "7.2 % to 48 %" in remark
 
 
 def test_counts_in_a_file_are_no_codes_and_may_be_0():
@@ -165,10 +172,11 @@ def test_counts_in_a_file_are_no_codes_and_may_be_0():
         "0,5000,1300,40\n250,600,100,0\n500,650,110,0\n"
     )
     told = said(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert "if every count is off by a factor of at most 1.4" in told
-    assert "range of its code" not in told
-    assert "2 counts are 0: taken as anything below 1 /mL" in told
-    assert "with 1 degree of freedom" in told
+    found = reports_of(load_circuit("oil-circuit.toml"), "oil.csv").reports
+    assert (found.coded, found.degrees, np.sum(found.counts == 0)) == (False, 1, 2)
+    assert f"{found.width**0.5:.2g}" == "1.4"
+    assert " 1.4." in told
+    assert "1 /mL" in told
     assert "4 um [1/mL]" in said(run("life", "--help"))
 
 
@@ -185,21 +193,23 @@ def test_every_mistake_of_reports_is_said_in_the_words_of_the_study():
 
 def test_reports_that_are_not_later_are_named_with_their_lines():
     Path("oil.csv").write_text(CODES + "750,16/13/10\n")
-    told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert "oil.csv, line 6, column 1: " in told
-    assert "is not later than the report of line 5" in told
+    (problem,) = refused("life", "oil-circuit.toml", "--reports", "oil.csv").problems
+    assert problem.code is Mistake.ORDER
+    assert problem.startswith("oil.csv, line 6, column 1: ")
+    assert "line 5" in problem
 
 
 def test_a_report_without_a_finite_time_is_named_with_its_own_line():
     Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\nnan,18/16/13\n5,17/15/12\n")
-    told = complained(run("life", "oil-circuit.toml", "--reports", "oil.csv"))
-    assert 'oil.csv, line 3, column 1: "nan" is not a finite time [h]' in told
+    (problem,) = refused("life", "oil-circuit.toml", "--reports", "oil.csv").problems
+    assert problem.code is Mistake.RANGE
+    assert problem.startswith('oil.csv, line 3, column 1: "nan" ')
 
 
 def test_an_ingress_of_reports_that_fills_the_filter_at_once_is_doubted():
     Path("oil.csv").write_text("time [h],ISO 4406\n0,20/18/15\n250,26/24/21\n")
     done = run("life", "oil-circuit.toml", "--reports", "oil.csv")
-    assert "where filters last for months" in " ".join(done.stderr.split())
+    assert "life.ingress" in done.codes
     first, low, high = re.findall(r"([\d.]+) (?:k?g)/h", said(done))[:3]
     assert float(low) < float(first) < float(high)  # in one unit
 
@@ -207,20 +217,20 @@ def test_an_ingress_of_reports_that_fills_the_filter_at_once_is_doubted():
 def test_a_duration_without_a_unit_is_said():
     for value in ("100", '"100"'):
         done = run("life", "oil-circuit.toml", *setting(f"life.duration={value}"))
-        told = " ".join(done.stderr.split())
-        assert (
-            'life.duration = 100 has no unit and is taken as 100 s; for hours write "100 h"' in told
-        )
+        (remark,) = (each for each in done.remarks if each.startswith("life.duration = 100 "))
+        assert "100 s" in remark
+        assert '"100 h"' in remark
     done = run("life", "oil-circuit.toml", *setting('life.duration="100 h"'))
-    assert "has no unit" not in done.stderr
+    assert not any(each.startswith("life.duration") for each in done.remarks)
 
 
 @pytest.mark.parametrize(
     "key", ['oil.volume="200"', 'filters.0.flow="60"', 'filters.0.capacity="50"']
 )
 def test_numbers_without_a_unit_that_no_oil_has_are_refused(key):
-    told = complained(run("life", "oil-circuit.toml", *setting(f"life.{key}")))
-    assert "has no unit, so it would be" in told
+    place, _, value = f"life.{key}".partition("=")
+    (problem,) = refused("life", "oil-circuit.toml", *setting(f"life.{key}")).problems
+    assert (problem.code, problem.place, problem.value) == (Mistake.UNIT, place, value)
 
 
 def test_rows_are_shown_where_much_happens():
@@ -232,42 +242,44 @@ def test_rows_are_shown_where_much_happens():
 
 # ------------------------------------------------------------------------------ mistakes
 MISTAKES = [
-    (['life.filters.0.flow="60 L"'], "a volume, but a volume per time"),
-    (['life.filters.0.beta={ "4 um" = 0.5 }'], "must be >= 1"),
-    (['life.filters.0.beta={ "4 um" = 75, "10 um" = 5 }'], "beta must not fall"),
-    (["life.filters.0.beta={}"], "must be a table of sizes"),
-    (['life.filters.0.capacity="50 um"'], "a length, but a mass"),
-    (['life.oil.start="13/16/18"'], "impossible"),
-    (['life.oil.material="unobtainium"'], "is not a material"),
-    (['life.oil.material="SiO2"'], "density is missing"),
-    (['life.oil.ingress={ test_dust = "A9", rate = "1 mg/h" }'], "must be one of"),
-    (['life.oil.ingress={ test_dust = "A3" }'], "needs rate beside test_dust"),
-    (['life.oil.ingress={ rate = "1 mg/h" }'], "says not how many particles"),
-    (['life.oil.ingress={ iso4406 = "18/16/13", test_dust = "A3" }'], "keep one of them"),
-    (['life.oil.ingress={ counts = { "4 um" = "1e3 / s", "6 um" = "1e4 / s" } }'], "must fall"),
-    (['life.oil.ingress="125 mg/h"'], "must be a table"),
-    (['life.oil.ingress={ reports = "none.csv" }'], "there is no such file"),
-    (['life.oil.leak="1 L/min"'], "the leak has emptied the circuit"),
-    (['life.oil.viscosity="30 mm"'], "is a length"),
-    (['life.until.iso4406="18"'], "must be three numbers"),
+    ('filters.0.flow="60 L"', Mistake.UNIT, "filters.0.flow"),
+    ('filters.0.beta={ "4 um" = 0.5 }', Mistake.RANGE, 'filters.0.beta."4 um"'),
+    ('filters.0.beta={ "4 um" = 75, "10 um" = 5 }', Mistake.ORDER, "filters.0.beta"),
+    ("filters.0.beta={}", Mistake.KIND, "filters.0.beta"),
+    ('filters.0.capacity="50 um"', Mistake.UNIT, "filters.0.capacity"),
+    ('oil.start="13/16/18"', Mistake.ORDER, "oil.start"),
+    ('oil.material="unobtainium"', Mistake.UNKNOWN, "oil.material"),
+    ('oil.material="SiO2"', Mistake.MISSING, "oil.ingress.material.density"),
+    ('oil.ingress={ test_dust = "A9", rate = "1 mg/h" }', Mistake.OPTION, "oil.ingress.test_dust"),
+    ('oil.ingress={ test_dust = "A3" }', Mistake.CLASH, "oil.ingress"),
+    ('oil.ingress={ rate = "1 mg/h" }', Mistake.MISSING, "oil.ingress"),
     (
-        ['life.oil.ingress={ test_dust = "A3", rate = "-1 mg/h" }'],
-        "> 0 [kg/s]; leave out the minus sign",
+        'oil.ingress={ iso4406 = "18/16/13", test_dust = "A3" }',
+        Mistake.CLASH,
+        "oil.ingress.test_dust",
     ),
-    (['life.duration="-1 h"'], "must be > 0"),
-    (['life.durations="1 h"'], "did you mean duration?"),
+    (
+        'oil.ingress={ counts = { "4 um" = "1e3 / s", "6 um" = "1e4 / s" } }',
+        Mistake.ORDER,
+        "oil.ingress.counts",
+    ),
+    ('oil.ingress="125 mg/h"', Mistake.KIND, "oil.ingress"),
+    ('oil.ingress={ reports = "none.csv" }', Mistake.UNREADABLE, "oil.ingress.reports"),
+    ('oil.leak="1 L/min"', Mistake.RANGE, "duration"),
+    ('oil.viscosity="30 mm"', Mistake.UNIT, "oil.viscosity"),
+    ('until.iso4406="18"', Mistake.SHAPE, "until.iso4406"),
+    ('oil.ingress={ test_dust = "A3", rate = "-1 mg/h" }', Mistake.RANGE, "oil.ingress.rate"),
+    ('duration="-1 h"', Mistake.RANGE, "duration"),
+    ('durations="1 h"', Mistake.UNKNOWN, "durations"),
 ]
 
 
-@pytest.mark.parametrize(("keys", "words"), MISTAKES)
-def test_mistakes_get_one_sentence_and_nothing_is_written(keys, words):
+@pytest.mark.parametrize(("key", "code", "place"), MISTAKES)
+def test_mistakes_get_one_sentence_and_nothing_is_written(key, code, place):
     before = sorted(Path().iterdir())
-    done = run(
-        "life", "oil-circuit.toml", *setting(*keys), "--csv", "rows.csv", "--figure", "a.png"
-    )
-    assert done.exit_code == 2, done.stdout
-    assert words in " ".join(done.stderr.split())
-    assert "Traceback" not in done.stderr
+    files = ("--csv", "rows.csv", "--figure", "a.png")
+    done = refused("life", "oil-circuit.toml", *setting(f"life.{key}"), *files)
+    assert done.mistakes == [(code, f"life.{place}")]
     assert done.stdout == ""
     assert sorted(Path().iterdir()) == before
 
@@ -277,9 +289,8 @@ def test_what_nobody_can_predict_has_no_default():
     for key in ("ingress  =", "start    =", "volume   =", "material ="):
         line = next(each for each in text.splitlines() if each.startswith(key))
         Path("less.toml").write_text(text.replace(line + "\n", ""), "utf-8")
-        done = run("life", "less.toml")
-        assert done.exit_code == 2
-        assert f"life.oil.{key.rstrip(' =')} is missing" in " ".join(done.stderr.split())
+        missing = (Mistake.MISSING, f"life.oil.{key.rstrip(' =')}")
+        assert refused("life", "less.toml").mistakes == [missing]
     done = run("life", "less.toml", "--figure", "a.xyz")
     assert done.exit_code == 2
 
@@ -288,9 +299,7 @@ def test_fresh_oil_must_be_said():
     text = Path("oil-circuit.toml").read_text("utf-8")
     line = next(each for each in text.splitlines() if each.startswith("fresh_oil"))
     Path("less.toml").write_text(text.replace(line + "\n", ""), "utf-8")
-    done = run("life", "less.toml")
-    assert done.exit_code == 2
-    assert "fresh_oil is missing: oil_changes brings fresh oil" in " ".join(done.stderr.split())
+    assert refused("life", "less.toml").mistakes == [(Mistake.MISSING, "life.oil.fresh_oil")]
 
 
 def test_filters_beyond_their_data_sheets_are_warned_of():
@@ -301,9 +310,9 @@ def test_filters_beyond_their_data_sheets_are_warned_of():
     )  # fmt: skip
     Path("steep.toml").write_text(text, "utf-8")
     done = run("life", "steep.toml")
-    told = " ".join(done.stderr.split())
-    assert "up to 5.05 µm more particles would pass than arrive" in told
-    assert "holds nothing below 5 µm" in told
+    assert "5.05 µm" in done.note("clipped")
+    assert "return filter" in done.note("below the data sheet")
+    assert "5 µm" in done.note("below the data sheet")
 
 
 def test_a_study_is_loaded_with_its_oil():
@@ -313,7 +322,8 @@ def test_a_study_is_loaded_with_its_oil():
 
 
 # ------------------------------------------------------------------------------ bands, sizes
-def test_what_is_known_of_the_numbers_becomes_bands():
+def test_what_is_known_of_the_numbers_becomes_bands(monkeypatch):
+    monkeypatch.setattr("thirdbody.study.life_bands.SAMPLES", 64)  # enough for some of each end
     Path("known.toml").write_text(
         Path("oil-circuit.toml").read_text("utf-8")
         + """
@@ -332,18 +342,21 @@ ingress = { median = 1, gsd = 2 }
     assert np.isinf(bands.times["code 13/11/7"][-1])
     assert bands.swings[0].name == "ingress"
     keys = setting('life.duration="2 h"', "life.oil.oil_changes=[]")
+    data = json.loads(run("life", "known.toml", *keys, "--json").stdout)["bands"]
+    assert data["codes"] == list(bands.codes)
+    assert (data["reached"], data["samples"]) == (bands.reached, 64)
+    assert data["times"]["code 13/11/7"][-1] is None
+    # what is printed of it: the one place that holds these words
     told = said(run("life", "known.toml", *keys))
     assert f"the oil is at {bands.codes[0]} to {bands.codes[-1]} after 2 h (90 %)" in told
-    assert "to more than 2 h; it comes in" in told
-    assert f"in {bands.missed('code 13/11/7')} of 256 histories not by 2 h" in told
-    assert "Most uncertain: ingress" in told
+    assert f"in {bands.missed('code 13/11/7')} of 64 histories not by 2 h" in told
 
 
 def test_the_flow_that_is_enough_for_a_code():
     asked = load_life("oil-circuit.toml")
     flow = least_flow(asked.circuit, code="16/14/11")
     told = said(run("life", "oil-circuit.toml", "--flow-for", "16/14/11"))
-    assert f"A flow of {6e4 * flow:.3g} L/min through return filter is enough for 16/14/11" in told
+    assert f"{6e4 * flow:.3g} L/min" in told
     for factor, reached in ((1.001, True), (0.999, False)):
         circuit = asked.circuit.replace(**{"filters.0.flow": factor * flow})
         numbers = [int(part) for part in circuit.steady_code().split("/")]
@@ -362,10 +375,10 @@ def test_the_book_shows_what_is_printed():
 def test_the_report_has_a_page_on_the_oil():
     study = tb.load_study("oil-circuit.toml")
     page = report(study).html()
-    assert "<h2>The oil over time</h2>" in page or "The oil over time" in page
-    assert words_in_html(answer(run_life(study.life))[0]) in page
+    words = words_in_html(answer(run_life(study.life))[0])
+    assert words in page
     other = tb.load_study("oil-circuit.toml", ["title=another"])
-    assert "The oil over time" not in report(dataclasses.replace(other, life=None)).html()
+    assert words not in report(dataclasses.replace(other, life=None)).html()
 
 
 # ------------------------------------------------------------------------------ contacts in the oil
@@ -376,11 +389,9 @@ def with_contact(*lines):
 
 
 def test_what_enters_a_contact_has_no_default():
-    done = run("life", *with_contact())
-    assert done.exit_code == 2
-    told = " ".join(done.stderr.split())
-    assert "life.contact.entry_ratio is missing" in told
-    assert "try it from 1e-3 to 1 with --set life.contact.entry_ratio=" in told
+    (problem,) = refused("life", *with_contact()).problems
+    assert (problem.code, problem.place) == (Mistake.MISSING, "life.contact.entry_ratio")
+    assert "--set life.contact.entry_ratio=" in problem
 
 
 @pytest.mark.slow
@@ -404,14 +415,12 @@ def test_a_contact_in_the_oil_is_that_of_python():
 def test_parts_of_a_contact_that_are_missing_are_named():
     text = Path("oil-circuit.toml").read_text("utf-8") + "[life.contact]\nentry_ratio = 1\n"
     Path("part.toml").write_text(text, "utf-8")
-    done = run("life", "part.toml")
-    assert done.exit_code == 2
-    assert "life.contact needs [outputs], [film] with oil, and with conjunction" in " ".join(
-        done.stderr.split()
-    )
+    (problem,) = refused("life", "part.toml").problems
+    assert (problem.code, problem.place) == (Mistake.MISSING, "life.contact")
+    assert "[outputs]" in problem
+    assert "[film]" in problem
+    assert "[roughness]" not in problem
     Path("part.toml").write_text(
         text.split("[life.contact]")[0] + '[life.debris]\nsizes = "boundary-lubricated"\n'
     )
-    assert "has no effect without [life.contact]" in " ".join(
-        run("life", "part.toml").stderr.split()
-    )
+    assert refused("life", "part.toml").mistakes == [(Mistake.IDLE, "life.debris")]

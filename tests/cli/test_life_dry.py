@@ -11,8 +11,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from command_line import refused
 
 import thirdbody as tb
+from thirdbody.errors import Mistake
 from thirdbody.study.run_life import load_life, run_life
 from thirdbody.systems.life.debris import Debris
 from thirdbody.views.html import words as words_in_html
@@ -73,7 +75,6 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
     head = f"{found.title}, with life.duration = 1 h (thirdbody {tb.__version__})"
     assert told.startswith(f"{head} {first} {second} time")
     assert found.history.reproduction in first
-    assert "The contact comes to" in first
     assert "After 60 min wear has taken surface 1 by" in second
     assert "residence of what rolls 0.2 s" in told
     assert max(map(len, done.stdout.splitlines())) <= 80
@@ -93,8 +94,10 @@ def test_particles_and_those_with_load_stand_on_one_basis():
 
 def test_nothing_leaves_where_all_comes_round_again():
     keys = ("--set", "life.dry.loss=0", "--set", 'life.duration="2 s"')
-    told = said(run("life", "dry-contact.toml", *keys))
-    assert "none ever leaves it, because life.dry.loss = 0 brings all of them round again" in told
+    history = json.loads(run("life", "dry-contact.toml", *keys, "--json").stdout)
+    assert history["steady"] == []
+    assert not any(row["to"] == "left" and row["kg"] > 0 for row in history["flows"])
+    assert "life.dry.loss = 0" in said(run("life", "dry-contact.toml", *keys))
 
 
 def test_json_csv_and_workbook_hold_the_same_numbers():
@@ -115,17 +118,20 @@ def test_json_csv_and_workbook_hold_the_same_numbers():
 
 
 def test_an_event_ends_the_history():
-    told = said(run("life", "dry-contact.toml", *SHORT, "--set", 'life.until.wear_depth="1 um"'))
-    assert "a surface is worn by 1 µm: wear has taken" in told
+    keys = (*SHORT, "--set", 'life.until.wear_depth="1 um"')
+    data = json.loads(run("life", "dry-contact.toml", *keys, "--json").stdout)
+    (event,) = data["events"]
+    assert (event["name"], event["time"]) == ("wear depth", data["times"][-1])
+    assert max(data["more"][f"wear_{side}"][-1] for side in (1, 2)) == pytest.approx(1e-6)
 
 
 @pytest.mark.slow
 def test_what_never_leaves_is_told():
     """A soft second surface holds the grains, and the first one alone moves."""
     keys = ("--set", 'surfaces.second="CuSn8"', "--set", 'life.duration="1 s"')
-    told = said(run("life", "dry-contact.toml", *keys))
-    assert "comes to no steady state: it holds" in told
-    assert "and some of them never leave it" in told
+    data = json.loads(run("life", "dry-contact.toml", *keys, "--json").stdout)
+    assert data["steady"] == []
+    assert "left" in {row["to"] for row in data["flows"] if row["kg"] > 0}
 
 
 def test_the_figure_is_drawn():
@@ -137,31 +143,32 @@ def test_the_figure_is_drawn():
 def test_the_report_has_a_part_on_the_contact():
     found = run_life(load_life("dry-contact.toml", ['life.duration="20 s"']))
     (part,) = life_section(SimpleNamespace(life=found))
-    assert "The contact over time" in part
     assert words_in_html(answer(found)[0]) in part
-    assert "<figcaption>Wear and particles over time" in part
+    assert "<figcaption>" in part
 
 
 MISTAKES = [
-    ("life.dry.loss=2", "must be >= 0 and <= 1"),
-    ('life.dry.moving="third"', 'must be one of "first", "second"'),
-    ('life.dry.worn_area="1 cm^2"', "must be two areas"),
-    ('life.dry.arrivals={ iso4406 = "18/16/13" }', "give one of test_dust, counts"),
-    ('life.until.iso4406="18/16/13"', "waits for what only an oil has"),
-    ('load.pressure=["1 MPa", "2 MPa"]', "a history has one"),
-    ('life.filters=[{ flow = "1 L/min", beta = { "4 um" = 2 } }]', "one is in an oil"),
-    ('life.uncertainty={ ingress = { low = 1, high = 2 } }', "is not a number of the dry"),
-    ('life.dry.speed="1 m/s"', "is not a known key"),
-]  # fmt: skip
+    ("life.dry.loss=2", Mistake.RANGE, "life.dry.loss"),
+    ('life.dry.moving="third"', Mistake.OPTION, "life.dry.moving"),
+    ('life.dry.worn_area="1 cm^2"', Mistake.SHAPE, "life.dry.worn_area"),
+    ('life.dry.arrivals={ iso4406 = "18/16/13" }', Mistake.MISSING, "life.dry.arrivals"),
+    ('life.until.iso4406="18/16/13"', Mistake.CLASH, "life.until"),
+    ('load.pressure=["1 MPa", "2 MPa"]', Mistake.SHAPE, "load.pressure"),
+    ('life.filters=[{ flow = "1 L/min", beta = { "4 um" = 2 } }]', Mistake.CLASH, "life.filters"),
+    (
+        "life.uncertainty={ ingress = { low = 1, high = 2 } }",
+        Mistake.UNKNOWN,
+        'life.uncertainty."ingress"',
+    ),
+    ('life.dry.speed="1 m/s"', Mistake.UNKNOWN, "life.dry.speed"),
+]
 
 
-@pytest.mark.parametrize(("key", "words"), MISTAKES)
-def test_mistakes_get_one_sentence_and_nothing_is_written(key, words):
+@pytest.mark.parametrize(("key", "code", "place"), MISTAKES)
+def test_mistakes_get_one_sentence_and_nothing_is_written(key, code, place):
     before = sorted(Path().iterdir())
-    done = run("life", "dry-contact.toml", "--set", key, "--csv", "a.csv", "--figure", "a.png")
-    assert done.exit_code == 2, done.stdout
-    assert words in " ".join(done.stderr.split())
-    assert "Traceback" not in done.stderr
+    files = ("--csv", "a.csv", "--figure", "a.png")
+    assert refused("life", "dry-contact.toml", "--set", key, *files).mistakes[0] == (code, place)
     assert sorted(Path().iterdir()) == before
 
 
@@ -170,9 +177,8 @@ def test_what_nobody_can_predict_has_no_default(key):
     text = Path("dry-contact.toml").read_text("utf-8")
     line = next(each for each in text.splitlines() if each.startswith(key))
     Path("less.toml").write_text(text.replace(line + "\n", ""), "utf-8")
-    done = run("life", "less.toml")
-    assert done.exit_code == 2
-    assert f"life.dry.{key.rstrip(' =')} is missing" in " ".join(done.stderr.split())
+    missing = (Mistake.MISSING, f"life.dry.{key.rstrip(' =')}")
+    assert refused("life", "less.toml").mistakes == [missing]
 
 
 def test_options_of_an_oil_are_refused():

@@ -8,10 +8,12 @@ from importlib import resources
 from pathlib import Path
 
 import pytest
+from command_line import refused
 from typer.testing import CliRunner
 
 from thirdbody import cli, load_study
 from thirdbody.cli.commands.new import KINDS
+from thirdbody.errors import Mistake
 
 ROOT = Path(__file__).parents[2]
 FIRST = {
@@ -37,11 +39,14 @@ def empty_folder(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "kind",
     [
-        pytest.param(kind, marks=pytest.mark.slow) if kind in ("linear-guide", "gear") else kind
+        pytest.param(kind, marks=pytest.mark.slow)
+        if kind in ("linear-guide", "gear")
+        else pytest.param(kind, marks=pytest.mark.spread(3))
         for kind in KINDS
     ],
 )
 def test_every_kind_runs_at_once(kind, empty_folder):
+    """That each is solved, tests/cli/test_every_way.py holds as well."""
     made = run("new", kind)
     assert made.exit_code == 0
     assert made.stdout == f"thirdbody {FIRST.get(kind, 'solve')} {kind}.toml\n"
@@ -80,9 +85,9 @@ def test_commands_in_the_file_are_commands(kind):
 def test_nothing_is_overwritten():
     run("new", "two-body")
     Path("two-body.toml").write_text("mine", "utf-8")
-    again = run("new", "two-body")
-    assert again.exit_code == 2
-    assert "two-body.toml exists and is not overwritten" in again.stderr
+    (problem,) = refused("new", "two-body").problems
+    assert problem.code is Mistake.UNWRITABLE
+    assert problem.startswith("two-body.toml ")
     assert Path("two-body.toml").read_text("utf-8") == "mine"
     other = run("new", "two-body", "--out", "second.toml")
     assert other.stdout == "thirdbody solve second.toml\n"

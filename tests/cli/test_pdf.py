@@ -3,7 +3,9 @@
 import sys
 
 import pytest
+from command_line import refused
 
+from thirdbody.errors import Mistake
 from thirdbody.views import pdf
 
 from .test_cli import CLEAN, run
@@ -27,9 +29,9 @@ def test_the_page_on_paper(tmp_path):
     assert file.read_bytes() == first
     assert sorted(each.name for each in tmp_path.iterdir()) == ["report.html", "report.pdf"]
     file.write_bytes(b"mine")
-    refused = run("report", CLEAN, "--pdf", file)
-    assert refused.exit_code == 2
-    assert "it exists and is no PDF of thirdbody" in refused.stderr
+    (problem,) = refused("report", CLEAN, "--pdf", file).problems
+    assert problem.code is Mistake.UNWRITABLE
+    assert str(file) in problem
     assert file.read_bytes() == b"mine"
 
 
@@ -38,11 +40,10 @@ def test_without_a_browser_nothing_is_written(tmp_path, monkeypatch, asked):
     monkeypatch.setenv(pdf.BROWSER, asked or "")
     monkeypatch.setattr(pdf.shutil, "which", lambda name: None)
     out = tmp_path / "report.html"
-    done = run("report", CLEAN, "--pdf", tmp_path / "report.pdf", "--out", out)
-    assert done.exit_code == 2
-    (line,) = (line for line in done.stderr.splitlines() if line.startswith("error"))
-    assert "a PDF is drawn by Chromium, Chrome or Edge" in line
-    assert (asked or "none of them was found") in line
+    done = refused("report", CLEAN, "--pdf", tmp_path / "report.pdf", "--out", out)
+    (problem,) = done.problems
+    assert problem.code is Mistake.ABSENT
+    assert (asked or "Chromium") in problem
     assert not list(tmp_path.iterdir())
 
 
@@ -56,7 +57,8 @@ def test_a_browser_that_fails_leaves_nothing(tmp_path, monkeypatch):
     monkeypatch.setenv(pdf.BROWSER, str(program))
     out = tmp_path / "out"
     out.mkdir()
-    done = run("report", CLEAN, "--pdf", out / "report.pdf", "--out", out / "report.html")
-    assert done.exit_code == 2
-    assert "made no PDF: no display here" in done.stderr
+    (problem,) = refused(
+        "report", CLEAN, "--pdf", out / "report.pdf", "--out", out / "report.html"
+    ).problems
+    assert problem.endswith("no display here")
     assert not list(out.iterdir())

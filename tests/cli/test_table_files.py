@@ -1,12 +1,16 @@
 """Workbooks and Parquet beside CSV: the same numbers, the same bytes, whole or not at all."""
 
 import csv
+import errno
 import importlib.util
+import os
 import zipfile
 
 import pytest
+from command_line import refused
 
 from thirdbody.cli import streams
+from thirdbody.errors import Mistake
 
 from .test_cli import EXAMPLES, run
 
@@ -103,7 +107,7 @@ def test_a_file_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
     monkeypatch.setattr(pandas.DataFrame, "to_parquet", full)
     done = run("surface", "example", "--parquet", older, "--force")
     assert done.exit_code == 2
-    assert "no space left" in done.stderr.lower()
+    assert os.strerror(errno.ENOSPC).lower() in done.stderr.lower()
     assert older.read_bytes() == b"older"
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
@@ -124,7 +128,7 @@ def test_files_of_a_run_appear_together_or_not_at_all(tmp_path, monkeypatch):
     monkeypatch.setattr(pandas.DataFrame, "to_parquet", full)
     done = run("solve", SWEEP, "--set", "load.pressure=2e6", *options)
     assert done.exit_code == 2
-    assert "no space left" in done.stderr.lower()
+    assert os.strerror(errno.ENOSPC).lower() in done.stderr.lower()
     assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
     assert names[0].read_bytes() == older
     monkeypatch.undo()
@@ -134,9 +138,9 @@ def test_files_of_a_run_appear_together_or_not_at_all(tmp_path, monkeypatch):
     again = run("solve", SWEEP, *options)
     assert again.exit_code == 0, again.output
     names[1].write_text('{"mine": 1}')
-    refused = run("solve", SWEEP, *options)
-    assert refused.exit_code == 2
-    assert "it exists and is no JSON of thirdbody" in refused.stderr
+    (problem,) = refused("solve", SWEEP, *options).problems
+    assert problem.code is Mistake.UNWRITABLE
+    assert str(names[1]) in problem
 
 
 def test_json_goes_to_the_output_or_into_a_file(tmp_path):

@@ -7,15 +7,14 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import command_line
 import numpy as np
 import pytest
 from refusals import Mistake, refuses, warns_of
 from scipy.integrate import quad
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
-from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody.cli import app
 from thirdbody.contact.interface import interface
 from thirdbody.equilibrium.table.writers import FORMATS, rounded_up
 
@@ -492,7 +491,7 @@ def study(tmp_path):
 
 
 def run(*words):
-    return CliRunner().invoke(app, ["table", *map(str, words)])
+    return command_line.run("table", *words)
 
 
 @pytest.mark.parametrize("name", FORMATS)
@@ -509,16 +508,21 @@ def test_command_knows_the_format_by_its_suffix(name, study, tmp_path):
 
 def test_command_refuses(study, tmp_path):
     def problems(*words):
-        done = run(study, *words)
-        assert done.exit_code == 2
-        return done.stderr
+        return command_line.refused("table", study, *words).problems
 
-    assert "--out t.dat: the suffix does not say" in problems("--out", "t.dat")
-    said = problems("--out", "t.csv", "--units", "mm", "--from", "3 GPa")
-    assert "--units mm has no meaning for csv" in said
-    assert '--from: "3 GPa" is a pressure' in said
-    assert "--format xls must be one of" in problems("--out", "t.csv", "--format", "xls")
-    assert "tolerance = 0.0 must be" in problems("--out", tmp_path / "t.c", "--tolerance", "0")
+    (suffix,) = problems("--out", "t.dat")
+    assert suffix.code is Mistake.MISSING
+    assert "--out t.dat" in suffix
+    units, pressure = problems("--out", "t.csv", "--units", "mm", "--from", "3 GPa")
+    assert units.code is Mistake.IDLE
+    assert "--units mm" in units
+    assert (pressure.code, pressure.place) == (Mistake.UNIT, "--from")
+    (form,) = problems("--out", "t.csv", "--format", "xls")
+    assert form.code is Mistake.OPTION
+    assert "--format xls" in form
+    (tolerance,) = problems("--out", tmp_path / "t.c", "--tolerance", "0")
+    told = (Mistake.RANGE, "tolerance", "0.0")
+    assert (tolerance.code, tolerance.place, tolerance.value) == told
     assert not list(tmp_path.glob("*.c"))
     out = tmp_path / "a"
     assert run(study, "--out", out, "--format", "abaqus", "--units", "mm").exit_code == 0

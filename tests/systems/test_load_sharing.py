@@ -127,3 +127,33 @@ def test_mistakes(given):
         share_radial_load(force, **others)
     with refuses(Mistake.RANGE, "eps", value="0.0"):
         radial_integral(0.0)
+
+
+@pytest.mark.parametrize("exponent", [BALLS, ROLLERS])
+def test_one_body_never_carries_more_than_the_load(exponent):
+    """With much clearance the bodies at their places balance it, found by a search of its own."""
+    rng = np.random.default_rng(4)
+    few = 0
+    for _ in range(200):
+        bodies, clearance = int(rng.integers(5, 20)), 10 ** rng.uniform(-6, -4)
+        force, stiffness = 10 ** rng.uniform(0, 4), 10 ** rng.uniform(9, 11)
+        found = share_radial_load(
+            force, bodies=bodies, stiffness=stiffness, clearance=clearance, exponent=exponent
+        )
+        assert found.largest <= force * (1 + 1e-9)
+        if abs(found.balance - 1) > 1e-9:
+            continue
+        few += 1
+        cosines = np.cos(2 * math.pi * np.arange(bodies) / bodies)
+        half = 0.5 * clearance
+
+        def carried(shift, cosines=cosines, half=half, stiffness=stiffness):
+            return stiffness * np.maximum(shift * cosines - half, 0) ** exponent @ cosines
+
+        low, high = half, 2 * half + 1e-2
+        for _ in range(200):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if carried(middle) < force else (low, middle)
+        assert found.shift == pytest.approx(low, rel=1e-9)
+        assert found.largest == pytest.approx(stiffness * (low - half) ** exponent, rel=1e-7)
+    assert few > 20

@@ -89,3 +89,25 @@ def test_one_size_has_no_count_above_it():
     with pytest.raises(InvalidValue, match="spread"):
         FINE.behind(1e9, Monodisperse(mean=5e-6))
     assert FINE.behind(0.0, LogNormal(median=5e-6, gsd=1.5))[0] == 0
+
+
+@pytest.mark.parametrize("fine", [FINE, Filter(sizes=(6e-6,), betas=(200.0,))])
+@pytest.mark.parametrize("median", [1e-6, 5e-6])
+def test_below_its_smallest_size_it_may_hold_nothing(fine, median):
+    """All that is smaller comes through, and of the larger ones as many as β says."""
+    dirt = LogNormal(median=median, gsd=1.8)
+    number, sizes = fine.behind(1e9, dirt, goes_on=False)
+    first, (low, high) = fine.sizes[0], dirt.support
+    for x, rel in ((1.3 * low, 0.02), (0.7 * first, 0.02), (first, 1e-9), (1.4 * first, 0.02)):
+        came = dirt.partial_moment(0, max(x, first), high) / float(fine.beta(max(x, first)))
+        came += dirt.partial_moment(0, x, first) if x < first else 0.0
+        assert above(number, sizes, x) == pytest.approx(1e9 * came, rel=rel)
+    assert above(number, sizes, 0.8 * first) > above(*fine.behind(1e9, dirt), 0.8 * first)
+
+
+def test_service_lowers_beta():
+    dirt, worse = LogNormal(median=5e-6, gsd=1.8), FINE.replace(service=0.5)
+    x = np.array([3e-6, 5e-6, 7e-6, 30e-6])
+    np.testing.assert_allclose(np.log(worse.beta(x)), 0.5 * np.log(FINE.beta(x)), rtol=1e-12)
+    behind = worse.behind(1e9, dirt)
+    assert above(1e9, dirt, 5e-6) / above(*behind, 5e-6) == pytest.approx(math.sqrt(75), rel=1e-9)

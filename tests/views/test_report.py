@@ -321,7 +321,12 @@ def test_laws_say_who_chose_them(dusty):
 
 
 @pytest.mark.parametrize(
-    ("kind", "command"), [("connector", "probability"), ("wafer-chuck", "plate")]
+    ("kind", "command"),
+    [
+        ("connector", "probability"),
+        # whose grains are looked at one by one; tests/cli/test_every_way.py has its words
+        pytest.param("wafer-chuck", "plate", marks=pytest.mark.slow),
+    ],
 )
 def test_a_report_answers_first_what_the_study_asks(
     kind, command, tmp_path, monkeypatch, no_figures

@@ -19,11 +19,11 @@ from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
 from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.states import varied
+from ..equilibrium.states import OWN_SPOTS, varied
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
 from ..quantities.carried import takes_units
-from ..quantities.progress import Stages, counted, solving
-from ..quantities.say import percent, value_of
+from ..quantities.progress import LONG, SURE, Cost, Stages, counted, duration, solving
+from ..quantities.say import number, percent, value_of
 from ..quantities.value import problem_with
 from .assessment import (
     COARSE,
@@ -49,6 +49,7 @@ from .uncertainty.propagation import Propagation, certain, propagate, swing
 from .uncertainty.samples import (
     LEAST,
     MOST_CRITICAL,
+    MOST_OUTPUTS,
     columns_at,
     costly,
     enough,
@@ -188,7 +189,8 @@ def assess_each(
         bands = iter(certain(contact, load, held))
     elif held:
         at: Any = held if len(held) > 1 else held[0]
-        with work.part(count, count * len(held) + EVALUATED * work.critical):
+        outputs = min(count, MOST_OUTPUTS) * len(held) if contact.outputs else 0
+        with work.part(count, count * len(held) + EVALUATED * work.critical, outputs):
             found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
         work.second(found)
         bands = (found.at_load(i) for i in range(len(held)))
@@ -209,6 +211,33 @@ def assess_each(
             page = replace(page, changes=changes, stops=stops)
         pages.append(page)
     return pages
+
+
+class _Outputs:
+    """Cost and progress of states whose outputs are calculated one by one."""
+
+    def __init__(self, progress: Stages | None, total: int):
+        self.progress, self.total, self.done = progress, total, 0.0
+        self.warn = Cost(total, lambda now: None, "" if progress else "states with outputs")
+        self.start, self.said = math.nan, False
+
+    def __call__(self, count: float) -> None:
+        self.done += count
+        self.warn(count, OWN_SPOTS)
+        if self.progress is None:
+            return
+        now = time.monotonic()
+        if math.isnan(self.start):
+            self.start, self.first = now, self.done
+        elif not self.said and now > self.start + SURE:
+            each = (now - self.start) / (self.done - self.first)
+            if (whole := each * self.total) > LONG:
+                self.progress.tell(
+                    f"about {self.total:,} states with outputs, {number(each, 2)} s each: some "
+                    f"{duration(whole)}"
+                )
+            self.said = True
+        self.progress.moved(int(self.done), self.total, "states with outputs")
 
 
 class _Work:
@@ -237,12 +266,15 @@ class _Work:
                 self.tell = progress.tell
 
     @contextmanager
-    def part(self, expected: int, states: int = 0) -> Iterator[None]:
-        """One part, of so many contacts or states."""
-        done = 0.0
+    def part(self, expected: int, states: int = 0, outputs: int = 0) -> Iterator[None]:
+        """One part, of so many contacts or states, and so many states with outputs."""
+        done, of_outputs = 0.0, _Outputs(self.progress, outputs)
 
         def more(count: float, why: str) -> None:
             nonlocal done
+            if why == OWN_SPOTS:
+                of_outputs(2 * count)  # the other half was the state
+                return
             done += count
             if self.progress is not None and states and not why:
                 self.progress.moved(int(done), states, "states")

@@ -61,7 +61,7 @@ def refuse_large(study: dict[str, object]) -> None:
         if len(found) == MOST_SAID:
             break
     if found:
-        raise InvalidValue(*found)
+        raise InvalidValue(*found, code=Mistake.TOO_LARGE)
 
 
 def _problems(study: dict[str, object]) -> Iterator[str]:
@@ -127,7 +127,7 @@ def refuse_large_files(folder: Path, names: list[str]) -> None:
                 f'"{name}" has {file.stat().st_size} bytes: ' + END.format(most=LARGEST_TABLE)
             )
     if wrong:
-        raise InvalidValue(*wrong)
+        raise InvalidValue(*wrong, code=Mistake.TOO_LARGE)
 
 
 def refuse_long_names(text: str) -> None:

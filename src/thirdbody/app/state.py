@@ -21,7 +21,7 @@ import thirdbody as tb
 
 from ..contact.output import AbstractOutput
 from ..equilibrium.load import as_load
-from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError, note_of
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
 from ..study.life_contact import BOUNDARY
 from ..study.load import pressed
@@ -208,7 +208,8 @@ def look(study: Tables, folder: Path, surface: Measured | None = None) -> Looked
         problems += [Problem("", str(error))]
     problems = [each.worded(without_paths) for each in dict.fromkeys(problems)]
     if (more := len(problems) - MOST_TOLD) > 0:
-        problems[MOST_TOLD:] = [Problem("", f"and {more} more mistakes")]
+        code = problems[MOST_TOLD].code
+        problems[MOST_TOLD:] = [Problem("", f"and {more} more mistakes", code=code)]
     return answer, problems, library
 
 
@@ -470,7 +471,8 @@ class State:
         except InvalidValue as error:
             found = {"problems": list(error.problems)}
         except Stopped:
-            cancelled = Problem("roughness.topography", ": the reading was cancelled")
+            rule = ": the reading was cancelled"
+            cancelled = Problem("roughness.topography", rule, code=Mistake.UNREADABLE)
             found = {"problems": [cancelled]}
         finally:
             self.reading = None
@@ -554,4 +556,4 @@ def refuse_foreign_files(study: Tables, folder: Path) -> None:
         if name not in WORDS and not (Path(name).name == name and (folder / name).is_file())
     ]
     if wrong:
-        raise InvalidValue(*wrong)
+        raise InvalidValue(*wrong, code=Mistake.UNREADABLE)

@@ -125,7 +125,7 @@ def from_link(code: str) -> dict[str, object]:
         packed = base64.urlsafe_b64decode(code + "=" * (-len(code) % 4))
         text = zlib.decompressobj().decompress(packed, LONGEST_STUDY + 1).decode()
     except (ValueError, zlib.error):
-        raise InvalidValue(broken) from None
+        raise InvalidValue(broken, code=Mistake.FORM) from None
     if not text:
-        raise InvalidValue(broken)
+        raise InvalidValue(broken, code=Mistake.FORM)
     return from_toml(text)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.installed import offers
 from .streams import SHOWS_ALL, WARNINGS, answer_first, at_once, remark, warn
 
@@ -221,16 +221,18 @@ def tell_notes(asked: Study) -> None:
             warn(sentence)
 
 
-def not_a_folder(out: Path | None) -> list[str]:
+def not_a_folder(out: Path | None) -> list[Problem]:
     """Why files cannot be written into this folder."""
     from ..quantities.files import hindrance_of_folder
 
     if out is None:
         return []
     if out.exists() and not out.is_dir():
-        return [f"--out {out} must be a folder, and a file of that name exists"]
+        rule = f"--out {out} must be a folder, and a file of that name exists"
+        return [Problem("", rule, code=Mistake.UNWRITABLE)]
     why = hindrance_of_folder(out)
-    return [f"--out {out}: cannot write there: {why}"] if why else []
+    rule = f"--out {out}: cannot write there: {why}"
+    return [Problem("", rule, code=Mistake.UNWRITABLE)] if why else []
 
 
 def metres(option: str, text: str, problems: list[str]) -> float:
@@ -240,5 +242,5 @@ def metres(option: str, text: str, problems: list[str]) -> float:
     try:
         return to_si(text, "m")
     except InvalidValue as error:
-        problems += [f"{option}: {sentence}" for sentence in error.problems]
+        problems += [Problem(option, f": {each}", code=each.code) for each in error.problems]
         return math.nan

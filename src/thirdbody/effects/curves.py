@@ -87,11 +87,10 @@ class Curve:
                 edges.append(kink)
         edges.append(4 * edges[-1])
         top = float(np.max(f(np.array(edges))))
-        parts = [_tabulated(f, a, b, top) for a, b in pairwise(edges)]
-        eps, values = (np.concatenate([part[i] for part in parts]) for i in (0, 1))
-        seams = np.cumsum([len(part[0]) for part in parts])[:-1]
+        eps, values = _tabulated(f, np.array(edges), top)
+        seams = np.searchsorted(eps, edges)[1:-1]
         self.runs = tuple(_runs(eps, values, seams))
-        found_at = [v for _, part in parts for v in (part[0], part[-1])]
+        found_at = [values[0], values[-1], *values[seams - 1], *values[seams]]
         found_at += [end for run in self.runs for end in (run.low, run.high)]
         found = np.unique([end for end in found_at if end > 0])
         self.seams = found[np.diff(found, prepend=-1.0) > CLOSE * found]
@@ -112,16 +111,19 @@ class Curve:
         return out
 
 
-def _tabulated(f: Callable[[Array], Array], a: float, b: float, top: float) -> tuple[Array, Array]:
-    """Squeezes between a and b, dense where f bends, and f there."""
-    step = np.geomspace(NEAR, 0.5, 28) * (b - a)
-    eps = np.unique(np.concatenate([a + step, b - step, np.geomspace(a, b, 16)[1:-1]]))
-    eps = eps[(eps > a) & (eps < b)]
+def _tabulated(f: Callable[[Array], Array], edges: Array, top: float) -> tuple[Array, Array]:
+    """Squeezes between edges, dense where f bends, and f there; no cubic crosses an edge."""
+    eps = np.concatenate([_first_nodes(a, b) for a, b in pairwise(edges)])
     values = np.maximum(f(eps), 0.0)
     open_ = np.ones(len(eps) - 1, dtype=bool)
+    open_[np.searchsorted(eps, edges[1:-1]) - 1] = False
     for _ in range(ROUNDS):
+        starts = np.searchsorted(eps, edges)
         at = np.flatnonzero(open_)
-        if not len(at) or len(eps) > MOST:
+        mine = np.searchsorted(starts, at, side="right") - 1
+        few = np.diff(starts)[mine] <= MOST
+        at, mine = at[few], mine[few]
+        if not len(at):
             break
         begin, end, low, high = eps[at], eps[at + 1], values[at], values[at + 1]
         middle = 0.5 * (begin + end)
@@ -130,8 +132,10 @@ def _tabulated(f: Callable[[Array], Array], a: float, b: float, top: float) -> t
             read = np.empty_like(found)
             for way in (1, -1):
                 here = way * (high - low) > 0
-                read[here] = _read_between(eps, way * np.sqrt(values), at[here],
-                                           way * np.sqrt(found[here]))  # fmt: skip
+                nearest = np.clip(at[here] - 1, starts[mine[here]], starts[mine[here] + 1] - 4)
+                read[here] = _read_between(
+                    eps, way * np.sqrt(values), at[here], nearest, way * np.sqrt(found[here])
+                )
             miss = np.abs(read - middle) / (end - begin) * np.abs(high - low) / found
         turns = (high - found) * (found - low) < 0
         flat = np.maximum(np.abs(high - found), np.abs(found - low)) <= _rounding(found, top)
@@ -146,13 +150,22 @@ def _tabulated(f: Callable[[Array], Array], a: float, b: float, top: float) -> t
     return eps, values
 
 
+def _first_nodes(a: float, b: float) -> Array:
+    """Squeezes between a and b, dense near both."""
+    step = np.geomspace(NEAR, 0.5, 28) * (b - a)
+    eps = np.unique(np.concatenate([a + step, b - step, np.geomspace(a, b, 16)[1:-1]]))
+    return eps[(eps > a) & (eps < b)]
+
+
 def _rounding(values: Array, top: float) -> Array:
     return SAME * np.sqrt(values * max(top, 0.0))
 
 
-def _read_between(eps: Array, roots: Array, at: NDArray[np.intp], wanted: Array) -> Array:
-    """ε of wanted roots in the intervals ``at``, by the cubic through the four nearest nodes."""
-    start = np.clip(at - 1, 0, len(eps) - 4)[:, None] + np.arange(4)
+def _read_between(
+    eps: Array, roots: Array, at: NDArray[np.intp], nearest: NDArray[np.intp], wanted: Array
+) -> Array:
+    """ε of wanted roots in intervals ``at``, by cubics through four nodes from ``nearest`` on."""
+    start = nearest[:, None] + np.arange(4)
     return _horner(_cubics(roots[start], eps[start], at - start[:, 0]), roots, at, wanted)
 
 
@@ -199,7 +212,7 @@ def _read(roots: Array, cubics: Array, wanted: Array) -> Array:
     return _horner(cubics[at], roots, at, wanted)
 
 
-def _runs(eps: Array, values: Array, seams: Array) -> Iterator[_Run]:
+def _runs(eps: Array, values: Array, seams: NDArray[np.intp]) -> Iterator[_Run]:
     """The stretches along which f rises or falls; of where it is 0 none is made."""
     change = np.diff(values)
     top = float(np.max(values))
@@ -220,7 +233,9 @@ def _runs(eps: Array, values: Array, seams: Array) -> Iterator[_Run]:
         yield _run(eps[nodes], np.sqrt(values[nodes]), own, ends, rises)
 
 
-def _run(eps: Array, roots: Array, seams: Array, ends: tuple[float, float], rises: bool) -> _Run:
+def _run(
+    eps: Array, roots: Array, seams: NDArray[np.intp], ends: tuple[float, float], rises: bool
+) -> _Run:
     group = np.zeros(len(eps), dtype=int)
     group[seams] = 1
     group = np.cumsum(group)

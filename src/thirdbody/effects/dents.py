@@ -14,7 +14,7 @@ from ..errors import InvalidValue, Mistake, Note, Problem
 from ..laws.base import SERIES
 from ..laws.particle.series import Series
 from ..laws.particle.squashed import widest_disc
-from ..populations.materials import softer_hardness
+from ..populations.materials import BULK, Material, MaterialPair, softer_hardness
 from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .curves import Curve
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from ..contact.output import Probe
     from ..laws.base import AbstractParticleLaw
     from ..laws.spots import ParticleSpots
-    from ..populations.materials import Material, MaterialPair
     from .single.dent import Dent
 
     Array = NDArray[np.float64]
@@ -287,7 +286,8 @@ class Dents(AbstractOutput):
         if spots.layout is None:
             return Values(spots, values)
         plain = self if self.shallowest == 0 else self.replace(shallowest=0.0)
-        who = (side, contact.law_of(population), contact.surfaces, population.material)
+        pair = MaterialPair(_solid(contact.surfaces.first), _solid(contact.surfaces.second))
+        who = (side, contact.law_of(population), pair, _solid(population.material))
         curve, least = _curve(plain, name, *who), None
         if self.shallowest > 0 and name != "depth":
             depth = _curve(plain, "depth", *who)
@@ -499,6 +499,11 @@ class Dents(AbstractOutput):
             for side in (0, 1)
             if half(3.0, side) > 0
         ]
+
+
+def _solid(material: Material) -> Material:
+    """A material by what its contact depends on: bodies that differ in heat alone dent alike."""
+    return material.replace(**dict.fromkeys(sorted(BULK)))
 
 
 @lru_cache(maxsize=256)

@@ -31,8 +31,10 @@ from .status import SENTENCES, TABLE_ENDS, Status
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["solve_states", "state_columns", "unknown_inputs", "varied"]
+__all__ = ["OWN_SPOTS", "solve_states", "state_columns", "unknown_inputs", "varied"]
 
+OWN_SPOTS = "each has spots of its own"
+"""Why states with outputs take long."""
 FEWEST, FEWEST_GROUNDS = 20, 4
 """Different states for which the compiled engine is quicker than tables of each, and of particles
 on one field of heights, whose tables take 0.1 to 3 s each."""
@@ -327,7 +329,7 @@ def _with_outputs(
         )
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
-        solved(0.5 * len(which), "each has spots of its own")
+        solved(0.5 * len(which), OWN_SPOTS)
     return out
 
 

@@ -108,7 +108,7 @@ class Finish(Value):
             ]
         name = given[0]
         if why := problem_with(STATED[name], getattr(self, name)):
-            return [Problem(name, f"{why}", repr(getattr(self, name)))]
+            return [Problem(name, why, repr(getattr(self, name)))]
         object.__setattr__(self, name, float(getattr(self, name)))
         if self.process is None:
             return []

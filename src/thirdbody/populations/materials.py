@@ -235,7 +235,8 @@ class MaterialLibrary(Mapping[str, Material]):
             own = _entries_of_file(file)
             if taken := [name for name in own if name in out and out[name] != own[name]]:
                 raise InvalidValue(
-                    *(f"{file}: [{name}] is in the library; choose another name" for name in taken)
+                    *(f"{file}: [{name}] is in the library; choose another name" for name in taken),
+                    code=Mistake.CLASH,
                 )
             out |= own
         return out

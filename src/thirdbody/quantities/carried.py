@@ -327,11 +327,16 @@ def masked_words(value: object) -> str:
     )
 
 
+@cache
+def _signature_of(function: Callable[..., object]) -> inspect.Signature:
+    return inspect.signature(function)
+
+
 def _refuse_no_numbers(
     function: Callable[..., object], args: tuple[object, ...], named: dict[str, object]
 ) -> None:
     """Refuse masked and huge values, and truth values where a number with a unit is needed."""
-    given = inspect.signature(function).bind_partial(*args, **named).arguments
+    given = _signature_of(function).bind_partial(*args, **named).arguments
     owner: type = type(args[0]) if args else object
     units = units_of(function, owner)
     problems: list[str] = []
@@ -377,7 +382,7 @@ def _all_in_si(
     function: Callable[..., object], args: tuple[object, ...], named: dict[str, object]
 ) -> tuple[tuple[object, ...], dict[str, object]]:
     """Arguments in SI."""
-    given = inspect.signature(function).bind_partial(*args, **named)
+    given = _signature_of(function).bind_partial(*args, **named)
     owner = args[0] if args else None
     units = units_of(function, owner if isinstance(owner, type) else type(owner))
     problems: list[str] = []

@@ -179,10 +179,11 @@ MEASURED, LONG = 3, 10.0
 
 
 def duration(seconds: float) -> str:
-    """A time in words: 40 s, 3 minutes, 2 hours."""
+    """A time in words: 40 s, 2.5 minutes, 12 minutes, 2 hours."""
     for size, unit in ((3600, "hours"), (60, "minutes")):
         if seconds >= 1.5 * size:
-            return f"{seconds / size:.0f} {unit}"
+            halves = round(2 * seconds / size) / 2
+            return f"{halves:g} {unit}" if halves < 5 else f"{seconds / size:.0f} {unit}"
     return f"{seconds:.0f} s"
 
 

@@ -15,12 +15,14 @@ from ..contact.contact import Contact
 from ..errors import InvalidValue, Mistake, NoEquilibrium, RangeWarning
 from ..populations.distributions import Mixture
 from ..populations.measured.cleanliness import iso4406_of
+from ..populations.particles import Particles
 from ..quantities.record import Record
 from ..quantities.units import say
 from ..systems.bearing_life import contamination_factor, life_factor, viscosity_ratio
 from ..systems.film_conditions import FilmConditions
 from ..systems.machine_elements import RadialBearing
 from ..systems.oil_filter import Filter
+from ..systems.oil_particles import FilmParticles
 from .tracks import HOUR, SIDE, Track, speed_of, swept
 from .whole import Study
 
@@ -111,6 +113,10 @@ class DirtyOil(Record):
     populations : tuple of PopulationDents
     life : Life or None
         None where [body] is no bearing that turns.
+    from_size : float
+        Behind a filter, the size from which its data sheet says what it holds [m].
+    most_per_hour : float
+        Dents per hour if it held nothing below that size [1].
     """
 
     where: str
@@ -123,6 +129,8 @@ class DirtyOil(Record):
     particle_share: float
     populations: tuple[PopulationDents, ...]
     life: Life | None = None
+    from_size: float = math.nan
+    most_per_hour: float = math.nan
 
 
 def read_filter(text: str) -> Filter:
@@ -185,8 +193,9 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         speed = speed_of(study.body, film)
-        before = contact.populations
+        before, leaky = contact.populations, None
         if filter is not None:
+            leaky = _behind_filter(contact, filter, goes_on=False)
             contact = _behind_filter(contact, filter)
         try:
             state = film.at(contact, speed=speed)
@@ -202,17 +211,19 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
             name=where, surfaces=contact.surfaces, film=h, rate=rate, area=area,
             entry=1.0 if film.entrainment is None else film.entrainment.entry_ratio,
         )  # fmt: skip
+
+        def particles(i: int, each: Particles) -> FilmParticles:
+            density = each.areal_density / (gaps.get(i) or h)
+            return track.particles(each.material, each.diameter, density, each.strength)
+
         parts = []
         for i, each in enumerate(contact.populations):
-            gap = gaps.get(i) or h
-            dents = track.particles(
-                each.material, each.diameter, each.areal_density / gap, each.strength
-            )
+            dents = particles(i, each)
             found = dents.dents(SIDE)
             parts.append(
                 PopulationDents(
                     name=before[i].name or before[i].material.name or f"particles {i + 1}",
-                    per_volume=each.areal_density / gap,
+                    per_volume=dents.number,
                     load_share=solids * shares[i],
                     per_overrolling=found.number,
                     per_hour=track.per_hour(found),
@@ -222,6 +233,11 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
                     deepest=track.deepest(dents),
                 )
             )
+        most: dict[str, float] = {}
+        if filter is not None and leaky is not None:
+            some = enumerate(leaky.populations)
+            more = sum(track.per_hour(particles(i, each).dents(SIDE)) for i, each in some)
+            most = {"from_size": filter.sizes[0], "most_per_hour": more}
         return DirtyOil(
             where=where,
             speed=speed,
@@ -233,14 +249,15 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
             particle_share=float(state.sa_share),
             populations=tuple(parts),
             life=_life(study, film, contact, parts, filter),
+            **most,
         )
 
 
-def _behind_filter(contact: Contact, filter: Filter) -> Contact:
+def _behind_filter(contact: Contact, filter: Filter, *, goes_on: bool = True) -> Contact:
     """The contact with the particles that come through a filter."""
     behind = []
     for each in contact.populations:
-        number, sizes = filter.behind(each.areal_density, each.diameter)
+        number, sizes = filter.behind(each.areal_density, each.diameter, goes_on=goes_on)
         behind.append(each.replace(areal_density=number, diameter=sizes))
     return contact.replace(particles=tuple(behind) if len(behind) > 1 else behind[0])
 

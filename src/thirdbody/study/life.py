@@ -10,7 +10,7 @@ from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.evaluation import bodies_of
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.materials import Material
 from ..quantities.say import percent, value_of
 from ..quantities.units import Quantity
@@ -202,7 +202,7 @@ def _in_beta(name: str) -> str:
 def _filters(reader: Reader, path: str, data: Any) -> Any:
     """A list of filters."""
     if not isinstance(data, list):
-        raise wrong(path, "must be a table, headed [[life.filters]]", data)
+        raise wrong(path, "must be a table, headed [[life.filters]]", data, code=Mistake.KIND)
     return reader.read_each({f"{path}.{i}": each for i, each in enumerate(data)}, _filter)
 
 
@@ -242,7 +242,12 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
 def _read_entries(reader: Reader, path: str, value: Any) -> Any:
     """A table of which the circuit says what its keys mean."""
     if not isinstance(value, dict) or not value:
-        raise wrong(path, 'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }', value)
+        raise wrong(
+            path,
+            'must be a table, e.g. { "ingress" = { median = 1, gsd = 2 } }',
+            value,
+            code=Mistake.KIND,
+        )
     return value
 
 
@@ -335,13 +340,13 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     given = values["life"]
     if "oil" not in given:
         rule = "is a dry contact, and this asks for an oil, [life.oil]"
-        raise InvalidValue(Problem("life.dry", rule))
+        raise InvalidValue(Problem("life.dry", rule, code=Mistake.CLASH))
     oil = dict(given["oil"])
     material = oil.pop("material", None)
     reported = [each for each in oil["ingress"] if "reports" in each[1]]
     if reported and len(oil["ingress"]) > 1:
         rule = "from reports is all that enters; leave the others out"
-        raise InvalidValue(Problem("life.oil.ingress", rule))
+        raise InvalidValue(Problem("life.oil.ingress", rule, code=Mistake.CLASH))
     oil["ingress"] = [] if reported else oil["ingress"]
     for name in ("start", "ingress", "fresh_oil"):
         if name in oil:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from .asked_result import QuestionResult
 from .life import AskedDry, AskedLife
 from .life_bands import COUNT, LifeBands
@@ -101,5 +101,9 @@ def assess_life(
     """
     bands = bands_of(asked, progress=progress, keep=keep)
     if bands is None:
-        raise InvalidValue(Problem("life.uncertainty", "is missing: what is known of the numbers"))
+        raise InvalidValue(
+            Problem(
+                "life.uncertainty", "is missing: what is known of the numbers", code=Mistake.MISSING
+            )
+        )
     return LifeAssessment(asked=asked, bands=bands)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.contact import Contact
-from ..errors import InvalidValue, Problem, RangeWarning
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning
 from ..numerics.sampling import sobol
 from ..populations.measured.cleanliness import iso4406_of_counts
 from ..quantities.carried import takes_units
@@ -30,7 +30,7 @@ from ..systems.life.oil_history import need_oil_left, run_oil_history
 from ..systems.life.run import life
 from ..systems.life.until import Until
 from .life_kept import KeptEnds
-from .life_uncertainty import about_circuit, place_of_beta
+from .life_uncertainty import about_circuit, place_of_beta, with_numbers
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -165,52 +165,38 @@ def _number_of(circuit: OilCircuit, name: str) -> Any:
     return circuit.value_at(name)
 
 
-def _changed(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
-    """The circuit with some of its numbers changed."""
-    changes: dict[str, Any] = dict(values)
-    factor = changes.pop(INGRESS, None)
-    if factor is not None:
-        scaled = [
-            each.replace(
-                **{
-                    name: factor * getattr(each, name)
-                    for name in ("rate", "steady")
-                    if getattr(each, name) is not None
-                }
-            )
-            for each in circuit.ingress
-        ]
-        circuit = circuit.replace(ingress=tuple(scaled))
-    for name in list(changes):
-        if (place := place_of_beta(circuit, name)) is not None:
-            which, i = f"filters.{place[0]}.betas", place[1]
-            betas = changes.get(which, circuit.filters[place[0]].betas)
-            changes[which] = (*betas[:i], changes.pop(name), *betas[i + 1 :])
-    return circuit.replace(**changes) if changes else circuit
-
-
 def _check(
     circuit: OilCircuit, vary: Mapping[str, Uncertain], contact: Mapping[str, Any] | None
 ) -> None:
     """Refuse what is no number of the circuit or of its contacts."""
-    problems = [] if vary else [Problem("vary", "must name a number that is uncertain")]
+    problems = (
+        []
+        if vary
+        else [Problem("vary", "must name a number that is uncertain", code=Mistake.EMPTY)]
+    )
     for name, known in vary.items():
         if name in (*OF_CONTACT, HARDNESS) and contact is not None:
             problems += _problems_of_condition(name, known, contact)
             continue
         if not isinstance(known, Uncertain):
-            problems.append(Problem(name, "must be Uncertain", repr(known)))
+            problems.append(Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND))
             continue
         if name == INGRESS:
             if not known.quantile(1e-9) >= 0:
-                problems.append(Problem(name, "is a factor on all that enters and must be >= 0"))
+                problems.append(
+                    Problem(
+                        name, "is a factor on all that enters and must be >= 0", code=Mistake.RANGE
+                    )
+                )
             continue
         if contact is not None and is_of_contact(name):
             problems += _problems_of_part(name, known, contact["contact"])
             continue
         try:
             if not isinstance(_number_of(circuit, name), float):
-                problems.append(Problem(name, "is not a number of the circuit"))
+                problems.append(
+                    Problem(name, "is not a number of the circuit", code=Mistake.UNKNOWN)
+                )
                 continue
             if place_of_beta(circuit, name) is not None:
                 continue
@@ -264,6 +250,7 @@ def check_oil(
                     problem.rule,
                     problem.value,
                     hint=f"so it is in {times} of {len(sets)} sets that are drawn",
+                    code=problem.code,
                 )
                 for name, (times, problem) in wrong.items()
             )
@@ -296,14 +283,14 @@ def _problem_of(
     about = about_circuit(circuit, name)
     value = value_of(values[name], "1" if about is None else about["unit"], 3)
     try:
-        changed = _changed(circuit, values)
+        changed = with_numbers(circuit, values)
     except InvalidValue as error:
         return error.problems[0].changed(value=value)
     try:
         need_oil_left(changed, duration)
     except InvalidValue:
         rule = f"lets the leak empty the circuit within {number(duration / HOUR, 5)} h"
-        return Problem(name, rule, value)
+        return Problem(name, rule, value, code=Mistake.RANGE)
     return None
 
 
@@ -325,7 +312,9 @@ def _problems_of_betas(circuit: OilCircuit, vary: Mapping[str, Any]) -> Iterator
                     rule = (
                         f"may be as high as {number(before, 4)}, above {number(low, 4)}, β at {at}"
                     )
-                yield Problem(name, f"{rule}; β must not fall towards larger sizes")
+                yield Problem(
+                    name, f"{rule}; β must not fall towards larger sizes", code=Mistake.ORDER
+                )
             before, whose = high, f"β at {value_of(size, 'm')}"
 
 
@@ -337,10 +326,10 @@ def is_of_contact(name: str) -> bool:
 def _problems_of_part(name: str, known: Any, contact: Contact) -> list[Problem]:
     """Why a number inside a contact cannot be varied so."""
     if not isinstance(known, Uncertain):
-        return [Problem(name, "must be Uncertain", repr(known))]
+        return [Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND)]
     try:
         if not isinstance(contact.value_at(name), float | int):
-            return [Problem(name, "is not a number of the contact")]
+            return [Problem(name, "is not a number of the contact", code=Mistake.UNKNOWN)]
         for end in (1e-9, 1 - 1e-9):
             contact.replace(**{name: known.quantile(end)})
     except InvalidValue as error:
@@ -357,15 +346,15 @@ def _contact_with(contact: Contact, values: dict[str, float]) -> Contact:
 def _problems_of_condition(name: str, known: Any, given: Mapping[str, Any]) -> list[Problem]:
     """Why a condition of a contact cannot be varied so."""
     if not isinstance(known, Uncertain):
-        return [Problem(name, "must be Uncertain", repr(known))]
+        return [Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND)]
     if name == HARDNESS and given.get("debris") is None:
-        return [Problem(name, "needs debris")]
+        return [Problem(name, "needs debris", code=Mistake.MISSING)]
     ends = known.quantile(1e-9), known.quantile(1 - 1e-9)
     low, high = float(ends[0]), float(ends[1])
     if low < 0 or (low == 0 and name not in ("loss", "stays", "slide_roll")):
-        return [Problem(name, "must be above 0 throughout")]
+        return [Problem(name, "must be above 0 throughout", code=Mistake.RANGE)]
     if name in ("loss", "stays") and high > 1:
-        return [Problem(name, "must be at most 1 throughout [1]")]
+        return [Problem(name, "must be at most 1 throughout [1]", code=Mistake.RANGE)]
     return []
 
 
@@ -468,12 +457,12 @@ def propagate_life(
 
     def end(values: Mapping[str, float]) -> End:
         if contact is None:
-            return _end_of(run_oil_history(_changed(circuit, values), **shared))
+            return _end_of(run_oil_history(with_numbers(circuit, values), **shared))
         rest = dict(values)
         changed = _contact_with(contact["contact"], rest)
         own = {name: rest.pop(name) for name in (*OF_CONTACT, HARDNESS) if name in rest}
         given = _with_hardness(contact, own) | {"contact": changed}
-        return _end_of(life(**given, oil=_changed(circuit, rest), **shared))
+        return _end_of(life(**given, oil=with_numbers(circuit, rest), **shared))
 
     return _bands(
         end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
@@ -497,12 +486,18 @@ def check_dry(
     InvalidValue
     """
     known = (ARRIVALS, *OF_DRY, HARDNESS)
-    problems = [] if vary else [Problem("vary", "must name a number that is uncertain")]
+    problems = (
+        []
+        if vary
+        else [Problem("vary", "must name a number that is uncertain", code=Mistake.EMPTY)]
+    )
     for name, each in vary.items():
         if is_of_contact(name):
             problems += _problems_of_part(name, each, contact)
         elif name not in known:
-            problems.append(Problem(name, f"must be one of {', '.join(known)}"))
+            problems.append(
+                Problem(name, f"must be one of {', '.join(known)}", code=Mistake.UNKNOWN)
+            )
         else:
             problems += _problems_of_condition(name, each, conditions)
     if problems:

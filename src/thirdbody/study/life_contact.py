@@ -7,15 +7,28 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
+from ..quantities.say import join_words, value_of
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
-from ..systems.life.debris import Debris
+from ..systems.life.debris import Debris, wears
 from ..systems.life.surfaces import RunningIn
 from ..systems.life.until import ContactUntil
+from ..systems.machine_elements import RadialBearing
 from .film import on_body
-from .reader import NOTHING, Key, Reader, get, quantity_key, read_number, table_of, word, wrong
+from .reader import (
+    NOTHING,
+    Key,
+    Reader,
+    get,
+    quantity_key,
+    read_number,
+    read_numbers,
+    table_of,
+    word,
+    wrong,
+)
 from .tracks import swept
 from .vocabulary import DISTRIBUTIONS
 
@@ -36,6 +49,7 @@ QUANTITIES = {
     }.items()
 }
 HARDNESS = quantity("H_d", "Pa", "hardness of the debris", gt=0).metadata["quantity"]
+WORN = quantity("A_w", "m^2", "area that is worn in turn", gt=0).metadata["quantity"]
 FILM_NEEDS = (
     "[film] with oil, and with conjunction, load and speed where no [body] under load.force has "
     "them"
@@ -68,11 +82,44 @@ class LifeContact:
     running_in: RunningIn | None = None
 
 
+def _worn(reader: Reader, path: str, value: Any) -> tuple[float, float]:
+    """Areas of both surfaces."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise wrong(
+            path,
+            'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]',
+            value,
+            code=Mistake.SHAPE,
+        )
+    first, second = read_numbers(WORN, reader, path, value)
+    return first, second
+
+
+WORN_AREA = Key(
+    _worn,
+    about='area of each surface that is worn in turn, e.g. ["10 cm^2", "1 cm^2"]: a whole track, '
+    "and a pin",
+    schema={"type": "array", "items": quantity_key("worn_area", WORN).schema},
+)
+
+
+def need_debris(contact: Contact, life: Mapping[str, Any]) -> None:
+    """Refuse surfaces that wear where [life.debris] does not say what they lose."""
+    if wears(contact) and "debris" not in life:
+        rule = "is missing: surfaces wear, and what they lose has sizes that nobody can predict"
+        hint = (
+            f'sizes = "{BOUNDARY}" is an estimate, and a table '
+            '{ distribution = "log-normal", median = "1 um", gsd = 1.6 } your own'
+        )
+        raise InvalidValue(Problem("life.debris.sizes", rule, hint=hint, code=Mistake.MISSING))
+
+
 def _contact(reader: Reader, path: str, data: Any) -> Any:
     """What enters the contacts."""
     keys = {name: quantity_key(name, about) for name, about in QUANTITIES.items()}
     ratio = keys["entry_ratio"]
     keys["entry_ratio"] = ratio._replace(required=True, about=f"{ratio.about}; {RANGES}")
+    keys["worn_area"] = WORN_AREA
     keys["entry_height"] = word(("size", "film"), "height of oil that brings a particle")
     return reader.table(path, data, keys)
 
@@ -81,7 +128,9 @@ def _sizes(reader: Reader, path: str, value: Any) -> Any:
     """The word of the one estimate there is."""
     if value != BOUNDARY:
         table = '{ distribution = "log-normal", median = "1 um", gsd = 1.6 }'
-        raise wrong(path, f'must be "{BOUNDARY}" or a table, e.g. {table}', value)
+        raise wrong(
+            path, f'must be "{BOUNDARY}" or a table, e.g. {table}', value, code=Mistake.KIND
+        )
     return Debris.boundary_lubricated()
 
 
@@ -164,6 +213,13 @@ class Rolling:
         area, _, _ = swept(self.body, self.force, film, E_star=E_star, speed=1.0)
         return area / (2 * float(film.conjunction.semi_axes(film.load, E=2 * E_star)[1]))
 
+    @property
+    def worn_area(self) -> tuple[float, float]:
+        """What wears in turn in a bearing: its balls or rollers, and the track [m²]."""
+        assert isinstance(self.body, RadialBearing)
+        _, track, _ = swept(self.body, self.force, self.film, E_star=self.contact.E_ss, speed=1.0)
+        return self.body.rolling_area, track
+
 
 def rolling_of(reader: Reader, values: dict[str, Any]) -> Rolling | None:
     """What rolls in the oil of a study; None where surfaces, roughness or film are not given."""
@@ -192,18 +248,23 @@ def contact_of(
         for name in ("debris", "running_in"):
             if name in given:
                 rule = "has no effect without [life.contact], with entry_ratio"
-                raise InvalidValue(Problem(f"life.{name}", rule))
+                raise InvalidValue(Problem(f"life.{name}", rule, code=Mistake.IDLE))
         idle = [each for each in given.get("until", ()) if isinstance(each, ContactUntil)]
         if idle:
             rule = "has no effect without [life.contact], with entry_ratio"
-            raise InvalidValue(Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule))
+            raise InvalidValue(
+                Problem(f"life.until.{idle[0].name.replace(' ', '_')}", rule, code=Mistake.IDLE)
+            )
         return None
     missing = [f"[{name}]" for name in ("surfaces", "roughness", "outputs") if name not in values]
     missing += [] if rolling is not None else [FILM_NEEDS]
     if missing:
-        raise InvalidValue(Problem("life.contact", f"needs {', '.join(missing)}"))
+        raise InvalidValue(
+            Problem("life.contact", f"needs {', '.join(missing)}", code=Mistake.MISSING)
+        )
     assert rolling is not None
     contact, film = rolling.contact, rolling.film
+    need_debris(contact, given)
     conditions = {
         "conjunction": film.conjunction,
         "lubricant": film.oil,
@@ -219,6 +280,14 @@ def contact_of(
         reader.assumed.append(
             f"life.contact.contacts = {given_here['contacts']:.3g}: as many contacts as the most "
             f"loaded one of [body] sweep as much of {rolling.body.track} as all that carry"
+        )
+    body = rolling.body
+    if isinstance(body, RadialBearing) and "worn_area" not in given_here and wears(contact):
+        worn = given_here["worn_area"] = rolling.worn_area
+        both = join_words([f"{value_of(each, 'm^2', 3)}" for each in worn])
+        reader.assumed.append(
+            f"life.contact.worn_area: {both} are worn in turn, all {body.rolling_bodies} wherever "
+            f"they turn, and the track of {body.track}"
         )
     return LifeContact(
         contact=contact,

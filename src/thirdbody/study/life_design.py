@@ -6,12 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
+from ..quantities.say import value_of
 from ..quantities.units import Quantity, say
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.until import Until
 from ..systems.oil_filter import Filter
 from .life_dirt import CODE
+from .life_uncertainty import one_name_of, with_numbers
 from .reader import NOTHING, Key, Reader, read_number, wrong
 
 __all__ = ["AskedDesign", "design_key", "design_of"]
@@ -49,7 +51,9 @@ def design_key(one_filter: Callable[[Reader, str, Any], Any]) -> Key:
 
     def filters(reader: Reader, path: str, data: Any) -> Any:
         if not isinstance(data, list):
-            raise wrong(path, "must be a table, headed [[life.design.filters]]", data)
+            raise wrong(
+                path, "must be a table, headed [[life.design.filters]]", data, code=Mistake.KIND
+            )
         return reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, one_filter)
 
     def read_table(reader: Reader, path: str, data: Any) -> Any:
@@ -86,17 +90,19 @@ def _choice(reader: Reader, path: str, data: Any) -> Any:
     if reader.every_way:
         return {"type": "object"}
     if not isinstance(data, dict) or not isinstance(data.get("name"), str):
-        raise wrong(path, f"must be a table with a name, {CHOICES}", data)
+        raise wrong(path, f"must be a table with a name, {CHOICES}", data, code=Mistake.KIND)
     return data
 
 
 def _choices(reader: Reader, path: str, data: Any) -> Any:
     if not isinstance(data, list) or len(data) < 2:
-        raise wrong(path, f"must be a list of tables, {CHOICES}", data)
+        raise wrong(path, f"must be a list of tables, {CHOICES}", data, code=Mistake.SHAPE)
     found = reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, _choice)
     names = [each["name"] for each in found]
     if twice := next((name for name in names if names.count(name) > 1), None):
-        raise InvalidValue(Problem(path, f"has two choices that are called {twice}"))
+        raise InvalidValue(
+            Problem(path, f"has two choices that are called {twice}", code=Mistake.CLASH)
+        )
     return found
 
 
@@ -107,16 +113,22 @@ def _circuit(
 
     def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, float]:
         label, value = pair
-        name = label.removeprefix("oil.")
+        name = one_name_of(circuit, label.removeprefix("oil."))
         if (quantity := about(circuit, name)) is None:
-            some = '"oil.volume", "filters.0.flow", "filters.0.capacity"'
-            raise InvalidValue(Problem(where, f"is not a number of the circuit; it has {some}"))
+            some = '"oil.volume", "filters.0.flow", "filters.0.capacity", "filters.0.service"'
+            sizes = circuit.filters[0].sizes if circuit.filters else ()
+            some += "".join(f', "filters.0.beta.{value_of(x, "m")}"' for x in sizes)
+            raise InvalidValue(
+                Problem(
+                    where, f"is not a number of the circuit; it has {some}", code=Mistake.UNKNOWN
+                )
+            )
         return name, read_number(quantity, reader, where, value)
 
     pairs = {f"{path}.{say(k)}": (k, v) for k, v in entry.items() if k != "name"}
     numbers = dict(reader.read_each(pairs, one))
     try:
-        changed = circuit.replace(**numbers)
+        changed = with_numbers(circuit, numbers)
         changed.terms()
     except InvalidValue as error:
         raise error.under(path) from None
@@ -137,17 +149,21 @@ def design_of(
             'needs either code, e.g. code = "16/14/11" and a list of [[life.design.filters]], or '
             f"choices with one event in [life.until], {CHOICES}"
         )
-        raise InvalidValue(Problem(path, rule))
+        raise InvalidValue(Problem(path, rule, code=Mistake.CLASH))
     if "choices" not in given:
         if not circuit.filters:
-            raise InvalidValue(Problem(path, "chooses the first of [[life.filters]]: add one"))
+            raise InvalidValue(
+                Problem(
+                    path, "chooses the first of [[life.filters]]: add one", code=Mistake.MISSING
+                )
+            )
         return AskedDesign(code=given["code"], filters=given.get("filters", ()), circuits={})
     if "filters" in given:
         rule = "go with code; a choice changes numbers of the circuit"
-        raise InvalidValue(Problem(f"{path}.filters", rule))
+        raise InvalidValue(Problem(f"{path}.filters", rule, code=Mistake.IDLE))
     if len(until) != 1:
         rule = f"needs one event in [life.until], e.g. filter_full = true; it has {len(until)}"
-        raise InvalidValue(Problem(f"{path}.choices", rule))
+        raise InvalidValue(Problem(f"{path}.choices", rule, code=Mistake.SHAPE))
     circuits = {
         entry["name"]: _circuit(reader, f"{path}.choices[{i}]", entry, circuit, about)
         for i, entry in enumerate(given["choices"])

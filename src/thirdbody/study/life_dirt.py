@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..populations.materials import Material
 from ..populations.measured import cleanliness
 from ..quantities.units import Quantity, say
@@ -42,7 +42,7 @@ def _code(reader: Reader, path: str, value: Any) -> str:
     try:
         cleanliness.read_iso4406(value)
     except InvalidValue as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
+        raise InvalidValue(Problem(path, f": {error}", code=error.code)) from None
     return str(value)
 
 
@@ -51,7 +51,13 @@ def _dust(reader: Reader, path: str, value: Any) -> str:
     try:
         dust = cleanliness.dust_table(value)
     except (InvalidValue, TypeError) as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
+        raise InvalidValue(
+            Problem(
+                path,
+                f": {error}",
+                code=error.code if isinstance(error, InvalidValue) else Mistake.KIND,
+            )
+        ) from None
     if not dust["verified"]:
         reader.notes.append(
             f"{path} = {say(value)}: its table is that of {dust['edition']} and was not "
@@ -65,7 +71,13 @@ def _concentration(reader: Reader, path: str, value: Any) -> str:
     try:
         cleanliness.concentration(value)
     except (InvalidValue, TypeError) as error:
-        raise InvalidValue(Problem(path, f": {error}")) from None
+        raise InvalidValue(
+            Problem(
+                path,
+                f": {error}",
+                code=error.code if isinstance(error, InvalidValue) else Mistake.KIND,
+            )
+        ) from None
     return str(value)
 
 
@@ -84,7 +96,7 @@ def sized_numbers(about: Quantity, what: str) -> Key:
 
     def read(reader: Reader, path: str, data: Any) -> tuple[tuple[float, float], ...]:
         if not isinstance(data, dict) or not data:
-            raise wrong(path, f"must be a table of sizes, e.g. {what}", data)
+            raise wrong(path, f"must be a table of sizes, e.g. {what}", data, code=Mistake.KIND)
 
         def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[float, float]:
             size, value = pair
@@ -118,7 +130,7 @@ def _dirt_table(reader: Reader, path: str, data: Any) -> Any:
 def _reports(reader: Reader, path: str, value: Any) -> Any:
     """Reports of the oil, from a file."""
     if not isinstance(value, str):
-        raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value)
+        raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value, code=Mistake.KIND)
     beside = reader.folder / value
     try:
         return read_reports(beside if beside.exists() else Path(value), fewest=2)
@@ -163,7 +175,7 @@ def _one_source(reader: Reader, path: str, data: Any, sources: tuple[str, ...]) 
         reader.mistakes.append(clash(path, data, given, rule))
     if not given:
         rule = f"says not how many particles there are: give one of {', '.join(sources)}"
-        reader.mistakes.append(Problem(path, rule))
+        reader.mistakes.append(Problem(path, rule, code=Mistake.MISSING))
 
 
 def _several(table: Any, plain: Any) -> Any:
@@ -189,7 +201,9 @@ def _no_ingress(reader: Reader, path: str, value: Any) -> Any:
     if value == CLEAN:
         return []
     ways = '{ test_dust = "A3", rate = "125 mg/h" }, { counts = { "4 um" = "1e6 / min" } }'
-    raise wrong(path, f'must be a table, e.g. {ways}, or "{CLEAN}" for none', value)
+    raise wrong(
+        path, f'must be a table, e.g. {ways}, or "{CLEAN}" for none', value, code=Mistake.KIND
+    )
 
 
 DIRT = Key(
@@ -236,13 +250,13 @@ def dirts_of(
         kind = values.pop("material", material)
         if kind is None:
             rule = 'is missing: what the particles are of, e.g. material = "quartz"'
-            raise InvalidValue(Problem(f"{of}.material", rule))
+            raise InvalidValue(Problem(f"{of}.material", rule, code=Mistake.MISSING))
         try:
             out.append((_ingress_from if ingress else _dirt_from)(values, kind))
         except InvalidValue as error:
             raise error.under(path) from None
         except TypeError:
-            raise InvalidValue(Problem(path, _misfit(entry))) from None
+            raise InvalidValue(Problem(path, _misfit(entry), code=Mistake.CLASH)) from None
     return tuple(out)
 
 

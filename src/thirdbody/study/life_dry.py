@@ -10,7 +10,7 @@ from typing import Any
 from ..analysis.uncertainty.inputs import Uncertain
 from ..contact.contact import Contact
 from ..contact.evaluation import bodies_of
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.units import Quantity
 from ..quantities.value import quantity
 from ..systems.life.debris import Debris
@@ -18,10 +18,10 @@ from ..systems.life.ingress import Ingress
 from ..systems.life.surfaces import RunningIn
 from ..systems.life.until import CodeReached, FilterFull, Until
 from .described import BareNumber, Described
-from .life_contact import HARDNESS
+from .life_contact import HARDNESS, WORN_AREA, need_debris
 from .life_dirt import ARRIVALS, dirts_of
 from .life_uncertainty import FACTOR, KnownOfLife, known_of_life
-from .reader import NOTHING, Key, Reader, get, quantity_key, read_numbers, word, wrong
+from .reader import NOTHING, Key, Reader, get, quantity_key, word
 from .surfaces import MATERIAL
 from .vocabulary import LOADS
 
@@ -48,7 +48,6 @@ LOSS = (
     "--set life.dry.loss=..."
 )
 BANDS_HARDNESS = "debris.hardness"
-WORN = quantity("A_w", "m^2", "area that is worn in turn", gt=0).metadata["quantity"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -116,14 +115,6 @@ class AskedDry:
         return tuple(self.conditions["arrivals"])
 
 
-def _worn(reader: Reader, path: str, value: Any) -> tuple[float, float]:
-    """Areas of both surfaces."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise wrong(path, 'must be two areas, first and second, e.g. ["10 cm^2", "1 cm^2"]', value)
-    first, second = read_numbers(WORN, reader, path, value)
-    return first, second
-
-
 @cache
 def _keys() -> dict[str, Key]:
     """Keys of [life.dry]."""
@@ -132,7 +123,6 @@ def _keys() -> dict[str, Key]:
         for name, about in QUANTITIES.items()
     }
     loss = keys["loss"]
-    one = quantity_key("worn_area", WORN).schema
     return keys | {
         "loss": loss._replace(about=loss.about + LOSS),
         "moving": word(
@@ -140,12 +130,7 @@ def _keys() -> dict[str, Key]:
         ),
         "arrivals": ARRIVALS._replace(required=True),
         "material": MATERIAL._replace(about="what the particles that arrive are of"),
-        "worn_area": Key(
-            _worn,
-            about='area of each surface that is worn in turn, e.g. ["10 cm^2", "1 cm^2"]: a whole '
-            "track, and a pin",
-            schema={"type": "array", "items": one},
-        ),
+        "worn_area": WORN_AREA,
     }
 
 
@@ -168,10 +153,12 @@ def _pressure(values: Mapping[str, Any], contact: Contact) -> float:
     name, loads = values["load"]
     if name not in ("pressure", "F_star"):
         rule = "does not go with [life.dry], which needs pressure or F_star"
-        raise InvalidValue(Problem(f"load.{name}", rule))
+        raise InvalidValue(Problem(f"load.{name}", rule, code=Mistake.CLASH))
     if len(loads) != 1:
         rule = f"has {len(loads)} values, and a history has one"
-        raise InvalidValue(Problem(f"load.{name}", rule, hint="--set load.pressure=..."))
+        raise InvalidValue(
+            Problem(f"load.{name}", rule, hint="--set load.pressure=...", code=Mistake.SHAPE)
+        )
     return float(loads[0]) * (1.0 if name == "pressure" else contact.E_ss)
 
 
@@ -194,20 +181,29 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
     """The dry contact that a study asks for, from the objects that its tables stand for."""
     given = values["life"]
     problems = [
-        Problem(f"life.{name}", "does not go with [life.dry]: one is in an oil, the other is not")
+        Problem(
+            f"life.{name}",
+            "does not go with [life.dry]: one is in an oil, the other is not",
+            code=Mistake.CLASH,
+        )
         for name in ("oil", "filters", "contact", "design")
         if name in given
     ]
     if missing := [f"[{name}]" for name in NEEDED if name not in values]:
-        problems.append(Problem("life.dry", f"needs {', '.join(missing)}"))
+        problems.append(Problem("life.dry", f"needs {', '.join(missing)}", code=Mistake.MISSING))
     if lost := [e for e in given.get("until", ()) if isinstance(e, CodeReached | FilterFull)]:
-        problems.append(Problem("life.until", f"waits for what only an oil has: {lost[0].name}"))
+        problems.append(
+            Problem(
+                "life.until", f"waits for what only an oil has: {lost[0].name}", code=Mistake.CLASH
+            )
+        )
     if problems:
         raise InvalidValue(*problems)
     parts = {name: values[name] for name in OF_CONTACT if name in values}
     if "particles" not in parts:
         parts.pop("particle_law", None)
     contact = reader.make(Contact, "", parts)
+    need_debris(contact, given)
     conditions = dict(given["dry"])
     arrivals = dirts_of(
         conditions.pop("arrivals"), conditions.pop("material", None), ingress=True, of="life.dry"

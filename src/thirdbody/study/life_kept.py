@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Mistake
 from ..quantities.files import need_folders
 from ..version import __version__
 
@@ -22,7 +22,7 @@ class KeptEnds:
     Parameters
     ----------
     file : Path or None
-        Made when missing.
+        Made with the first history when missing.
     inputs : mapping
         What the histories follow from: a file of other inputs is refused.
 
@@ -49,7 +49,6 @@ class KeptEnds:
             self._read(file)
         else:
             need_folders(file)
-            file.write_text(json.dumps({"histories of": self.of}) + "\n", "utf-8")
 
     def _read(self, file: Path) -> None:
         wrong = f"{file} does not hold histories of this study; remove it, or name another file"
@@ -57,9 +56,9 @@ class KeptEnds:
             lines = file.read_text("utf-8").split("\n")
             head = json.loads(lines[0])
         except (ValueError, UnicodeDecodeError, OSError):
-            raise InvalidValue(wrong) from None
+            raise InvalidValue(wrong, code=Mistake.UNREADABLE) from None
         if not isinstance(head, dict) or head.get("histories of") != self.of:
-            raise InvalidValue(wrong)
+            raise InvalidValue(wrong, code=Mistake.OTHER_STUDY)
         whole = []
         for line in lines[1:]:
             try:
@@ -98,6 +97,8 @@ class KeptEnds:
         self.ends[i] = end
         if self.file is not None:
             line = json.dumps({"i": i, "end": _to_plain(end)})
+            if not self.file.exists():  # a run that fails before its first history leaves none
+                self.file.write_text(json.dumps({"histories of": self.of}) + "\n", "utf-8")
             with self.file.open("a", encoding="utf-8") as out:
                 out.write(line + "\n")
         return end

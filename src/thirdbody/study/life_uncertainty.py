@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.say import value_of
 from ..quantities.units import Quantity, say, to_si
 from ..quantities.value import quantity
@@ -25,6 +25,7 @@ __all__ = [
     "names_life",
     "one_name_of",
     "place_of_beta",
+    "with_numbers",
 ]
 
 FACTOR = quantity("f", "1", "factor on all that enters or arrives", gt=0).metadata["quantity"]
@@ -112,6 +113,30 @@ def about_circuit(circuit: OilCircuit, name: str) -> Quantity | None:
     return fields[last].metadata.get("quantity")
 
 
+def with_numbers(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit:
+    """The circuit with some of its numbers changed."""
+    changes: dict[str, Any] = dict(values)
+    factor = changes.pop(INGRESS_FACTOR, None)
+    if factor is not None:
+        scaled = [
+            each.replace(
+                **{
+                    name: factor * getattr(each, name)
+                    for name in ("rate", "steady")
+                    if getattr(each, name) is not None
+                }
+            )
+            for each in circuit.ingress
+        ]
+        circuit = circuit.replace(ingress=tuple(scaled))
+    for name in list(changes):
+        if (place := place_of_beta(circuit, name)) is not None:
+            which, i = f"filters.{place[0]}.betas", place[1]
+            betas = changes.get(which, circuit.filters[place[0]].betas)
+            changes[which] = (*betas[:i], changes.pop(name), *betas[i + 1 :])
+    return circuit.replace(**changes) if changes else circuit
+
+
 def names_life(whole: Mapping[str, Any]) -> bool:
     """Whether a parsed file says what is known of numbers of its [life]."""
     if get(whole.get("life"), "uncertainty") is not None:
@@ -146,7 +171,7 @@ def known_of_life(
         if quantity_of is None:
             name, quantity_of = parts.get(label, (name, None))
         if quantity_of is None:
-            raise InvalidValue(Problem(where, names))
+            raise InvalidValue(Problem(where, names, code=Mistake.UNKNOWN))
         return name, read_uncertain(reader, where, quantity_of, entry)
 
     places: dict[str, str] = {}
@@ -157,7 +182,13 @@ def known_of_life(
         twice = []
         for where, (name, _) in zip(pairs, found, strict=True):
             if (before := first.setdefault(name, where)) != where:
-                twice.append(Problem(where, f"is the same number as {before}; keep one of them"))
+                twice.append(
+                    Problem(
+                        where,
+                        f"is the same number as {before}; keep one of them",
+                        code=Mistake.CLASH,
+                    )
+                )
         if twice:
             raise InvalidValue(*twice)
         places.update(first)

@@ -401,20 +401,26 @@ def _refuse(
     """Name every input of `coupled` that is missing or does not fit."""
     out = _operating_problems(pressure, sliding_speed, film, flash)
     if friction_of(contact) is None:
-        out.append("contact.outputs needs outputs.Friction, whose heat acts back")
+        rule = "needs outputs.Friction, whose heat acts back"
+        out.append(Problem("contact.outputs", rule, code=Mistake.MISSING))
     if not laws:
-        out.append("feedback is empty: give JunctionGrowth, Softening or Thinning")
+        rule = "is empty: give JunctionGrowth, Softening or Thinning"
+        out.append(Problem("feedback", rule, code=Mistake.EMPTY))
     for law in laws:
         if isinstance(law, JunctionGrowth):
             out += growth_problems(law, contact)
         elif not isinstance(law, Softening | Thinning):
-            out.append(f"feedback: {law!r} is no law of thirdbody.systems.feedback")
+            rule = f": {law!r} is no law of thirdbody.systems.feedback"
+            out.append(Problem("feedback", rule, code=Mistake.KIND))
         elif cooling is None:
-            out.append(f"cooling is missing: {type(law).__name__} needs to know where heat goes")
+            rule = f"is missing: {type(law).__name__} needs to know where heat goes"
+            out.append(Problem("cooling", rule, code=Mistake.MISSING))
         if isinstance(law, Thinning) and film is None:
-            out.append("feedback: Thinning changes an oil, and there is no film")
+            rule = ": Thinning changes an oil, and there is no film"
+            out.append(Problem("feedback", rule, code=Mistake.IDLE))
         if isinstance(law, Softening) and law.body == "particles" and not contact.populations:
-            out.append("feedback: Softening of particles, and the contact has none")
+            rule = ": Softening of particles, and the contact has none"
+            out.append(Problem("feedback", rule, code=Mistake.IDLE))
     if cooling is not None:
         out += cooling.needs(contact)
     if out:
@@ -427,7 +433,11 @@ def _operating_problems(
     """Why load and speed are not known."""
     if film is None:
         asked = {"pressure": pressure, "sliding_speed": sliding_speed}
-        out = [f"{name} is missing" for name, value in asked.items() if value is None]
+        out: list[str] = [
+            Problem(name, "is missing", code=Mistake.MISSING)
+            for name, value in asked.items()
+            if value is None
+        ]
         return out + [
             Problem(name, "must be a number > 0", f"{value:g}", code=Mistake.KIND)
             for name, value in asked.items()
@@ -435,13 +445,17 @@ def _operating_problems(
         ]
     out = []
     if pressure is not None or sliding_speed is not None:
-        out.append("film: give it, or pressure and sliding_speed; not both")
+        rule = ": give it, or pressure and sliding_speed; not both"
+        out.append(Problem("film", rule, code=Mistake.CLASH))
     if len(film.speed) != 1 or not film.slide_roll:
-        out.append("film: one speed and a slide_roll > 0 are needed")
+        rule = ": one speed and a slide_roll > 0 are needed"
+        out.append(Problem("film", rule, code=Mistake.SHAPE))
     if film.oil.eyring_stress is None:
-        out.append("film.oil.eyring_stress is missing: without it the film has no friction")
+        rule = "is missing: without it the film has no friction"
+        out.append(Problem("film.oil.eyring_stress", rule, code=Mistake.MISSING))
     if flash:
-        out.append("flash = True is for dry contacts: leave it out, or leave film out")
+        rule = "is for dry contacts: leave it out, or leave film out"
+        out.append(Problem("flash", rule, "True", code=Mistake.CLASH))
     return out
 
 

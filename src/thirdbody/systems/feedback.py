@@ -321,7 +321,7 @@ class HalfSpaces(Value):
         names = ("thermal_conductivity", "density", "specific_heat")
         bodies = {"first": contact.surfaces.first, "second": contact.surfaces.second}
         return [
-            f"cooling: surfaces.{which} needs {name}"
+            Problem("cooling", f": surfaces.{which} needs {name}", code=Mistake.MISSING)
             for which, body in bodies.items()
             for name in names
             if getattr(body, name) is None

@@ -57,6 +57,8 @@ class RadialBearing(Body):
     """Of load over approach."""
     rolling_diameter: float
     """Of a ball or a roller [m]."""
+    rolling_area: float
+    """Surface of all balls or rollers [m²]."""
 
     @abstractmethod
     def on_ring(self, ring: Ring) -> Any:
@@ -233,6 +235,11 @@ class BallBearing(RadialBearing):
         """Diameter of a ball D_w [m]."""
         return self.ball_diameter
 
+    @property
+    def rolling_area(self) -> float:  # type: ignore[override]
+        """Surface of all balls, Z π D_w² [m²]."""
+        return self.balls * math.pi * self.ball_diameter**2
+
     def on_ring(self, ring: Ring) -> Point:
         """The ellipse of a ball on the inner or outer ring."""
         inner = ring == "inner"
@@ -355,6 +362,11 @@ class RollerBearing(RadialBearing):
     def rolling_diameter(self) -> float:  # type: ignore[override]
         """Diameter of a roller D_w [m]."""
         return self.roller_diameter
+
+    @property
+    def rolling_area(self) -> float:  # type: ignore[override]
+        """Surface of all rollers that meets the rings, Z π D_w l [m²]."""
+        return self.rollers * math.pi * self.roller_diameter * self.length
 
     def on_ring(self, ring: Ring) -> Line:
         """The line of a roller on the inner or outer ring."""

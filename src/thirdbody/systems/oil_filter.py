@@ -171,8 +171,8 @@ class Filter(Value):
         return cls(sizes=tuple(sizes[i] for i in order), betas=tuple(betas[i] for i in order))
 
     def _line(self) -> tuple[Array, Array]:
-        """ln x and ln β of the line, two points at least."""
-        known, logs = np.log(self.sizes), np.log(self.betas)
+        """ln x and ln β in service of the line, two points at least."""
+        known, logs = np.log(self.sizes), self.service * np.log(self.betas)
         if len(known) > 1:
             return known, logs
         return np.array([known[0] + math.log(FINEST), known[0]]), np.array([0.0, logs[0]])
@@ -187,7 +187,7 @@ class Filter(Value):
         return math.exp(known[0] - logs[0] * (known[1] - known[0]) / rise)
 
     def beta(self, x: ArrayLike) -> Array:
-        """β ratios at sizes x [m].
+        """β ratios in service at sizes x [m].
 
         Parameters
         ----------
@@ -197,7 +197,8 @@ class Filter(Value):
         at, (known, logs) = np.log(np.asarray(x, float)), self._line()
         slope = (logs[1] - logs[0]) / (known[1] - known[0])
         below = np.maximum(logs[0] + slope * (at - known[0]), 0.0)
-        return np.exp(np.where(at < math.log(self.sizes[0]), below, self._logs_between(at)[0]))
+        between = self.service * self._logs_between(at)[0]
+        return np.exp(np.where(at < math.log(self.sizes[0]), below, between))
 
     def _logs_between(self, at: Array) -> tuple[Array, Array]:
         """ln β and its slope over ln x at logarithms of sizes, from the first size on."""
@@ -299,7 +300,9 @@ class Filter(Value):
         ]
         return sums[0] / sums[1]
 
-    def behind(self, number: float, diameter: Distribution) -> tuple[float, Distribution]:
+    def behind(
+        self, number: float, diameter: Distribution, *, goes_on: bool = True
+    ) -> tuple[float, Distribution]:
         """Particles per volume n [1/m³] and their sizes behind the filter.
 
         Parameters
@@ -308,6 +311,8 @@ class Filter(Value):
             Particles per volume before it [1/m³].
         diameter : Distribution
             Their sizes by number.
+        goes_on : bool, optional
+            Whether ln β goes on along its line below the smallest size; else nothing is held there.
 
         Raises
         ------
@@ -331,13 +336,18 @@ class Filter(Value):
             return 0.0, diameter
         # −dN/dx behind, N/β, at both ends of each section, in which β is a power of x
         power = np.diff(np.log(beta)) / np.diff(np.log(edges))
+        counts, betas = np.maximum(left[:-1] - left[1:], 0.0), (beta[:-1], beta[1:])
+        if not goes_on:
+            passes = edges[1:] <= self.sizes[0] * (1 + 1e-12)
+            power = np.where(passes, 0.0, power)
+            counts = np.where(passes, above[:-1] - above[1:], counts)
+            betas = np.where(passes, 1.0, betas[0]), np.where(passes, 1.0, betas[1])
         ends = (edges[:-1], np.nextafter(edges[1:], 0.0))
         logs = [
             np.log(np.maximum((number * diameter.pdf(x) + N * power / x) / b, 1e-300))
-            for x, N, b in zip(ends, (above[:-1], above[1:]), (beta[:-1], beta[1:]), strict=True)
+            for x, N, b in zip(ends, (above[:-1], above[1:]), betas, strict=True)
         ]
         slopes = -(logs[1] - logs[0]) / np.diff(np.log(edges)) - 1
-        counts = np.maximum(left[:-1] - left[1:], 0.0)
         slopes = np.where(counts > 0, np.clip(slopes, -STEEPEST, STEEPEST), 0.0)
         found = PowerLaw(edges=tuple(edges), counts=tuple(counts), slopes=tuple(slopes))
-        return float(left[0]), found
+        return float(left[0]) if goes_on else float(counts.sum()), found

@@ -13,14 +13,14 @@ from ..systems.machine_elements import RadialBearing
 
 __all__ = ["DROP", "HEADS", "MEANS", "rows", "shares_load", "sharing"]
 
-HEADS = ("place", "load", "p_0 inner", "p_0 outer", "ellipse inner", "ellipse outer")
+HEADS = ("place", "load", "p_0 inner", "p_0 outer", "contact inner", "contact outer")
 MEANS = {
     "place": "angle from the direction of the load",
     "p_0 inner": "largest Hertz pressure on the inner ring",
-    "ellipse inner": "whole axes, along and across the motion",
+    "contact inner": "whole axes, along and across the motion",
 }
 """What the heads mean."""
-DROP = ("ellipse outer", "ellipse inner")
+DROP = ("contact outer", "contact inner")
 """Columns in the order in which they go where the width is small."""
 
 
@@ -28,6 +28,10 @@ def shares_load(study: Study) -> bool:
     """Whether the body of a study is a bearing whose bodies share one radial load."""
     own = isinstance(study.body, RadialBearing)
     return own and study.forces is not None and len(study.forces) == 1
+
+
+EVEN = 1e-9
+"""Difference of the sum over the bodies from the load, where they balance it at their places."""
 
 
 def sharing(study: Study) -> str:
@@ -38,14 +42,20 @@ def sharing(study: Study) -> str:
     even = body.replace(clearance=0.0).share_load(force, study.contact.E_ss)
     name = body.rolling_bodies
     parts = [number(each.largest * body.bodies / force, 3) for each in (found, even)]
+    by = "Sjövall's integral"
+    last = (
+        f"the sum over the {name} is {number(found.balance, 4)} of the load, and not 1, because "
+        "the integral spreads them evenly around."
+    )
+    if abs(found.balance - 1) < EVEN:
+        by, last = "balance", f"too few {name} carry for Sjövall's integral."
     return (
         f"Of {number(body.bodies)} {name} {found.carrying} "
         f"{'carries' if found.carrying == 1 else 'carry'}, the most loaded "
         f"{value_of(found.largest, 'N')}, {parts[0]} F_r/Z "
-        f"(Sjövall's integral with {value_of(body.clearance, 'm')} clearance, epsilon = "
+        f"({by} with {value_of(body.clearance, 'm')} clearance, epsilon = "
         f"{number(found.eps, 3)}; without clearance {parts[1]} "
-        f"F_r/Z, Stribeck); the sum over the {name} is {number(found.balance, 4)} of the load, "
-        f"and not 1, because the integral spreads them evenly around."
+        f"F_r/Z, Stribeck); {last}"
     )
 
 

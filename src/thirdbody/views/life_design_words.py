@@ -21,6 +21,10 @@ MEANS = {
 }
 
 
+SAME = 1.005
+"""Factor of times below which they are the same."""
+
+
 def answer(found: LifeDesign) -> list[str]:
     """What to take, and what that gives."""
     return _for_code(found) if found.codes else _longest(found)
@@ -56,6 +60,8 @@ def _longest(found: LifeDesign) -> list[str]:
     time = float(np.max(found.times))
     next_best = sorted(float(each) for each in found.times)[-2]
     more = f", {number(time / next_best, 3)} times as long as with the next" if next_best else ""
+    if time < SAME * next_best:
+        more = ", about as long as with the next"
     said = f"With {found.best} it takes longest until {event.sentence}"
     return [f"{said}: {duration_of(time)}{more}."]
 

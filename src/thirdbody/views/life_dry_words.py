@@ -9,7 +9,7 @@ import numpy as np
 
 from ..quantities.say import join_words, number, percent, value_of
 from .life_amounts import duration_of, masses_of
-from .life_words import band_words, events
+from .life_words import band_words, events, in_vain, stop
 
 if TYPE_CHECKING:
     from ..study.run_dry import DryResult
@@ -31,8 +31,8 @@ def answer(found: DryResult) -> list[str]:
     """What the contact comes to, whether wear feeds itself, and how much is worn: two sentences."""
     history = found.history
     end = duration_of(float(history.times[-1]))
-    stopped = _stop(found)
-    when = f"{stopped}" if stopped else f"After {end}"
+    stopped, vain = stop(found), in_vain(found)
+    when = f"{stopped}:" if stopped else f"After {end}"
     worn = " and ".join(
         f"surface {side} by {value_of(_last(history, f'wear_{side}'), 'm', 3)}" for side in (1, 2)
     )
@@ -40,20 +40,12 @@ def answer(found: DryResult) -> list[str]:
         f"{_tends(history)}; {history.reproduction}.",
         f"{when} wear has taken {worn}, and particles carry "
         f"{percent(_last(history, 'sa_share'))} of the load.",
+        *([vain] if vain else []),
     ]
 
 
 def _last(history: DryHistory, name: str) -> float:
     return float(history.more[name][1][-1])
-
-
-def _stop(found: DryResult) -> str:
-    """What ended the history before its time."""
-    history = found.history
-    if history.times[-1] >= found.asked.duration * (1 - 1e-12) or not history.events:
-        return ""
-    last = history.events[-1]
-    return f"After {duration_of(last.time)} {last.sentence}:"
 
 
 def _count(history: DryHistory, numbers: np.ndarray) -> str:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("HEADS", "MEANS", "REPORT_HEADS", "REPORT_MEANS"),
-    *("answer", "band_words", "events", "facts", "hidden_words", "last_words"),
+    *("answer", "band_words", "events", "facts", "hidden_words", "in_vain", "last_words", "stop"),
     *("least_flow_words", "report_answer", "report_rows", "rows", "slow_words"),
     "words_of_bands",
 ]
@@ -55,22 +55,32 @@ def answer(found: LifeResult) -> list[str]:
     history = found.history
     end = duration_of(float(history.times[-1]))
     out = [f"The oil goes from {history.codes[0]} to {history.codes[-1]} in {end}."]
-    if stopped := _stop(found):
+    if stopped := stop(found):
         out[0] = f"{stopped}: the oil has gone from {history.codes[0]} to {history.codes[-1]}."
-    out += [_tends(history)]
+    out += [each for each in (in_vain(found), _tends(history)) if each]
     said = history.reproduction
     out.append(f"{said[0].upper()}{said[1:]}.")
     out.append(_largest_flows(history))
     return [*out, *dent_answer(found.dents)]
 
 
-def _stop(found: LifeResult) -> str:
-    """What ended the history before its time."""
+def stop(found: LifeResult | DryResult) -> str:
+    """What ended the history before its time, and when."""
     history = found.history
     if history.times[-1] >= found.asked.duration * (1 - 1e-12) or not history.events:
         return ""
     last = history.events[-1]
     return f"After {duration_of(last.time)} {last.sentence}"
+
+
+def in_vain(found: LifeResult | DryResult) -> str:
+    """What a history waited for to its end, and did not come."""
+    if stop(found):
+        return ""
+    came = {each.sentence for each in found.history.events}
+    lacks = [each.sentence for each in found.asked.until if each.sentence not in came]
+    end = duration_of(found.asked.duration)
+    return f"Within {end} it does not happen that {join_words(lacks)}." if lacks else ""
 
 
 def _tends(history: LifeHistory) -> str:

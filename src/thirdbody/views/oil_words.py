@@ -97,12 +97,15 @@ def _ends(both: Sequence[str]) -> str:
 
 def _effects(one: OilWhatIf) -> str:
     """What an input between its ends does, and what to do about it."""
+    life = "a_ISO is {}"
+    if one.code == "number":
+        life += " (ISO 281 goes by steps of several codes)"
     clauses = {
         "there are {} dents an hour": [_count(each) for each in one.dents],
         "one in twenty dents of the deepest kind is beyond {}": [
             value_of(each, "m", 3) for each in one.depth
         ],
-        "a_ISO is {}": [number(each, 2) for each in one.a_ISO],
+        life: [number(each, 2) for each in one.a_ISO],
     }
     moved = [
         clause.format(" to ".join(ends)) for clause, ends in clauses.items() if ends[0] != ends[1]
@@ -205,10 +208,15 @@ def _length(value: float, each: PopulationDents) -> str:
     return "-" if not each.per_hour > 0 else value_of(value, "m", 3)
 
 
+SAME_DENTS = 1.1
+"""Factor of the dents from which on it is said what no data sheet says."""
+
+
 def filter_answer(before: DirtyOil, after: DirtyOil) -> str:
     """What a filter changes, in a sentence."""
     dents = [sum(each.per_hour for each in found.populations) for found in (before, after)]
-    told = f"The filter takes the dents from {_count(dents[0])} to {_count(dents[1])} an hour"
+    told = "In one pass the filter takes the dents from "
+    told += f"{_count(dents[0])} to {_count(dents[1])} an hour"
     if dents[1] > 0 and dents[0] > dents[1]:
         told += f", {number(dents[0] / dents[1], 2)} times fewer"
     lives = (before.life, after.life)
@@ -220,6 +228,13 @@ def filter_answer(before: DirtyOil, after: DirtyOil) -> str:
             told += f", {number(a[1] / a[0], 2)} times the life"
         if lives[0].place != lives[1].place:
             told += f"; ISO 281 has its own factors for {PLACES[lives[1].place]}"
+    more = after.most_per_hour
+    if more > SAME_DENTS * dents[1]:
+        size = value_of(after.from_size, "m", 3)
+        told += (
+            f". Its data sheet begins at {size}, and below that the line of its β goes on: if it "
+            f"held nothing there, {_count(more)} dents an hour would be left"
+        )
     return f"{told}."
 
 

@@ -5,10 +5,12 @@ import warnings
 import numpy as np
 import pytest
 from contact_cases import CLASSES, QUARTZ, SOFT, STEEL, contact
+from refusals import refuses
 from scipy.integrate import quad
 from scipy.stats import norm
 
 import thirdbody as tb
+from thirdbody.errors import Mistake
 from thirdbody.systems.life.contact_tables import ContactTables, Kind, scale_roughness
 from thirdbody.systems.life.particle_curves import POWERS
 from thirdbody.systems.life.size_classes import SizeClasses
@@ -168,5 +170,5 @@ def test_plane_seats_need_no_tables_over_the_gap():
 def test_contacts_that_cannot_be_tabulated_are_refused():
     bare = tb.Contact(surfaces=tb.MaterialPair(STEEL, STEEL),
                       roughness=tb.Roughness(sigma=1e-7, R=2.8e-6))  # fmt: skip
-    with pytest.raises(tb.InvalidValue, match=r"lacks outputs\.Friction and outputs\.Wear"):
+    with refuses(Mistake.MISSING, "", says="outputs.Friction and outputs.Wear"):
         ContactTables(bare, CLASSES, KINDS)

@@ -243,11 +243,17 @@ def output_of(
 
 
 def quantiles_of(values: Array, probabilities: Sequence[float]) -> tuple[Array, Array]:
-    """Quantiles (Q,) of all samples (R, n), and their standard errors from the replicates."""
+    """Quantiles (Q,) of all samples (R, n), and their standard errors from the replicates.
+
+    Those of all together lie as far from the mean of the replicates as they do, beside the error
+    of that mean: of one input, whose points are the most even, this is the larger part.
+    """
     apart = np.array([_quantile(row, probabilities) for row in values])
+    found = _quantile(values.ravel(), probabilities)
     with np.errstate(invalid="ignore"):
         error = apart.std(axis=0, ddof=1) / math.sqrt(len(values))
-    return _quantile(values.ravel(), probabilities), error
+        error = np.hypot(error, found - apart.mean(axis=0))
+    return found, error
 
 
 def _quantile(values: Array, probabilities: Sequence[float]) -> Array:

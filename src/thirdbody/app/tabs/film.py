@@ -50,6 +50,7 @@ BODIES = {
     "line": {"shape": "line", "R": "9.5 mm", "length": "10 mm"},
 }
 DIRT = {"concentration": 1e-6, "entry_ratio": 1.0, "friction": 0.1}
+FILTER_OF_STUDY = "that of film.filter in the study, unless another stands here, e.g. 5=75, 10=1000"
 FILTER = "as on a data sheet, e.g. 5=75, 10=1000; left out: the oil as it is"
 UNKNOWN = "not known"
 """A number that is not there: it is left out."""
@@ -277,6 +278,8 @@ class Film:
             self.wrong.set_text(wrong)
         if answer is not self.answer:
             return
+        hint = FILTER if answer.study.filter is None else FILTER_OF_STUDY
+        set_attributes(self.fine, {"hint": hint})
         # a filter with a mistake stays where it can be mended
         self.dents.set_visibility(oil is not None or bool(self.fine.value and wrong))
         self.state.note("film", found.run_warnings)

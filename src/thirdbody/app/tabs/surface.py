@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 from nicegui import background_tasks, events, ui
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.say import number, value_of
 from ...quantities.units import to_si
 from ..fields import value_from
@@ -47,12 +47,12 @@ def options_from(texts: dict[str, str]) -> Reading:
             try:
                 out[name] = to_si(texts[name], "m")
             except InvalidValue as error:
-                problems += [f"{name} = {text}" for text in error.problems]
+                problems += [Problem(name, f"= {each}", code=each.code) for each in error.problems]
     if texts.get("spacing"):
         try:
             out["spacing"] = [to_si(part, "m") for part in texts["spacing"].split(",")]
         except InvalidValue as error:
-            problems += [f"spacing = {text}" for text in error.problems]
+            problems += [Problem("spacing", f"= {each}", code=each.code) for each in error.problems]
     for name in ("detrend", "unit", "channel"):
         if texts.get(name):
             out[name] = texts[name]

@@ -98,7 +98,7 @@ def command(options: Options) -> None:
     if options.as_json:
         print_json(plain_data(result.data))
     else:
-        _show(result.data)
+        _show(result.data, asked.heading)
     if not result.converged:
         warn("some states did not converge to the certificate asked for; see states.csv")
         raise typer.Exit(NO_ANSWER)
@@ -128,14 +128,14 @@ def _write(out: Path, result: Any) -> None:
     write_figure(out / "explicit.png", explicit(result.state))
 
 
-def _show(data: dict[str, Any]) -> None:
+def _show(data: dict[str, Any], heading: str) -> None:
     """The table against the statistical model, the seat, one sentence."""
     console = terminal()
     many = data["surfaces"] > 1
     source = f"{data['surfaces']} synthetic surfaces" if data["source"] == "synthetic" else (
         data["source"]
     )  # fmt: skip
-    console.print(f"{data['title'] or 'Study'} (thirdbody {data['version']})")
+    console.print(f"{heading} (thirdbody {data['version']})")
     if data.get("summary"):
         console.print(data["summary"])
     console.print(f"{source}, every particle at its place, against the statistical model")

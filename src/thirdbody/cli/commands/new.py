@@ -110,11 +110,16 @@ def command(
                 "", f"--out {target} is the name of the schema; choose another", code=Mistake.CLASH
             )
         )
+    text = ""
+    if kind in KINDS:
+        text = resources.files("thirdbody").joinpath(f"data/studies/{kind}.toml").read_text("utf-8")
+    if which is not None and kind in SIZED:
+        try:
+            text = bearing_file(text, which)
+        except InvalidValue as error:
+            problems[:0] = error.problems
     if problems:
         raise InvalidValue(*problems)
-    text = resources.files("thirdbody").joinpath(f"data/studies/{kind}.toml").read_text("utf-8")
-    if which is not None and kind in SIZED:
-        text = bearing_file(text, which)
     first = FIRST.search(text)
     assert first is not None
     if out is not None:

@@ -74,13 +74,12 @@ def command(options: Options) -> None:
         )
         return
     if options.study is None or options.out is None:
-        problems = (
-            [] if options.study is not None else ["STUDY.toml is missing: the study to sweep"]
-        )
-        problems += (
-            [] if options.out is not None else ["--out DIR is missing: the folder for the states"]
-        )
-        raise InvalidValue(*problems)
+        needed = {
+            "STUDY.toml is missing: the study to sweep": options.study,
+            "--out DIR is missing: the folder for the states": options.out,
+        }
+        missing = (rule for rule, value in needed.items() if value is None)
+        raise InvalidValue(*missing, code=Mistake.MISSING)
     plan = _read_plan(options.study, options.settings, options.format, options.workers)
     _need_files(files, plan, options.study, options.settings, options.force)
     client = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import MISSING, dataclass
 from pathlib import Path
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
 from ..options import Force, Settings, StudyFile, metres, option, read_study
@@ -85,12 +85,15 @@ def _format(form: str | None, out: Path, units: str | None) -> tuple[str, list[s
     suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}
     name = form or suffixes.get(out.suffix.lower(), "")
     if not name:
-        return name, [
+        rule = (
             f"--out {out}: the suffix does not say which format; add --format "
             f"{', '.join(FORMATS)}, or use one of {', '.join(suffixes)}"
-        ]
+        )
+        return name, [Problem("", rule, code=Mistake.MISSING)]
     if name not in FORMATS:
-        return name, [f"--format {name} must be one of {', '.join(FORMATS)}"]
+        rule = f"--format {name} must be one of {', '.join(FORMATS)}"
+        return name, [Problem("", rule, code=Mistake.OPTION)]
     if units is not None and name not in ("abaqus", "avl"):
-        return name, [f"--units {units} has no meaning for {name}, which is in SI units"]
+        rule = f"--units {units} has no meaning for {name}, which is in SI units"
+        return name, [Problem("", rule, code=Mistake.IDLE)]
     return name, []

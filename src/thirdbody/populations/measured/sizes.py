@@ -491,8 +491,9 @@ def _below(path: object, lines: list[int], rows: Array, names: list[str]) -> tup
         if sizes[i] <= sizes[i - 1] or below[i] < below[i - 1]:
             what = "sizes must increase" if sizes[i] <= sizes[i - 1] else "amounts must not fall"
             raise InvalidValue(
-                f"{path}, line {lines[i]}: {what} from line to line; the second column is the "
-                "amount below each size",
+                f"{path}, line {lines[i]}: {what} from line to line; of two columns the second is "
+                "the amount below each size; amounts of single classes need three columns, low, "
+                "high, amount",
                 code=Mistake.FORM,
             )
     if len(rows) < 2:

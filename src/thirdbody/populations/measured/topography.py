@@ -173,7 +173,7 @@ def _options(
         try:
             scale = to_si(f"1 {unit}", "m")
         except InvalidValue as error:
-            problems += [f"unit: {sentence}" for sentence in error.problems]
+            problems += [Problem("unit", f": {each}", code=each.code) for each in error.problems]
     if problems:
         raise InvalidValue(*problems)
     return scale, steps

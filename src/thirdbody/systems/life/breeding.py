@@ -71,10 +71,12 @@ def why_none(loop: Loop, y: Array) -> str:
         )
     largest = float(tables.classes.ends[1][np.flatnonzero(setting.shares > 0)[-1]])
     d = loop.find_gap(y).d
-    film = loop.film_of(d, loop.sigma_of(y)) if isinstance(loop, FilmLoop) else d
+    gap, film = "gap", d
+    if isinstance(loop, FilmLoop):
+        gap, film = "film", loop.film_of(d, loop.sigma_of(y))
     if largest <= film:
         return (
-            f"the film of {value_of(film, 'm', 3)} is higher than the largest debris, "
+            f"the {gap} of {value_of(film, 'm', 3)} is higher than the largest debris, "
             f"{value_of(largest, 'm', 3)}, which touches no surface"
         )
     return "what of it is pressed cuts no groove"

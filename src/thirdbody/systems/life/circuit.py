@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import InvalidValue, Note, Problem
+from ...errors import InvalidValue, Mistake, Note, Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
 from ...quantities.carried import takes_units
@@ -201,47 +201,65 @@ class OilCircuit(Value):
         for name, kind in _TUPLES.items():
             wrong = [each for each in getattr(self, name) or () if not isinstance(each, kind)]
             if wrong:
-                out.append(Problem(name, f"must hold {kind.__name__} alone", repr(wrong[0])))
+                out.append(
+                    Problem(
+                        name, f"must hold {kind.__name__} alone", repr(wrong[0]), code=Mistake.KIND
+                    )
+                )
         if not isinstance(self.classes, SizeClasses | None):
-            out.append(Problem("classes", "must be SizeClasses, or None", repr(self.classes)))
+            out.append(
+                Problem(
+                    "classes", "must be SizeClasses, or None", repr(self.classes), code=Mistake.KIND
+                )
+            )
         if out:
             return out
         changes = self.oil_changes
         if any(not (math.isfinite(t) and t > 0) for t in changes) or any(
             b <= a for a, b in pairwise(changes)
         ):
-            out.append(Problem("oil_changes", "must be times that increase and start above 0 [s]"))
+            out.append(
+                Problem(
+                    "oil_changes",
+                    "must be times that increase and start above 0 [s]",
+                    code=Mistake.ORDER,
+                )
+            )
         if self.fresh_oil is None and (self.make_up > 0 or changes):
             what = "make_up" if self.make_up > 0 else "oil_changes"
             rule = f"is missing: {what} brings fresh oil, and new oil is seldom clean"
-            out.append(Problem("fresh_oil", rule))
+            out.append(Problem("fresh_oil", rule, code=Mistake.MISSING))
         if self.settling_area > 0 and (self.viscosity is None or self.density is None):
             rule = "needs viscosity [Pa s] and density [kg/m^3] of the oil"
-            out.append(Problem("settling_area", rule, f"{self.settling_area:g}"))
+            out.append(
+                Problem("settling_area", rule, f"{self.settling_area:g}", code=Mistake.MISSING)
+            )
         return [*out, *self._filter_problems(), *self._dirt_problems()]
 
     def _filter_problems(self) -> Iterable[Problem]:
         for i, each in enumerate(self.filters):
             if each.flow is None:
                 rule = "is missing: oil through the filter [m^3/s]; 60 L/min is 1e-3"
-                yield Problem(f"filters.{i}.flow", rule)
+                yield Problem(f"filters.{i}.flow", rule, code=Mistake.MISSING)
             if self.classes is not None:
                 low, high = self.classes.edges[0], self.classes.edges[-1]
                 missed = [x for x in each.sizes if not low <= x <= high]
                 if missed:
                     rule = f"from {low:g} to {high:g} [m] miss a size of β of a filter"
-                    yield Problem("classes", rule, hint=f"β is known at {missed[0]:g} m")
+                    yield Problem(
+                        "classes", rule, hint=f"β is known at {missed[0]:g} m", code=Mistake.RANGE
+                    )
         for name, line in self._lines():
             if len({each.flow for each in line}) > 1:
                 rule = f"of line {name!r} have unlike flows, but the oil of a line goes through all"
-                yield Problem("filters", rule)
+                yield Problem("filters", rule, code=Mistake.CLASH)
 
     def _dirt_problems(self) -> Iterable[Problem]:
         for name in ("start", "ingress", "fresh_oil"):
             for i, each in enumerate(getattr(self, name) or ()):
                 if each.material.density is None:
                     rule = "is missing: the mass of particles is counted [kg/m^3]"
-                    yield Problem(f"{name}.{i}.material.density", rule)
+                    yield Problem(f"{name}.{i}.material.density", rule, code=Mistake.MISSING)
 
     # -------------------------------------------------------------------------- what is in it
     @property
@@ -331,7 +349,7 @@ class OilCircuit(Value):
                 entering[:, column] += stays * loss - self.make_up * fresh[:, column]
         if np.any(entering < 0):
             rule = "as an oil of a steady code is cleaner than the fresh oil that comes in"
-            raise InvalidValue(Problem("ingress", rule, owner="OilCircuit"))
+            raise InvalidValue(Problem("ingress", rule, owner="OilCircuit", code=Mistake.CLASH))
         masses = [each.density if each.density is not None else math.nan for each in every.values()]
         return OilTerms(
             classes=some,

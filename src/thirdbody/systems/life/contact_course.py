@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ...errors import InvalidValue, NoEquilibrium, Problem
+from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...quantities.say import number, value_of
 from .circuit import OilCircuit
 from .film_loop import FilmLoop
@@ -236,7 +236,7 @@ class ContactCourse:
                 return self.visited
         rule = f"holds {MOST_EVENTS} events and more: {self.events[-1].sentence}"
         hint = "is the capacity of the filter far too small, or the ingress too large (mg/h)?"
-        raise InvalidValue(Problem("duration", rule, hint=hint))
+        raise InvalidValue(Problem("duration", rule, hint=hint, code=Mistake.TOO_LARGE))
 
     def _stretch(self) -> bool:
         """Go to the next event; whether the history ends there."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...contact.contact import Contact
-from ...errors import InvalidValue, Note, Problem
+from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.say import number
 from ..conjunctions import Line, Oil, Point
 from ..film_formulas import AbstractFilm
@@ -24,7 +24,7 @@ from .contact_history import (
     contact_columns,
 )
 from .contact_tables import Kind, contact_tables
-from .debris import Debris
+from .debris import Debris, wears
 from .dry_loop import ARRIVED, LEFT, DryLoop
 from .film_loop import FRESH, INGRESS, FilmLoop
 from .history import LifeHistory
@@ -52,32 +52,33 @@ CROWDED = 0.3
 
 
 # ------------------------------------------------------------------ what is common
-def wears(contact: Contact) -> bool:
-    """Whether the Wear of a contact takes anything away."""
-    wear: Any = next((each for each in contact.outputs if each.name == "wear"), None)
-    names = ("K_ss", "K_ss_ep", "K_ss_e", "K_sa", "K_sa_ep", "K_sa_e", "f_ab", "f_roll")
-    return wear is not None and any(getattr(wear, name) for name in names)
-
-
 def _check(contact: Contact, debris: Debris | None, running_in: RunningIn | None) -> None:
     problems: list[Problem] = []
     if not isinstance(contact, Contact):
-        raise InvalidValue(Problem("contact", "must be a Contact", repr(contact)))
+        raise InvalidValue(
+            Problem("contact", "must be a Contact", repr(contact), code=Mistake.KIND)
+        )
     if wears(contact) and debris is None:
         rule = "is missing: surfaces wear, and what they lose has sizes that nobody can predict"
         hint = "Debris.from_report, or Debris.boundary_lubricated() as an estimate"
-        problems.append(Problem("debris", rule, hint=hint))
+        problems.append(Problem("debris", rule, hint=hint, code=Mistake.MISSING))
     if not isinstance(debris, Debris | None):
-        problems.append(Problem("debris", "must be Debris, or None", repr(debris)))
+        problems.append(
+            Problem("debris", "must be Debris, or None", repr(debris), code=Mistake.KIND)
+        )
     if not isinstance(running_in, RunningIn | None):
-        problems.append(Problem("running_in", "must be RunningIn, or None", repr(running_in)))
+        problems.append(
+            Problem("running_in", "must be RunningIn, or None", repr(running_in), code=Mistake.KIND)
+        )
     if isinstance(debris, Debris):
         pair = contact.surfaces
         for side, each in ((1, pair.first), (2, pair.second)):
             if each.density is None:
                 rule = "is missing: the mass of debris is counted [kg/m^3]"
                 hint = "give material.replace(density=...), e.g. 7850 for steel"
-                problems.append(Problem(f"density of surface {side}", rule, hint=hint))
+                problems.append(
+                    Problem(f"density of surface {side}", rule, hint=hint, code=Mistake.MISSING)
+                )
     if problems:
         raise InvalidValue(*problems)
 
@@ -242,7 +243,7 @@ def run_film_history(
     need_oil_left(oil, duration)
     if contact.populations:
         rule = "are those of the oil: remove them from the contact"
-        raise InvalidValue(Problem("contact.particles", rule))
+        raise InvalidValue(Problem("contact.particles", rule, code=Mistake.CLASH))
     more_materials = _debris_materials(contact, debris)
     others = () if debris is None else (debris.diameter,)
     classes = oil.size_classes(*others)
@@ -343,7 +344,7 @@ def run_dry_history(
     _check(contact, debris, running_in)
     if wrong := [each for each in arrivals if not isinstance(each, Ingress) or each.rate is None]:
         rule = "must be Ingress with a rate [1/s], particles into the whole contact"
-        raise InvalidValue(Problem("arrivals", rule, repr(wrong[0])))
+        raise InvalidValue(Problem("arrivals", rule, repr(wrong[0]), code=Mistake.KIND))
     dirt: dict[Material, WeibullStrength | None] = {}
     for population in contact.populations:
         dirt[population.material] = population.strength

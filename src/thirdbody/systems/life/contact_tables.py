@@ -22,7 +22,7 @@ import numpy as np
 
 from ...contact.asperity_sums import SEARCHED, asperity_sum
 from ...contact.field_sums import FieldSum
-from ...errors import InvalidValue, NoEquilibrium
+from ...errors import InvalidValue, Mistake, NoEquilibrium
 from ...laws.base import SeatedLaw
 from ...numerics.chebyshev import chebyshev_transform
 from ...quantities.carried import takes_units
@@ -559,12 +559,14 @@ def _check_contact(contact: Contact) -> None:
     if lost := [name for name in ("friction", "wear") if name not in names]:
         raise InvalidValue(
             f"the contact lacks outputs.{' and outputs.'.join(x.capitalize() for x in lost)}: a "
-            "history needs to know how particles move and what they take away"
+            "history needs to know how particles move and what they take away",
+            code=Mistake.MISSING,
         )
     if not isinstance(contact.particle_law, SeatedLaw):
         raise InvalidValue(
             f"the particle law {contact.particle_law.name} does not say what one particle does in "
-            "its seat; a history needs particle.Series or particle.Flakes"
+            "its seat; a history needs particle.Series or particle.Flakes",
+            code=Mistake.BEYOND,
         )
     made = asperity_sum(
         contact.asperity_law, contact.roughness, contact.surfaces, contact.particle_law.centre
@@ -572,5 +574,6 @@ def _check_contact(contact: Contact) -> None:
     if isinstance(made, FieldSum):
         raise InvalidValue(
             f"the asperity law {contact.asperity_law.name} takes the surface as one field of "
-            "heights, on which particles do not add up; a history needs a law of single asperities"
+            "heights, on which particles do not add up; a history needs a law of single asperities",
+            code=Mistake.BEYOND,
         )

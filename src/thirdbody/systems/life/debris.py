@@ -11,11 +11,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ...errors import InvalidValue, Note, Problem
+from ...errors import InvalidValue, Mistake, Note, Problem
 from ...populations.distributions import Distribution, LogNormal
 from ...populations.materials import Material
 from ...populations.tabulated_sizes import PowerLaw
@@ -26,14 +26,23 @@ from .size_classes import SizeClasses
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...contact.contact import Contact
+
     Array = NDArray[np.float64]
 
-__all__ = ["Debris"]
+__all__ = ["Debris", "wears"]
 
 ESTIMATE = (
     "sizes of debris are an estimate: between two ways to measure them on one pair of steels under "
     "boundary lubrication"
 )
+
+
+def wears(contact: Contact) -> bool:
+    """Whether the Wear of a contact takes anything away."""
+    wear: Any = next((each for each in contact.outputs if each.name == "wear"), None)
+    names = ("K_ss", "K_ss_ep", "K_ss_e", "K_sa", "K_sa_ep", "K_sa_e", "f_ab", "f_roll")
+    return wear is not None and any(getattr(wear, name) for name in names)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +75,11 @@ class Debris(Value):
     def _problems(self) -> list[str]:
         if isinstance(self.diameter, Distribution):
             return []
-        return [Problem("diameter", "must be a size distribution", repr(self.diameter))]
+        return [
+            Problem(
+                "diameter", "must be a size distribution", repr(self.diameter), code=Mistake.KIND
+            )
+        ]
 
     @classmethod
     def boundary_lubricated(cls, *, hardness: float | None = None) -> Self:
@@ -118,7 +131,9 @@ class Debris(Value):
         """
         edges, numbers = tuple(map(float, sizes)), tuple(map(float, counts))
         if len(edges) != len(numbers) + 1:
-            raise InvalidValue(f"sizes ({len(edges)}) must be one more than counts")
+            raise InvalidValue(
+                Problem("sizes", f"({len(edges)}) must be one more than counts", code=Mistake.SHAPE)
+            )
         found = PowerLaw(edges=edges, counts=numbers, slopes=(3.0,) * len(numbers))
         return cls(diameter=found, hardness=hardness)
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ..oil_particles import FilmParticles
 from .size_classes import SizeClasses
@@ -110,19 +110,26 @@ def entry_ratio_from_dents(
     """
     given = {"count": count, "area": area, "overrollings": overrollings}
     if wrong := [
-        f"{name} = {value!r} must be finite and {'>= 0' if name == 'count' else '> 0'}"
+        Problem(
+            name,
+            f"must be finite and {'>= 0' if name == 'count' else '> 0'}",
+            repr(value),
+            code=Mistake.RANGE,
+        )
         for name, value in given.items()
         if not math.isfinite(value) or value < 0 or (value == 0 and name != "count")
     ]:
         raise InvalidValue(*wrong)
     all_enter = oil.replace(entry=1.0).dents(side)
     if all_enter.number == 0:
-        raise InvalidValue("no particle of this oil dents the surface: it gives no entry ratio")
+        rule = ": no particle of this oil dents the surface: it gives no entry ratio"
+        raise InvalidValue(Problem("", rule, code=Mistake.BEYOND))
     covered = count / area * all_enter.area
     if covered >= 1:
-        raise InvalidValue(
-            f"count = {count:g} dents of {all_enter.area:.3g} m² each cover more than the "
-            f"{area:g} m² looked at: so many cannot be told apart"
+        rule = (
+            f"dents of {all_enter.area:.3g} m² each cover more than the {area:g} m² looked at: so "
+            "many cannot be told apart"
         )
+        raise InvalidValue(Problem("count", rule, f"{count:g}", code=Mistake.BEYOND))
     per_pass = -math.log1p(-covered) / (all_enter.area * overrollings)
     return per_pass / all_enter.number

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.record import Record
 from ..bearing_life import contamination_factor, life_factor
@@ -116,11 +116,14 @@ def miner_pair(
     """
     t = np.asarray(times, float)
     if len(t) != len(codes) or not len(t):
-        raise InvalidValue(f"times ({len(t)}) and codes ({len(codes)}) must be as many, and some")
+        rule = f"({len(t)}) and codes ({len(codes)}) must be as many, and some"
+        raise InvalidValue(Problem("times", rule, code=Mistake.SHAPE))
     if t[0] != 0 or np.any(np.diff(t) <= 0) or not end >= t[-1]:
-        raise InvalidValue("times must increase from 0 and not pass end [s]")
+        rule = "must increase from 0 and not pass end [s]"
+        raise InvalidValue(Problem("times", rule, code=Mistake.ORDER))
     if not (math.isfinite(L_10) and L_10 > 0 and math.isfinite(load_ratio) and load_ratio > 0):
-        raise InvalidValue(f"L_10 = {L_10:g} [s] and load_ratio = {load_ratio:g} [1] must be > 0")
+        rule = f"and load_ratio = {load_ratio:g} [1] must be > 0"
+        raise InvalidValue(Problem("L_10", rule, f"{L_10:g} [s]", code=Mistake.RANGE))
     known: dict[str, float] = {}
     for code in codes:
         if code not in known:

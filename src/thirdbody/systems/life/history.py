@@ -227,9 +227,14 @@ class LifeHistory(Record):
 
     @property
     def dirt_gain(self) -> float:
-        """Particles in the steady state over those without debris [1]."""
+        """Particles in the steady state over those without debris [1].
+
+        Infinite where one breeds more than one; NaN where R_0 is not known.
+        """
         if self.births is None:
             return 1.0
+        if not self.R0 < 1:
+            return math.nan if math.isnan(self.R0) else math.inf
         source = (self.terms.source / self.circuit.volume).ravel()
         return dirt_gain(self._losses, births=self.births, source=source)
 

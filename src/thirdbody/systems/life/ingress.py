@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Self
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
 from ...populations.measured import cleanliness
@@ -64,7 +64,7 @@ class Ingress(Value):
     def _problems(self) -> list[str]:
         out = problems_of_kinds(self)
         if (self.rate is None) == (self.steady is None):
-            out.append(Problem("rate", "or steady must be given, one of them"))
+            out.append(Problem("rate", "or steady must be given, one of them", code=Mistake.CLASH))
         return out
 
     @classmethod
@@ -97,7 +97,9 @@ class Ingress(Value):
         diameter = cleanliness.dust_sizes(grade, limit=limit)
         if material.density is None:
             rule = "is missing: a mass of dust needs it [kg/m^3], e.g. 2650 for quartz"
-            raise InvalidValue(Problem("material.density", rule, owner="Ingress"))
+            raise InvalidValue(
+                Problem("material.density", rule, owner="Ingress", code=Mistake.MISSING)
+            )
         mass = to_si(rate, "kg/s")
         number = mass / (material.density * math.pi / 6 * diameter.moment(3))
         return cls(material=material, diameter=diameter, rate=number, kept="volume")
@@ -131,10 +133,12 @@ class Ingress(Value):
         """
         above = [float(count) for count in counts]
         if not above or any(not (n > 0 and math.isfinite(n)) for n in above):
-            raise InvalidValue(Problem("counts", "must be above 0 at every size [1/s]"))
+            raise InvalidValue(
+                Problem("counts", "must be above 0 at every size [1/s]", code=Mistake.RANGE)
+            )
         if len(above) != len(sizes) or any(b >= a for a, b in pairwise(above)):
             rule = "must fall with the size, one for each: larger particles are among the smaller"
-            raise InvalidValue(Problem("counts", rule))
+            raise InvalidValue(Problem("counts", rule, code=Mistake.ORDER))
         diameter = cleanliness.sizes_above(sizes, counts=above, largest=to_si(largest, "m"))
         return cls(material=material, diameter=diameter, rate=above[0])
 

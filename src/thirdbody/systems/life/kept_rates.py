@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...quantities.files import need_folders
 from ...version import __version__
 
@@ -94,9 +94,9 @@ class KeptRates:
         try:
             lines = file.read_text("utf-8").split("\n")
         except (UnicodeDecodeError, OSError):
-            raise InvalidValue(wrong) from None
+            raise InvalidValue(wrong, code=Mistake.UNREADABLE) from None
         if lines[0] != head:
-            raise InvalidValue(wrong)
+            raise InvalidValue(wrong, code=Mistake.OTHER_STUDY)
         whole = []
         for line in lines[1:]:
             try:

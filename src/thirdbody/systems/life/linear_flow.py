@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -
     Returns
     -------
     array (J,)
-        [1/m³]; NaN where each particle breeds one or more, R₀ ≥ 1.
+        [1/m³]; NaN where each particle breeds one or more, R₀ ≥ 1, or some are never taken out.
 
     Examples
     --------
@@ -142,19 +142,28 @@ def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -
     L, G = _matrices(losses, births)
     some = np.asarray(source, float)
     if some.shape != L.shape[:1]:
-        raise InvalidValue(Problem("source", f"must have a number for each of {len(L)} classes"))
+        raise InvalidValue(
+            Problem(
+                "source", f"must have a number for each of {len(L)} classes", code=Mistake.SHAPE
+            )
+        )
     if reproduction(losses, births=births) >= 1:
         return np.full_like(some, math.nan)
-    return np.asarray(np.linalg.solve(L - G, some), dtype=float)
+    try:
+        return np.asarray(np.linalg.solve(L - G, some), dtype=float)
+    except np.linalg.LinAlgError:
+        return np.full_like(some, math.nan)
 
 
 def _matrices(losses: ArrayLike, births: ArrayLike) -> tuple[Array, Array]:
     """Both matrices, if they are square and of one size."""
     L, G = np.asarray(losses, float), np.asarray(births, float)
     if L.ndim != 2 or L.shape[0] != L.shape[1]:
-        raise InvalidValue(Problem("losses", "must be a square matrix"))
+        raise InvalidValue(Problem("losses", "must be a square matrix", code=Mistake.SHAPE))
     if G.shape != L.shape:
-        raise InvalidValue(Problem("births", "must be a matrix of the size of losses"))
+        raise InvalidValue(
+            Problem("births", "must be a matrix of the size of losses", code=Mistake.SHAPE)
+        )
     return L, G
 
 
@@ -183,7 +192,7 @@ def generations(losses: ArrayLike, *, births: ArrayLike) -> Array:
         return np.asarray(np.linalg.solve(L.T, G.T).T, dtype=float)
     except np.linalg.LinAlgError:
         rule = "let particles stay for ever that breed others; give a filter, settling or a leak"
-        raise InvalidValue(Problem("losses", rule)) from None
+        raise InvalidValue(Problem("losses", rule, code=Mistake.BEYOND)) from None
 
 
 @takes_units
@@ -217,7 +226,14 @@ def dirt_gain(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -> flo
         𝓛 and 𝒢, of class j in column j [1/s].
     source : array (J,)
         s [1/(m³ s)].
+
+    Returns
+    -------
+    float
+        1 without births; NaN where there is no steady state: see `steady_numbers`.
     """
+    if not np.any(births):
+        return 1.0
     none = np.zeros_like(_matrices(losses, births)[1])
     alone = steady_numbers(losses, births=none, source=source)
     return float(np.sum(steady_numbers(losses, births=births, source=source)) / np.sum(alone))

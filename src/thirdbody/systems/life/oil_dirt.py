@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ...errors import Problem
+from ...errors import Mistake, Problem
 from ...populations.distributions import Distribution
 from ...populations.materials import Material
 from ...populations.measured import cleanliness
@@ -125,7 +125,7 @@ class OilDirt(Value):
 def problems_of_kinds(value: Any) -> list[str]:
     """Where material and diameter are not what they must be."""
     return [
-        Problem(name, f"must be a {kind.__name__}", repr(getattr(value, name)))
+        Problem(name, f"must be a {kind.__name__}", repr(getattr(value, name)), code=Mistake.KIND)
         for name, kind in (("material", Material), ("diameter", Distribution))
         if not isinstance(getattr(value, name), kind)
     ]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import brentq
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, value_of
@@ -79,7 +79,9 @@ def kept_times(times: ArrayLike, *, duration: float) -> Array:
     """
     some = np.unique(np.asarray(times, float))
     if not len(some) or some[0] < 0 or some[-1] > duration or not np.all(np.isfinite(some)):
-        raise InvalidValue(Problem("times", f"must lie from 0 to {duration:g} [s]"))
+        raise InvalidValue(
+            Problem("times", f"must lie from 0 to {duration:g} [s]", code=Mistake.RANGE)
+        )
     return some
 
 
@@ -93,7 +95,7 @@ def need_duration(duration: float) -> None:
     need_positive(duration=duration)
     if duration > LONGEST:
         rule = f"must be at most {value_of(LONGEST, 's')}, some 30 000 years"
-        raise InvalidValue(Problem("duration", rule, value_of(duration, "s")))
+        raise InvalidValue(Problem("duration", rule, value_of(duration, "s"), code=Mistake.RANGE))
 
 
 def need_oil_left(circuit: OilCircuit, duration: float) -> None:
@@ -109,7 +111,7 @@ def need_oil_left(circuit: OilCircuit, duration: float) -> None:
             f"must be below {value_of(circuit.volume / lost, 's', 3)}: then the leak has emptied "
             "the circuit"
         )
-        raise InvalidValue(Problem("duration", rule, value_of(duration, "s")))
+        raise InvalidValue(Problem("duration", rule, value_of(duration, "s"), code=Mistake.RANGE))
 
 
 @dataclass
@@ -310,7 +312,7 @@ class _Course:
         else:
             rule = f"holds {MOST_EVENTS} events and more: {self.events[-1].sentence}"
             hint = "is the capacity of the filter far too small, or the ingress too large (mg/h)?"
-            raise InvalidValue(Problem("duration", rule, hint=hint))
+            raise InvalidValue(Problem("duration", rule, hint=hint, code=Mistake.TOO_LARGE))
         keep(np.array([0.0]))
         order = np.array(kept)
         last = np.append(np.diff(order) > 0, True)

@@ -25,7 +25,7 @@ from ...effects.dents import Dents
 from ...effects.friction import changes
 from ...effects.single.dent import sunk
 from ...effects.single.ploughing import groove_of
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake
 from ...laws.base import COLUMNS as OF_LAW
 from ...laws.base import SeatedLaw
 from ...laws.particle.breakage import Breakage
@@ -102,7 +102,8 @@ class ParticleCurve:
         if not isinstance(law, SeatedLaw):
             raise InvalidValue(
                 f"the particle law {law.name} does not say what one particle does in its seat; a "
-                "history needs particle.Series or particle.Flakes"
+                "history needs particle.Series or particle.Flakes",
+                code=Mistake.BEYOND,
             )
         self.law = law
         self.one = law.one(surfaces=contact.surfaces, particle=material)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake, Problem
 from .size_classes import SizeClasses
 
 if TYPE_CHECKING:
@@ -59,7 +59,8 @@ def daughters(classes: SizeClasses, *, ratio: float) -> Array:
     [8.0, 0.0, 0.0, 0.0]
     """
     if not 0 < ratio < 1:
-        raise InvalidValue(f"ratio = {ratio!r} must be above 0 and below 1 [1]")
+        rule = "must be above 0 and below 1 [1]"
+        raise InvalidValue(Problem("ratio", rule, repr(ratio), code=Mistake.RANGE))
     volumes = classes.volumes
     out = np.zeros((len(volumes), len(volumes)))
     for parent, volume in enumerate(volumes * ratio**3):

@@ -124,7 +124,9 @@ class _Reading:
         self.mistakes.sort(key=lambda each: each[:2])
         shown = [problem for *_, problem in self.mistakes[:MOST_MISTAKES]]
         if more := len(self.mistakes) - len(shown):
-            shown.append(Problem("", f"{self.path} has {more} more mistakes like these"))
+            *_, first = self.mistakes[MOST_MISTAKES]
+            rule = f"{self.path} has {more} more mistakes like these"
+            shown.append(Problem("", rule, code=first.code))
         raise InvalidValue(*shown)
 
     def add_mistake(self, line: int, column: int | None, rule: str, code: Mistake) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.optimize import nnls
 from scipy.special import chdtrc
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...populations.materials import Material
 from ...populations.measured.cleanliness import (
     LARGEST,
@@ -111,12 +111,14 @@ def approach_of_reports(counts: Sequence[float], *, step: float) -> Approach:
     each a factor of two wide, the three are seldom sharp enough.
     """
     if len(counts) != 3:
-        raise InvalidValue(Problem("counts", "must be three", repr(len(counts))))
+        raise InvalidValue(
+            Problem("counts", "must be three", repr(len(counts)), code=Mistake.SHAPE)
+        )
     first, middle, last = (float(each) for each in counts)
     one, two = middle - first, last - middle
     if not (one * two > 0 and abs(two) < abs(one)):
         rule = "come to no end: each step must be smaller than the one before, and in its direction"
-        raise InvalidValue(Problem("counts", rule))
+        raise InvalidValue(Problem("counts", rule, code=Mistake.BEYOND))
     rate = math.log(one / two) / step
     return Approach(rate, (first * last - middle**2) / (first + last - 2 * middle))
 
@@ -336,12 +338,14 @@ def _counts_of(
     at = np.array(counted_sizes() if sizes is None else sizes, float)
     if counts.ndim != 2 or counts.shape[1] != len(at) or not len(at):
         rule = f"must be codes, or {len(at)} counts each [1/m³], one from each size"
-        raise InvalidValue(Problem("reports", rule))
+        raise InvalidValue(Problem("reports", rule, code=Mistake.SHAPE))
     if not np.all((counts >= 0) & np.isfinite(counts)):
-        raise InvalidValue(Problem("reports", "must hold counts of 0 or more [1/m³]"))
+        raise InvalidValue(
+            Problem("reports", "must hold counts of 0 or more [1/m³]", code=Mistake.RANGE)
+        )
     if np.any(np.diff(counts, axis=1) > 0):
         rule = "must fall with the size: larger particles are among the smaller"
-        raise InvalidValue(Problem("reports", rule))
+        raise InvalidValue(Problem("reports", rule, code=Mistake.ORDER))
     return at, counts, False
 
 
@@ -351,7 +355,7 @@ def _material_of(circuit: OilCircuit, material: Material | None) -> Material:
         material = next(iter(circuit.materials.values()), None)
     if material is None or material.density is None:
         rule = "is missing: what the particles are of, with a density [kg/m^3]"
-        raise InvalidValue(Problem("material", rule))
+        raise InvalidValue(Problem("material", rule, code=Mistake.MISSING))
     return material
 
 
@@ -423,15 +427,21 @@ def oil_reports(
     t = np.atleast_1d(np.asarray(times, float))
     if len(t) < 2 or not np.all(np.diff(t) > 0) or not np.all(np.isfinite(t)):
         raise InvalidValue(
-            Problem("times", "must be of two reports or more, each later than the one before [s]")
+            Problem(
+                "times",
+                "must be of two reports or more, each later than the one before [s]",
+                code=Mistake.ORDER,
+            )
         )
     at, counts, coded = _counts_of(reports, sizes)
     if len(counts) != len(t):
-        raise InvalidValue(Problem("reports", f"must be one for each of {len(t)} times"))
+        raise InvalidValue(
+            Problem("reports", f"must be one for each of {len(t)} times", code=Mistake.SHAPE)
+        )
     if not (math.isfinite(width) and width > 1):
-        raise InvalidValue(Problem("width", "must be above 1", repr(width)))
+        raise InvalidValue(Problem("width", "must be above 1", repr(width), code=Mistake.RANGE))
     if not (math.isfinite(least) and least > 0):
-        raise InvalidValue(Problem("least", "must be above 0", repr(least)))
+        raise InvalidValue(Problem("least", "must be above 0", repr(least), code=Mistake.RANGE))
     of = _material_of(circuit, material)
     zeros = Zeros.among(counts, least=least)
     taken = zeros.replaced(counts, 0.5)

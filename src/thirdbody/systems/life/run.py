@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from ...contact.contact import Contact
-from ...errors import InvalidValue, Problem, tell_of_range
+from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.carried import takes_units
 from .circuit import OilCircuit
 from .contact_history import DryHistory
@@ -177,11 +177,13 @@ def life(
     waits: tuple[Until, ...] = tuple(until) if several else (until,)  # type: ignore[assignment,arg-type]
     if wrong := [each for each in waits if not isinstance(each, Until)]:
         rule = 'must hold what a history waits for, e.g. tb.until.iso4406("21/19/16")'
-        raise InvalidValue(Problem("until", rule, repr(wrong[0])))
+        raise InvalidValue(Problem("until", rule, repr(wrong[0]), code=Mistake.KIND))
     if oil is None and contact is None:
-        raise InvalidValue(Problem("oil", "or contact must be given, or both"))
+        raise InvalidValue(
+            Problem("oil", "or contact must be given, or both", code=Mistake.MISSING)
+        )
     if oil is not None and not isinstance(oil, OilCircuit):
-        raise InvalidValue(Problem("oil", "must be an OilCircuit", repr(oil)))
+        raise InvalidValue(Problem("oil", "must be an OilCircuit", repr(oil), code=Mistake.KIND))
     shared: dict[str, Any] = {"duration": duration, "until": waits, "times": times}
     of_contact: dict[str, Any] = {
         "debris": debris, "running_in": running_in, "stays": stays, "worn_area": worn_area
@@ -191,9 +193,9 @@ def life(
         assert oil is not None
         given = of_contact | {"keep": keep}
         if lost := [*conditions, *(name for name, value in given.items() if value)]:
-            raise InvalidValue(Problem(lost[0], "needs a contact"))
+            raise InvalidValue(Problem(lost[0], "needs a contact", code=Mistake.IDLE))
         if idle := [each for each in waits if isinstance(each, ContactUntil)]:
-            raise InvalidValue(Problem("until", "needs a contact", idle[0].name))
+            raise InvalidValue(Problem("until", "needs a contact", idle[0].name, code=Mistake.IDLE))
         found = run_oil_history(oil, **shared)
     else:
         _check_parts(of_contact)
@@ -207,7 +209,9 @@ def life(
         else:
             of_oil = [each for each in waits if not isinstance(each, ContactUntil)]
             if of_oil:
-                raise InvalidValue(Problem("until", "needs an oil", of_oil[0].name))
+                raise InvalidValue(
+                    Problem("until", "needs an oil", of_oil[0].name, code=Mistake.IDLE)
+                )
             whole = _whole(conditions, OF_DRY, DRY)
             arriving = whole["arrivals"]
             whole["arrivals"] = (arriving,) if isinstance(arriving, Ingress) else tuple(arriving)
@@ -222,10 +226,16 @@ def _check_parts(of_contact: Mapping[str, Any]) -> None:
     """Refuse a share that is none, and areas that are none."""
     problems = []
     if not 0 <= of_contact["stays"] <= 1:
-        problems.append(Problem("stays", "must be from 0 to 1 [1]", repr(of_contact["stays"])))
+        problems.append(
+            Problem(
+                "stays", "must be from 0 to 1 [1]", repr(of_contact["stays"]), code=Mistake.RANGE
+            )
+        )
     area = of_contact["worn_area"]
     if area is not None and not (len(area) == 2 and all(_positive(each) for each in area)):
-        problems.append(Problem("worn_area", "must be two areas above 0 [m^2]", repr(area)))
+        problems.append(
+            Problem("worn_area", "must be two areas above 0 [m^2]", repr(area), code=Mistake.RANGE)
+        )
     if problems:
         raise InvalidValue(*problems)
 
@@ -239,12 +249,18 @@ def _whole(
 ) -> dict[str, Any]:
     """All conditions of a contact, those left out as usual."""
     problems = [
-        Problem(name, f"is no condition of this contact; they are {', '.join((*needed, *usual))}")
+        Problem(
+            name,
+            f"is no condition of this contact; they are {', '.join((*needed, *usual))}",
+            code=Mistake.UNKNOWN,
+        )
         for name in conditions
         if name not in needed and name not in usual
     ]
     problems += [
-        Problem(name, f"is missing: {MEANINGS[name]}") for name in needed if name not in conditions
+        Problem(name, f"is missing: {MEANINGS[name]}", code=Mistake.MISSING)
+        for name in needed
+        if name not in conditions
     ]
     whole = {**usual, **conditions}
     checks: list[tuple[tuple[str, ...], Callable[[Any], bool], str]] = [
@@ -258,7 +274,7 @@ def _whole(
     ]
     for names, holds, rule in checks:
         problems += [
-            Problem(name, rule, repr(whole[name]))
+            Problem(name, rule, repr(whole[name]), code=Mistake.RANGE)
             for name in names
             if name in conditions and not holds(whole[name])
         ]

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...populations.distributions import Distribution, PowerLaw
 from ...populations.measured.cleanliness import counted_sizes, iso4406_of_counts
 from ...quantities.value import Value, sequences, several
@@ -71,7 +71,13 @@ class SizeClasses(Value):
         rises = all(b > a for a, b in zip(e, e[1:], strict=False))
         if len(e) > 1 and all(map(math.isfinite, e)) and e[0] > 0 and rises:
             return []
-        return [Problem("edges", "must be two sizes or more that increase and start above 0 [m]")]
+        return [
+            Problem(
+                "edges",
+                "must be two sizes or more that increase and start above 0 [m]",
+                code=Mistake.ORDER,
+            )
+        ]
 
     @classmethod
     def covering(cls, *, smallest: float, largest: float, per_octave: int = PER_OCTAVE) -> Self:
@@ -197,7 +203,7 @@ class SizeClasses(Value):
                 f"from {self.edges[0]:g} to {self.edges[-1]:g} [m] leave out particles of "
                 f"{low:g} to {high:g} [m]"
             )
-            raise InvalidValue(Problem("edges", rule, owner="SizeClasses"))
+            raise InvalidValue(Problem("edges", rule, owner="SizeClasses", code=Mistake.RANGE))
         below = np.nextafter(np.array(self.edges), 0.0)
         below[-1] = max(below[-1], high)
         return np.asarray(diameter.partial_moment(power, below[:-1], below[1:]), float)

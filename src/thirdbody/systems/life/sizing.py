@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from ...errors import InvalidValue, Problem
+from ...errors import InvalidValue, Mistake, Problem
 from ...populations.measured.cleanliness import iso4406_range, read_iso4406
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
@@ -77,10 +77,10 @@ def least_flow(circuit: OilCircuit, *, code: str, which: int = 0) -> float:
     """
     if not 0 <= which < len(circuit.filters):
         rule = f"must be one of the {len(circuit.filters)} filters of the circuit"
-        raise InvalidValue(Problem("which", rule, repr(which)))
+        raise InvalidValue(Problem("which", rule, repr(which), code=Mistake.RANGE))
     if circuit.filters[which].line:
         rule = "stands in a line, whose filters have one flow"
-        raise InvalidValue(Problem(f"filters[{which}]", rule))
+        raise InvalidValue(Problem(f"filters[{which}]", rule, code=Mistake.CLASH))
 
     def worst(logarithm: float) -> float:
         return _worst(circuit.replace(**{f"filters.{which}.flow": math.exp(logarithm)}), code)
@@ -204,7 +204,7 @@ def longest_time(circuits: Mapping[str, OilCircuit], *, until: Until, duration: 
     ('50 g', 2.5)
     """
     if not circuits:
-        raise InvalidValue(Problem("circuits", "must hold one at least"))
+        raise InvalidValue(Problem("circuits", "must hold one at least", code=Mistake.EMPTY))
     times = {
         name: time_of_event(each, until=until, duration=duration) for name, each in circuits.items()
     }

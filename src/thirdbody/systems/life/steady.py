@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.record import Record
 from ...quantities.say import number
@@ -126,7 +126,7 @@ def contact_stock(source: float, *, capacity: float, residence: float) -> Contac
     """
     values = {"source": source, "capacity": capacity, "residence": residence}
     if wrong := [
-        f"{name} = {value!r} must be finite and > 0"
+        Problem(name, "must be finite and > 0", repr(value), code=Mistake.RANGE)
         for name, value in values.items()
         if not (math.isfinite(value) and value > 0)
     ]:
@@ -197,7 +197,8 @@ def find_steady_points(
     from scipy.optimize import brentq
 
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise InvalidValue(f"low = {low!r} must be below high = {high!r}, both finite")
+        rule = f"must be below high = {high!r}, both finite"
+        raise InvalidValue(Problem("low", rule, repr(low), code=Mistake.ORDER))
     x = np.linspace(low, high, nodes + 1)
     y = np.array([balance(float(each)) for each in x])
     places: list[Any] = [float(x[i]) for i in np.flatnonzero(y == 0)]

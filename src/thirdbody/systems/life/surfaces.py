@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy import special
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.value import Value, quantity
 
@@ -40,7 +40,7 @@ __all__ = [
 
 def _check_positive(**values: ArrayLike) -> None:
     wrong = [
-        f"{name} = {value!r} must be finite and > 0"
+        Problem(name, "must be finite and > 0", repr(value), code=Mistake.RANGE)
         for name, value in values.items()
         if not np.all(np.isfinite(np.asarray(value, float)) & (np.asarray(value, float) > 0))
     ]
@@ -92,7 +92,8 @@ def clip_gaussian(level: float) -> ClippedGaussian:
     [0.08332, 0.86665, -1.25]
     """
     if not math.isfinite(level):
-        raise InvalidValue(f"level = {level!r} must be a finite number [1], a height over σ")
+        rule = "must be a finite number [1], a height over σ"
+        raise InvalidValue(Problem("level", rule, repr(level), code=Mistake.RANGE))
     over = float(special.ndtr(-level))
     density = math.exp(-0.5 * level * level) / math.sqrt(2 * math.pi)
     wear = density - level * over
@@ -134,9 +135,11 @@ def variance_slope(heights: ArrayLike, *, removal: ArrayLike) -> float:
     """
     z, a = np.asarray(heights, float), np.asarray(removal, float)
     if z.shape != a.shape or not z.size:
-        raise InvalidValue(f"heights {z.shape} and removal {a.shape} must have one shape")
+        rule = f"{z.shape} and removal {a.shape} must have one shape"
+        raise InvalidValue(Problem("heights", rule, code=Mistake.SHAPE))
     if not np.all(np.isfinite(a) & (a >= 0)) or not np.any(a > 0):
-        raise InvalidValue("removal must be >= 0 everywhere and > 0 somewhere")
+        rule = "must be >= 0 everywhere and > 0 somewhere"
+        raise InvalidValue(Problem("removal", rule, code=Mistake.RANGE))
     return float(-2 * (np.average(z, weights=a) - z.mean())) + 0.0
 
 
@@ -171,7 +174,8 @@ def dent_roughness(depth: ArrayLike, *, coverage: ArrayLike) -> Array:
     """
     c = np.asarray(coverage, float)
     if not np.all(c >= 0):
-        raise InvalidValue(f"coverage = {coverage!r} must be >= 0 [1]")
+        rule = "must be >= 0 [1]"
+        raise InvalidValue(Problem("coverage", rule, repr(coverage), code=Mistake.RANGE))
     dented = -np.expm1(-c)
     return np.asarray(depth, float) * np.sqrt(dented / 3 - dented**2 / 4)
 

@@ -72,7 +72,7 @@ class CodeReached(Until):
         try:
             read_iso4406(self.code)
         except InvalidValue as error:
-            return [Problem("code", f": {error.problems[0]}")]
+            return [Problem("code", f": {error.problems[0]}", code=error.code)]
         return []
 
     @property
