@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...contact.broken_averages import is_rough
 from ...contact.contact import Contact
 from ...contact.interface import together
 from ..columns import as_columns
@@ -44,6 +45,10 @@ CODES = {
 }
 
 
+ROUGH = 1e-6
+"""Estimated error that does for one of many samples."""
+
+
 def own_columns(
     contact: Contact, arrays: Mapping[str, Array], load: str, loads: Array, threads: int = 1
 ) -> dict[str, Any]:
@@ -67,6 +72,8 @@ def own_columns(
     if target is None:
         deep = given < numbers.deepest
         fate[deep], evaluations[deep] = Status.TOO_DEEP, 0
+    if is_rough():
+        fate[(fate == f.NOT_RESOLVED) & (error <= ROUGH)] = f.OK
     bad = fate != f.OK
     h[bad] = np.nan
     rows[bad] = np.nan
