@@ -148,15 +148,18 @@ def test_many_loads_of_one_contact_hold_to_numpy(diameter, H, density):
     assert np.nanmax(errors(got.columns(), want.columns())) <= BOUND
 
 
-SIZES = tb.Mixture(parts=(tb.Monodisperse(mean=100e-9), tb.LogNormal(median=250e-9, gsd=1.2)),
-                   weights=(7, 3))  # fmt: skip
+BRITTLE = tb.Particles(
+    material=STEEL,
+    areal_density=1e10,
+    diameter=tb.LogNormal(median=250e-9, gsd=1.2),
+    strength=tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9),
+)
 
 
 @pytest.mark.parametrize(
     ("case", "why"),
     [
-        (contact(tb.Particles(material=STEEL, areal_density=1e10, diameter=SIZES)),
-         "ground of particles"),
+        (contact(BRITTLE), "ground of particles"),
         (contact(spectrum=RollOff(corner="sharp")), "spectrum of its own"),
     ],
 )  # fmt: skip
@@ -169,8 +172,7 @@ def test_what_has_tables_of_its_own_says_so(case, why):
 
 
 def test_what_needs_tables_of_its_own_is_known_beforehand():
-    dust = tb.Particles(material=STEEL, areal_density=1e10, diameter=SIZES)
-    assert states.tables_each(contact(dust), ["roughness.sigma", "pressure"])
-    assert not states.tables_each(contact(dust), ["pressure", "outputs.friction.m_ss"])
+    assert states.tables_each(contact(BRITTLE), ["roughness.sigma", "pressure"])
+    assert not states.tables_each(contact(BRITTLE), ["pressure", "outputs.friction.m_ss"])
     assert not states.tables_each(contact(), ["roughness.sigma", "surfaces.first.H"])
     assert states.tables_each(contact(spectrum=RollOff(corner="sharp")), ["roughness.R"])

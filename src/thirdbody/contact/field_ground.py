@@ -99,8 +99,18 @@ def heights(u: Array, zeta: Array) -> Array:
 class Seat:
     """Particles of one shape of size distribution on ground that gives way."""
 
-    def __init__(self, part: Part, sigma: float, mean: float, width: float, spectrum: Spectrum):
+    def __init__(
+        self,
+        part: Part,
+        sigma: float,
+        mean: float,
+        width: float,
+        spectrum: Spectrum,
+        shadow: str,
+    ):
         self.height = spectrum.height
+        self.shadow = COLUMNS.index(shadow) if shadow in COLUMNS else None
+        """Column of the area in which its particles keep asperities apart, if it is one."""
         assert isinstance(part.average, SeatAverage)
         self.part, self.mean, self.width = part, mean, width
         self.average = part.average
@@ -206,9 +216,8 @@ class Ground:
         Whether nothing was found at the lowest separations of the field, which are left out.
     """
 
-    def __init__(self, field: FieldSum, seats: Sequence[Seat], apart: float, shadow: str):
-        self.field, self.seats, self.shadow = field, list(seats), shadow
-        self.coverage, self.cut = 0.0, False
+    def __init__(self, field: FieldSum, seats: Sequence[Seat], apart: float):
+        self.field, self.seats, self.cut = field, list(seats), False
         spectrum = field.surface.spectrum
         self.twice = 2 * math.sqrt(2) * spectrum.steeper
         x, transform = chebyshev_transform(TERMS)
@@ -248,10 +257,8 @@ class Ground:
         for seat in self.seats:
             columns, moments = seat.sums(h, u)
             out[:, :-1] += (seat.part.factor / self.field.unit) * moments
-            if self.shadow in COLUMNS:
-                out[:, -1] += seat.part.factor * columns[:, COLUMNS.index(self.shadow)]
-        if self.shadow not in COLUMNS:
-            out[:, -1] = self.coverage
+            if seat.shadow is not None:
+                out[:, -1] += seat.part.factor * columns[:, seat.shadow]
         return out, u
 
     def _lift(self, h: Array, beta: Array) -> Array:
@@ -539,14 +546,15 @@ def grounded(
     for i, (each, law) in enumerate(zip(populations, laws, strict=True)):
         for part in each.parts:
             spectrum = field.surface.spectrum
-            seats.append(Seat(part, field.sigma, law.zeta_mean, law.zeta_std, spectrum))
+            mean, width = law.zeta_mean, law.zeta_std
+            seats.append(Seat(part, field.sigma, mean, width, spectrum, each.shadow))
             owners.append(i)
     density = np.array([sum(part.density for part in each.parts) for each in populations])
     mean_diameter = float(density @ np.array(diameters) / density.sum())
     # √(m0/m2) = √2 σ/g
     waves = math.sqrt(2) * field.surface.spectrum.steeper * field.sigma / field.gradient
     apart = mean_diameter / waves
-    ground = Ground(field, seats, apart, populations[0].shadow)
+    ground = Ground(field, seats, apart)
     out = []
     for i, each in enumerate(populations):
         parts: list[Part] = [

@@ -35,8 +35,9 @@ __all__ = ["OWN_SPOTS", "solve_states", "state_columns", "unknown_inputs", "vari
 
 OWN_SPOTS = "each has spots of its own"
 """Why states with outputs take long."""
-FEWEST = 20
-"""Different states for which nodes are quicker than tables of each."""
+FEWEST, FEWEST_GROUNDS = 20, 4
+"""Different states for which the compiled engine is quicker than tables of each, and of particles
+on one field of heights, whose tables take 0.1 to 3 s each."""
 
 
 @takes_units
@@ -100,7 +101,7 @@ def solve_states(
     with reporting("states", total, 0, progress) as report:
         cost = Cost(total, report, "" if progress else "states")
         with solving(cost):
-            columns = _columns(contact, arrays, load, loads)
+            columns = _columns(contact, arrays, load, loads, fewest_of(contact))
         cost.finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 
@@ -120,7 +121,13 @@ def state_columns(
     already give as 1.
     """
     load, loads, arrays = _loads_and_inputs(contact, pressure, F_star, d, vary)
-    return _columns(contact, arrays, load, loads, FEWEST if fewest is None else fewest)
+    return _columns(contact, arrays, load, loads, fewest_of(contact) if fewest is None else fewest)
+
+
+def fewest_of(contact: Contact) -> int:
+    """How many different states go to the compiled engine, at least."""
+    grounded = contact.asperity_law.of_surface and not contact.two_body
+    return min(FEWEST, FEWEST_GROUNDS) if grounded else FEWEST
 
 
 def direct_columns(
@@ -229,7 +236,7 @@ def _columns(
     arrays: Arrays,
     load: str,
     loads: NDArray[np.float64],
-    fewest: int = FEWEST,
+    fewest: int,
 ) -> Columns:
     """Every column of the states."""
     if contact.outputs:

@@ -30,6 +30,7 @@ from .fields import (
     EQUAL,
     F_SA,
     F_SS,
+    FAR,
     HIGH,
     JKR,
     LEAST,
@@ -112,9 +113,8 @@ COARSE, FINE, LEVELS = 0, 1, 2
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 NOTHING = -1
 """In place of a level: nothing is laid."""
-ASKED, FAR = 1e-10, 0.1
-"""Error of loads, areas and the separation that is asked for: of this over σ, or over so much of
-itself where that is more."""
+ASKED = 1e-10
+"""Error of loads, areas and the separation that is asked for."""
 ROUNDED, SAFE = 2e-14, 10.0
 """What rounding leaves of a part; the error of a rule of twice the nodes is so many squares of its
 difference to the other."""

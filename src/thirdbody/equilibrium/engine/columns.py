@@ -26,10 +26,9 @@ from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
 from ...populations.heights import COMPLETE, ExponentialHeights, GaussianHeights, WeibullHeights
 from ...populations.materials import reduced_modulus
-from ...populations.particles import Particles
 from ...populations.shape import Sphere
 from . import fields as f
-from .grounds import Grounds, check_grounded, mean_diameters
+from .grounds import Grounds, check_grounded
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -214,16 +213,33 @@ class Power(NamedTuple):
     slope: float
 
 
+class Section(NamedTuple):
+    """Particles whose sizes the kernel knows: a population, or a part of one."""
+
+    one: Any
+    """The population."""
+    changed: Any
+    """The same, with arrays in it."""
+    law: Any
+    varied: Any
+    """Its law, as it is and with arrays in it."""
+    share: float
+    """Part of the population."""
+    part: float
+    """Part of the component of its sizes that it belongs to."""
+    component: int
+    """Number of that component, through all populations."""
+    sizes: tuple[Any, Any]
+    """As they are, and with arrays in them."""
+
+
 def _sections(one: Any, changed: Any) -> list[tuple[float, tuple[Any, Any]]]:
     """Shares of particles, and sizes of each that the kernel knows: a population is their sum.
 
     Numbers of classes are no inputs that vary.
     """
-    if type(one) not in (sizes.Histogram, sizes.PowerLaw, sizes.Mixture):
+    if type(one) not in (sizes.Histogram, sizes.PowerLaw):
         return [(1.0, (one, changed))]
-    if type(one) is sizes.Mixture:
-        parts = [(share, _sections(part, part)) for share, part in one.components]
-        return [(share * inner, section) for share, part in parts for inner, section in part]
     out: list[tuple[float, tuple[Any, Any]]] = []
     slopes: tuple[Any, ...] = getattr(one, "slopes", (None,) * len(one.counts))
     classes = zip(itertools.pairwise(one.edges), one.counts, slopes, strict=True)
@@ -280,31 +296,23 @@ class Numbers:
         found = [] if bare else self._populations()
         grounded = bool(found) and self.skins[0, 0, f.CODE] == f.FIELD
         if grounded:
-            check_grounded(contact, arrays, found)
+            check_grounded(contact, found)
         self.inside = np.zeros((1, 1))
         """What particles that break have inside, if any do."""
         self.centre = 0.0
         """Mean asperity height over the datum of d [m]."""
         if found:
-            self.centre = found[0][3].centre * self.varied.roughness.sigma
+            self.centre = found[0].varied.centre * self.varied.roughness.sigma
             self.origin = self.origin + self.centre if grounded else self.centre
         self.parts = np.zeros((count, len(found), f.OF_PARTICLES))
         self.bodies = np.zeros((count, 2 * len(found), f.OF_SIDE))
         self.last: Any = None
         for p, each in enumerate(found):
-            self._add_particles(p, *each)
+            self._add_particles(p, each)
         self.ground: Grounds | None = None
         """Of particles on one field of heights."""
         if grounded:
-            self._add_ground(found[0], arrays)
-
-    def _add_ground(self, found: Any, arrays: Mapping[str, Array]) -> None:
-        one, changed, law, varied = found[:4]
-        rough = self.varied.roughness
-        diameter = mean_diameters(one.diameter, changed.diameter, arrays, self.parts[:, 0])
-        self.ground = Grounds(
-            self.skins, self.parts, rough.alpha, varied, rough, diameter, law.centre
-        )
+            self.ground = Grounds(self.skins, self.parts, found, self.varied.roughness)
 
     def _add_asperities(
         self, rows: Array, ratio: float | None, radius: float, share: float
@@ -360,32 +368,28 @@ class Numbers:
                     skin[some, begin : begin + flat.shape[2]] = flat[:, k]
         self.origin, self.deepest = -np.asarray(rough.y_s), -math.inf
 
-    def _populations(self) -> list[tuple[Any, Any, Any, Any, float, Any]]:
-        """Particles and law, as they are and with arrays in them; a share and its sizes."""
+    def _populations(self) -> list[Section]:
+        """Sections of all populations."""
         given: Any = self.contact.particles
         varied: Any = self.varied.particles
         if not isinstance(given, tuple):
             given, varied = (given,), (varied,)
-        out = []
+        out: list[Section] = []
+        number = 0
         for one, changed in zip(given, varied, strict=True):
             if one.law is not None:
                 law = one.law, changed.law
             else:
                 law = self.contact.particle_law, self.varied.particle_law
-            for share, section in _sections(one.diameter, changed.diameter):
-                out.append((one, changed, *law, share, section))
+            for weight, simple in one.diameter.components:
+                now = changed.diameter if simple is one.diameter else simple
+                for part, section in _sections(simple, now):
+                    out.append(Section(one, changed, *law, weight * part, part, number, section))
+                number += 1
         return out
 
-    def _add_particles(
-        self,
-        p: int,
-        one: Particles,
-        changed: Any,
-        law: Any,
-        varied: Any,
-        share: float,
-        section: Any,
-    ) -> None:
+    def _add_particles(self, p: int, each: Section) -> None:
+        one, changed, law, varied = each.one, each.changed, each.law, each.varied
         if type(law) is particle.Horng2022:
             self._add_printed(self.parts[:, p], one.diameter, changed, varied)
             return
@@ -403,12 +407,12 @@ class Numbers:
                 **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
                 f.OFFSET: varied.seat_offset(rough) + self.centre,
                 **{f.SHADOW: SHADOWS[law.shadow]},
-                **{f.DENSITY: changed.areal_density * share, f.BREADTH: breadth},
+                **{f.DENSITY: changed.areal_density * each.share, f.BREADTH: breadth},
             },
         )
-        squared = self._add_sizes(rows, *section)
+        squared = self._add_sizes(rows, *each.sizes)
         if one.strength is not None:
-            self._add_strength(rows, one.strength, changed, section[0])
+            self._add_strength(rows, one.strength, changed, each.sizes[0])
         rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * squared
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time

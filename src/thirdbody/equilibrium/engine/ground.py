@@ -3,7 +3,7 @@
 Particles press the ground under them down, and the ground of asperities: the equations are those of
 `thirdbody.contact.field_ground`, and so are the nodes over heights, the rows of separations and the
 splines between them. What particles carry under a gap stands in cells over the gap, once for states
-whose particles are alike.
+whose particles are alike: of each section of the sizes on a seat its own.
 """
 
 from __future__ import annotations
@@ -46,12 +46,15 @@ TAUS = 16
 K_PP, K_AS, K_ZS, OF_KERNELS = 0, BETA, BETA + TAUS * BETA, BETA + 2 * TAUS * BETA
 """Of the displacements: k_n of particles, then series in τ of those of asperities under particles,
 and of particles under asperities."""
-LOWEST, STEP, ROWS, MEAN, SPREAD, TOP, SIGMA, DENSE, UNIT, DARK, FIXED, LEFT = range(12)
-POWER, CELLS, OF_GROUND = range(12, 15)
-"""Of a state: lowest row and distance of rows [σ], how many; mean and width of the seat [σ]; the
-largest size [σ], σ [m], particles per area, E*g [Pa], whether they shade by what they carry, and
-how much otherwise; what series leave out; power of the root of the distance from the largest size
-like which all sets in, and how many cells there are."""
+LOWEST, STEP, ROWS, SIGMA, UNIT, FIXED, LEFT, OF_GROUND = range(8)
+"""Of a state: lowest row and distance of rows [σ], how many; σ [m], E*g [Pa], how much particles
+shade beside what those do that carry; what series leave out."""
+MEAN, SPREAD, TOP, DENSE, SECTION, LAST_SECTION, OF_SEAT = range(7)
+"""Of a seat: its mean and width, and the largest size on it [σ]; particles per area; the first of
+its sections of sizes, and where they end."""
+POWER, CELLS, OF_SECTION = range(3)
+"""Of a section: power of the root of the distance from its largest size like which all sets in, and
+how many cells there are."""
 WAVES = 2 * math.sqrt(2)
 PLACES = NODES * (len(PANELS) - 1)
 _ROOTS, _WEIGHTS = panel_rule(np.sqrt(PANELS), NODES)
@@ -61,10 +64,13 @@ HERMITE = np.zeros((BETA, BETA))
 for _n in range(BETA):
     HERMITE[_n, : _n + 1] = np.polynomial.hermite_e.herme2poly([0.0] * _n + [1.0])
     HERMITE[_n] /= math.sqrt(math.factorial(_n))
+_HEIGHTS = np.linspace(-HIGHEST_SEAT, HIGHEST_SEAT, 2001)
+TALLEST = np.abs(np.polynomial.hermite_e.hermevander(_HEIGHTS, MOMENTS)).max(0) * HERMITE.diagonal()
+"""The largest |he_n| at heights of the ground."""
 AFTER = 1 / np.sqrt(np.arange(1.0, BETA + 1))
 LATER = np.sqrt(np.arange(1.0, BETA + 1) / np.arange(2.0, BETA + 2))
-ZETA, CUT, GAP, MASS, LOADS, POLYNOMIALS, OF_NODES = range(7)
-"""Rows of the nodes over heights."""
+ZETA, CUT, GAP, MASS, LOADS, POLYNOMIALS, SUMS, OF_NODES = range(8)
+"""Rows of the nodes over heights, then of powers of the height: of the ground, and sums."""
 GRID = 69
 FROM, UNTIL, ROOTED, START, RATE, POWERS = range(6)
 """Of a part of a cell: its gaps [m], whether its variable is the root of what the gap lacks to the
@@ -206,13 +212,13 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
              series, terms):  # fmt: skip
     """Lay cells over the gap, from the largest size down; how many, and what they leave out.
 
-    −1 where there is no room, or where particles are squeezed by more than their size.
+    −1 where there is no room, and 0 where particles are squeezed by more than their size.
     """
     apart()
     low, high, last = given[0, SMALLEST], given[0, HIGH], panels[0, count - 1, TO]
     power = 2.0 if given[0, KIND] == ONE_SIZE else 4.0
     if last >= 1:
-        return -1, 0.0
+        return 0, 0.0
     bottom = low * (1 - last)
     edges[0], marked = high, 1
     for n in range(count + 1):
@@ -266,11 +272,11 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
 
 
 @scalar
-def _read_gaps(own, cells, floor, whole, nodes, columns):
-    """Sums of the columns over the nodes, or of load and shadow; the load at each."""
+def _add_gaps(section, cells, floor, whole, nodes, columns):
+    """Add sums of the columns over the nodes, or of load and shadow, and the load at each."""
     apart()
-    count, gap, mass, loads = int(own[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
-    top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], own[POWER] == 4
+    count, gap, mass, loads = int(section[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
+    top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], section[POWER] == 4
     s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = 0.0
     n = 0
     for j in range(PLACES):
@@ -311,11 +317,14 @@ def _read_gaps(own, cells, floor, whole, nodes, columns):
                 s_2 += max(over * a_2, 0.0)
                 s_3 += max(over * a_3, 0.0)
                 s_4 += max(over * a_4, 0.0)
-        loads[j] = load
+        loads[j] += load
         s_0 += m * load
-    columns[0], columns[5] = s_0, s_5
-    if whole:
-        columns[1], columns[2], columns[3], columns[4] = s_1, s_2, s_3, s_4
+    columns[0] += s_0
+    columns[1] += s_1
+    columns[2] += s_2
+    columns[3] += s_3
+    columns[4] += s_4
+    columns[5] += s_5
 
 
 # ------------------------------------------------------------------------------ asperities
@@ -435,11 +444,16 @@ def _ground_at(u, zeta):
 
 
 @scalar
-def _first_squeezed(own, h, u, guess):
-    """The lowest ground on which the largest particle is squeezed [σ]."""
+def _first_squeezed(seat, h, u, rise, guess):
+    """The lowest ground on which the largest particle is squeezed [σ].
+
+    No ground is pressed down by more than ``rise``.
+    """
     apart()
-    low, high = own[MEAN] - REACH * own[SPREAD], own[MEAN] + REACH * own[SPREAD]
-    lack = h - own[TOP]
+    low, high = seat[MEAN] - REACH * seat[SPREAD], seat[MEAN] + REACH * seat[SPREAD]
+    lack = h - seat[TOP]
+    if lack - high > rise:
+        return high
     if guess == guess:  # from one that is near; the ground is far less steep than ζ
         a, f_a = guess, lack - guess + _ground_at(u, guess)
         b = a + f_a
@@ -535,47 +549,69 @@ def _take_powers(mass, load, cut, p):
 
 
 @scalar
-def weigh_ground(own, cells, floor, h, u, guess, nodes, found, columns, whole):
-    """Loads' moments and the shadow at h [σ] on ground u, and all columns if the whole is asked.
+def _weigh_seat(field, seat, h, right, nodes, found, columns, whole):
+    """Add what the particles of a seat carry to the loads' moments and the shadow.
 
-    The lowest ground on which a particle is squeezed.
+    From the lowest ground on which one is squeezed; their columns by themselves.
     """
     apart()
-    right = _first_squeezed(own, h, u, guess)
-    if right != right:
-        right = _first_squeezed(own, h, u, math.nan)
-    span = max(own[MEAN] + REACH * own[SPREAD] - right, 0.0)
+    own, sections, cells, floor = field[0], field[2], field[6], field[7]
+    for c in range(COLUMNS):
+        columns[c] = 0.0
+    span = max(seat[MEAN] + REACH * seat[SPREAD] - right, 0.0)
+    if span == 0:
+        return
     zeta, cut, gap, mass = nodes[ZETA], nodes[CUT], nodes[GAP], nodes[MASS]
-    _place_heights(right, span, own[MEAN], own[SPREAD], zeta, cut, mass)
-    p = nodes[POLYNOMIALS]
+    p, loads = nodes[SUMS], nodes[LOADS]
+    _place_heights(right, span, seat[MEAN], seat[SPREAD], zeta, cut, mass)
+    _find_gaps(h, own[SIGMA], nodes[POLYNOMIALS], zeta, cut, gap)
+    for j in range(PLACES):
+        loads[j] = 0.0
+    for s in range(int(seat[SECTION]), int(seat[LAST_SECTION])):
+        _add_gaps(sections[s], cells[s], floor[s], whole, nodes, columns)
+    _take_powers(mass, loads, cut, p)
+    over = seat[DENSE] / own[UNIT]
     for n in range(BETA):
-        p[n] = 0.0
-        for k in range(n, BETA):
-            p[n] += HERMITE[k, n] * u[k]
-    _find_gaps(h, own[SIGMA], p, zeta, cut, gap)
-    _read_gaps(own, cells, floor, whole, nodes, columns)
-    _take_powers(mass, nodes[LOADS], cut, p)
-    over = own[DENSE] / own[UNIT]
-    for n in range(BETA):
-        found[n] = 0.0
         for k in range(n + 1):
             found[n] += over * HERMITE[n, k] * p[k]
-    found[BETA] = own[DENSE] * own[DARK] * columns[COLUMNS - 1]
-    return right
+    found[BETA] += seat[DENSE] * columns[COLUMNS - 1]
 
 
 @scalar
-def round_of(own, kernels, skin, surface, cells, floor, h, state, guess, small, nodes, found,
-             columns, whole):  # fmt: skip
-    """β_n and the shadow again, from those before, at h [σ].
+def weigh_ground(field, h, u, lowest, nodes, found, columns, whole):
+    """Loads' moments and the shadow at h [σ] on ground u, and all columns if the whole is asked.
 
-    The lift and how far it is off, and the lowest ground on which a particle is squeezed.
+    ``lowest`` holds guesses of the lowest ground on which a particle of each seat is squeezed, and
+    gets that.
     """
     apart()
+    seats, p, rise = field[1], nodes[POLYNOMIALS], 0.0
+    for n in range(BETA):
+        found[n] = p[n] = 0.0
+        rise += TALLEST[n] * abs(u[n])
+        for k in range(n, BETA):
+            p[n] += HERMITE[k, n] * u[k]
+    found[BETA] = 0.0
+    for s in range(len(seats)):
+        right = _first_squeezed(seats[s], h, u, rise, lowest[s])
+        if right != right:
+            right = _first_squeezed(seats[s], h, u, rise, math.nan)
+        lowest[s] = right
+        _weigh_seat(field, seats[s], h, right, nodes, found, columns[s], whole)
+
+
+@scalar
+def round_of(field, h, state, lowest, small, nodes, found, columns, whole):
+    """β_n and the shadow again, from those before, at h [σ].
+
+    The lift and how far it is off; ``lowest`` as in `weigh_ground`.
+    """
+    apart()
+    own, _, _, kernels, skin, surface, _, _ = field
     w, off = lift_of(own, kernels, skin, surface, h, state, small)
     # the rows hold what asperities do a last step before, some 1e-13 of σ away
     bare, u = 1 - min(max(state[BETA], 0.0), 1.0), small[U]
     for n in range(BETA):
         u[n] = WAVES * (bare * small[PRESSED, n] + kernels[K_PP + n] * state[n])
-    right = weigh_ground(own, cells, floor, h, u, guess, nodes, found, columns, whole)
-    return w, off, right
+    weigh_ground(field, h, u, lowest, nodes, found, columns, whole)
+    return w, off

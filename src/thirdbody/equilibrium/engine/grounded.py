@@ -18,6 +18,7 @@ from .field import TERMS, add_field, lay_field
 from .fields import (
     F_SA,
     F_SS,
+    FAR,
     HEIGHTS_OF_TABLE,
     NOT_MONOTONE,
     NOT_RESOLVED,
@@ -25,6 +26,7 @@ from .fields import (
     POLYNOMIAL,
     SHADE,
     SIDE,
+    SQUEEZED,
     TOO_LONG,
     UNSOLVED,
 )
@@ -33,7 +35,6 @@ from .ground import (
     BETA,
     CELLS,
     COLUMNS,
-    DARK,
     DENSE,
     FIXED,
     K_PP,
@@ -69,9 +70,12 @@ __all__ = ["SPLINES", "solve_grounded"]
 BESIDE = 22
 """Rows beside a cell that decide what the spline is there: others change it by 1e-5 of what cells
 of the table leave out."""
-MOST_ROWS = 600
-NEGLIGIBLE, LOOSE, SURE, LOOSEST = 1e-8, 1e-5, 3e-12, 1e-6
-"""Of the load, from where on rows are solved; accuracy of u [σ] coming down, of rows beside the
+MOST_ROWS = 16_384
+NEGLIGIBLE, LONG, CLOSE, ABOVE = 1e-8, 128, 0.1, 48
+"""Part of the load from where on rows are solved; where that is more than so many rows up, part of
+it from which on, and rows above these."""
+LOOSE, SURE, LOOSEST = 1e-5, 3e-12, 1e-6
+"""Accuracy of u [σ] coming down, of rows beside the
 root, and of any that the spline needs."""
 AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
@@ -169,17 +173,14 @@ def _solve_row(field, k, accuracy, whole, rows, work):
     Its state and lift go into the rows and, if the whole is asked, its columns and what it misses.
     """
     apart()
-    own, kernels, skin, surface, cells, floor = field
+    own, kernels = field[0], field[3]
     states, lifts, columns, misses, lowest, done = rows
     small, nodes, pairs, memory, turned, other = work
     found, miss, old_state, old_miss = other[0], other[1], other[2], other[3]
     h, state, close = own[LOWEST] + k * own[STEP], states[k], False
     for n in range(ROUNDS):
         full = whole and close
-        lifts[k], off, lowest[k] = round_of(
-            own, kernels, skin, surface, cells, floor, h, state, lowest[k], small, nodes, found,
-            columns[k], full,
-        )  # fmt: skip
+        lifts[k], off = round_of(field, h, state, lowest[k], small, nodes, found, columns[k], full)
         size = 0.0
         for m in range(UNKNOWNS):
             miss[m] = found[m] - state[m]
@@ -214,7 +215,8 @@ def _guess_row(k, way, rows, last):
         if not 0 <= m <= last or done[m] == NONE or not states[m, 0] > 0:
             break
         known += 1
-    lowest[k] = math.nan
+    for s in range(lowest.shape[1]):
+        lowest[k, s] = math.nan if known == 0 else 0.0
     if known == 0:
         for n in range(UNKNOWNS):
             states[k, n] = 0.0
@@ -224,15 +226,15 @@ def _guess_row(k, way, rows, last):
         return
     for n in range(UNKNOWNS):
         states[k, n] = 0.0
-    low, part = 0.0, 1.0
+    part = 1.0
     for j in range(1, known + 1):
         part *= -(known - j + 1) / j
         m = k + way * j
         states[k, 0] -= part * math.log(states[m, 0])
         for n in range(1, UNKNOWNS):
             states[k, n] -= part * states[m, n] / states[m, 0]
-        low -= part * lowest[m]
-    lowest[k] = low
+        for s in range(lowest.shape[1]):
+            lowest[k, s] -= part * lowest[m, s]
     states[k, 0] = math.exp(min(max(states[k, 0], -600.0), 100.0))
     for n in range(1, UNKNOWNS):
         states[k, n] *= states[k, 0]
@@ -244,34 +246,35 @@ def _load_of(own, skin, held, h, w, load, shadow, out):
     apart()
     if not add_field(skin, held, h + w, out):
         return math.nan
-    if own[DARK] == 0:
-        shadow = own[FIXED]
-    return (1 - min(max(shadow, 0.0), 1.0)) * out[F_SS] + load
+    return (1 - min(max(shadow + own[FIXED], 0.0), 1.0)) * out[F_SS] + load
 
 
 @scalar
-def _plain_load(field, held, k, work, out):
+def _plain_load(field, held, k, rows, work, out):
     """Load at row k on ground that does not give way: more than is carried there, or nearly."""
     apart()
-    own, _, skin, _, cells, floor = field
-    h, u, other = own[LOWEST] + k * own[STEP], work[0][U], work[5]
+    own, skin = field[0], field[4]
+    columns, lowest, found = rows[2], rows[4], work[5][0]
+    h, u = own[LOWEST] + k * own[STEP], work[0][U]
     for n in range(BETA):
         u[n] = 0.0
-    weigh_ground(own, cells, floor, h, u, math.nan, work[1], other[0], other[4], False)
+    for s in range(lowest.shape[1]):
+        lowest[k, s] = math.nan
+    weigh_ground(field, h, u, lowest[k], work[1], found, columns[k], False)
     if not add_field(skin, held, h, out):
         return math.inf
-    return out[F_SS] + other[0, 0] * own[UNIT]
+    return out[F_SS] + found[0] * own[UNIT]
 
 
 @scalar
-def _first_row(field, held, target, work, out):
-    """The row above which next to nothing of the target is carried, and how many were asked."""
+def _first_row(field, held, load, high, rows, work, out):
+    """The row, up to ``high``, above which less than a load is carried; how many were asked."""
     apart()
-    low, high, count = 0, int(field[0][ROWS]) - 1, 0
+    low, count = 0, 0
     while high - low > 1:
         middle = (low + high) // 2
         count += 1
-        if _plain_load(field, held, middle, work, out) > NEGLIGIBLE * target:
+        if _plain_load(field, held, middle, rows, work, out) > load:
             low = middle
         else:
             high = middle
@@ -285,7 +288,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
     That row, −1 without one; rounds; and the fate.
     """
     apart()
-    own, skin, states, lifts = field[0], field[2], rows[0], rows[1]
+    own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
     last, rounds, before = int(own[ROWS]) - 1, 0, 0.0
     while k >= 0:
         _guess_row(k, 1, rows, last)
@@ -333,59 +336,74 @@ def _finish_rows(field, k, low, high, rows, work):
 
 
 @scalar
-def _lay_cell(splines, k, low, high, last, rows, poly):
-    """Polynomials of the splines in cell k through rows from low to high, of particles to last.
+def _lay_cell(splines, k, low, high, lasts, rows, poly):
+    """Polynomials of the splines in cell k through rows from low to high: of seats, and the lift.
 
-    False where too few rows carry anything.
+    Of each seat up to the row in ``lasts``. False where too few rows carry anything.
     """
     apart()
-    lifts, columns = rows[1], rows[2]
-    if last < k + 1 or last - low + 1 < TERMS or high - low + 1 < TERMS:
+    lifts, columns, count = rows[1], rows[2], len(lasts)
+    if high - low + 1 < TERMS:
         return False
     for j in range(TERMS):
-        for c in range(COLUMNS + 1):
-            poly[j, c] = 0.0
+        for s in range(count + 1):
+            for c in range(COLUMNS):
+                poly[s, j, c] = 0.0
     for i in range(low, high + 1):
         for j in range(TERMS):
-            poly[j, COLUMNS] += splines[k - low, high - k - 1, j, i - low] * lifts[i]
-    for i in range(low, last + 1):
-        load = columns[i, 0]
-        for j in range(TERMS):
-            part = splines[k - low, last - k - 1, j, i - low]
-            poly[j, 0] += part * math.log(load)
-            for c in range(1, COLUMNS):
-                poly[j, c] += part * columns[i, c] / load
-    return True
+            poly[count, j, 0] += splines[k - low, high - k - 1, j, i - low] * lifts[i]
+    carried = False
+    for s in range(count):
+        last = min(lasts[s], high)
+        if last < k + 1:
+            poly[s, TERMS - 1, 0] = -math.inf
+            continue
+        if last - low + 1 < TERMS:
+            return False
+        carried = True
+        for i in range(low, last + 1):
+            load = columns[i, s, 0]
+            for j in range(TERMS):
+                part = splines[k - low, last - k - 1, j, i - low]
+                poly[s, j, 0] += part * math.log(load)
+                for c in range(1, COLUMNS):
+                    poly[s, j, c] += part * columns[i, s, c] / load
+    return carried
 
 
 @scalar
-def _read_cell(own, skin, held, poly, k, t, row):
+def _read_cell(own, seats, skin, held, poly, k, t, row):
     """Columns at part t of cell k; the load."""
     apart()
-    load = 0.0
-    for c in range(COLUMNS + 1):
-        value = 0.0
-        for j in range(TERMS):
-            value = value * t + poly[j, c]
-        if c == 0:
-            load = own[DENSE] * math.exp(value)
-            row[F_SA] = load
-        elif c < COLUMNS:
-            row[F_SA + c] = max(load * value, 0.0)
-        elif not add_field(skin, held, own[LOWEST] + (k + t) * own[STEP] + value, row):
-            return math.nan
-    if own[DARK] == 0:
-        row[SHADE] = own[FIXED]
+    for c in range(COLUMNS):
+        row[F_SA + c] = 0.0
+    lift = 0.0
+    for s in range(len(seats) + 1):
+        load = 0.0
+        for c in range(COLUMNS if s < len(seats) else 1):
+            value = 0.0
+            for j in range(TERMS):
+                value = value * t + poly[s, j, c]
+            if s == len(seats):
+                lift = value
+            elif c == 0:
+                load = seats[s, DENSE] * math.exp(value)
+                row[F_SA] += load
+            else:
+                row[F_SA + c] += max(load * value, 0.0)
+    row[SHADE] += own[FIXED]
+    if not add_field(skin, held, own[LOWEST] + (k + t) * own[STEP] + lift, row):
+        return math.nan
     return (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA]
 
 
 @scalar
-def _root_in(own, skin, held, poly, k, target, row):
+def _root_in(own, seats, skin, held, poly, k, target, row):
     """Part of cell k at which the target is carried, and the slope of ln F; −1 or 2 beside it."""
     apart()
     low, high = 0.0, 1.0
-    f_low = math.log(_read_cell(own, skin, held, poly, k, low, row) / target)
-    f_high = math.log(_read_cell(own, skin, held, poly, k, high, row) / target)
+    f_low = math.log(_read_cell(own, seats, skin, held, poly, k, low, row) / target)
+    f_high = math.log(_read_cell(own, seats, skin, held, poly, k, high, row) / target)
     if not f_low >= 0:
         return -1.0, 0.0
     if not f_high <= 0:
@@ -393,7 +411,7 @@ def _root_in(own, skin, held, poly, k, target, row):
     t = f = side = 0.0
     for _ in range(STEPS):
         t = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else low
-        f = math.log(_read_cell(own, skin, held, poly, k, t, row) / target)
+        f = math.log(_read_cell(own, seats, skin, held, poly, k, t, row) / target)
         if abs(f) <= BALANCED or high - low < 1e-15:
             break
         if f > 0:
@@ -405,24 +423,23 @@ def _root_in(own, skin, held, poly, k, target, row):
             f_low *= 0.5 if side == -1 else 1.0
             side = -1.0
     near = t - 1e-4 if t > 0.5 else t + 1e-4
-    beside = math.log(_read_cell(own, skin, held, poly, k, near, row) / target)
-    _read_cell(own, skin, held, poly, k, t, row)
+    beside = math.log(_read_cell(own, seats, skin, held, poly, k, near, row) / target)
+    _read_cell(own, seats, skin, held, poly, k, t, row)
     return t, (beside - f) / (near - t)
 
 
 @scalar
-def _left_out(field, held, splines, k, t, low, high, last, rows, poly, row, out):
+def _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out):
     """What rows beyond the window change at most, from what fewer rows do."""
     apart()
     count = int(field[0][ROWS])
     fewer = low + FEWER if low > 0 else low
     most = high - FEWER if high < count - 1 else high
-    end = min(last, most)
     if fewer == low and most == high:
         return 0.0
-    if not _lay_cell(splines, k, fewer, most, end, rows, poly):
+    if not _lay_cell(splines, k, fewer, most, lasts, rows, poly):
         return math.inf
-    _read_cell(field[0], field[2], held, poly, k, t, out)
+    _read_cell(field[0], field[1], field[4], held, poly, k, t, out)
     load, area, worst = (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA], 0.0, 0.0
     for c in range(1, F_SA):
         area += row[c] + row[F_SA + c]
@@ -457,21 +474,25 @@ def _begin(field, held, target, h, rows, work, out):
     for k in range(count):
         done[k] = NONE
     if target > 0:
-        k, rounds = _first_row(field, held, target, work, out)
+        k, rounds = _first_row(field, held, NEGLIGIBLE * target, count - 1, rows, work, out)
+        if k > LONG:  # all the way down from particles that carry little
+            near, n = _first_row(field, held, CLOSE * target, k, rows, work, out)
+            k, rounds = min(k, near + ABOVE), rounds + n
         return k, rounds, True
     k = math.floor((h - own[LOWEST]) / own[STEP])
     return min(k + 1 + BESIDE, count - 1), 0, 0 <= k < count - 1
 
 
 @scalar
-def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row):
+def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, lasts):
     """Find the part of a cell, from cell k on, at which the target is carried, or h is.
 
-    Fate, rounds, the cell, the part, the slope of ln F over the cell, and the window of rows.
+    Fate, rounds, the cell, the part, the slope of ln F over the cell, and the window of rows; the
+    last rows in which particles of each seat carry anything into ``lasts``.
     """
     apart()
-    own, skin, columns = field[0], field[2], rows[2]
-    count, rounds, t, slope, low, high, last = int(own[ROWS]), 0, -1.0, 0.0, 0, 0, 0
+    own, seats, skin, columns = field[0], field[1], field[4], rows[2]
+    count, rounds, t, slope, low, high = int(own[ROWS]), 0, -1.0, 0.0, 0, 0
     for _ in range(3):
         if not 0 <= k < count - 1:
             break
@@ -479,30 +500,32 @@ def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row):
         n = _finish_rows(field, k, low, high, rows, work)
         if n < 0:
             break
-        rounds, last = rounds + n, low - 1
-        while last < high and columns[last + 1, 0] > TINIEST * own[SIGMA] ** 2:
-            last += 1
-        if not _lay_cell(splines, k, low, high, last, rows, poly):
+        rounds += n
+        for s in range(len(seats)):
+            lasts[s] = low - 1
+            while lasts[s] < high and columns[lasts[s] + 1, s, 0] > TINIEST * own[SIGMA] ** 2:
+                lasts[s] += 1
+        if not _lay_cell(splines, k, low, high, lasts, rows, poly):
             break
         if target > 0:
-            t, slope = _root_in(own, skin, held, poly, k, target, row)
+            t, slope = _root_in(own, seats, skin, held, poly, k, target, row)
         else:
             t = (h - own[LOWEST]) / own[STEP] - k
-            if not _read_cell(own, skin, held, poly, k, t, row) >= 0:
+            if not _read_cell(own, seats, skin, held, poly, k, t, row) >= 0:
                 break
         if 0 <= t <= 1:
             fate = OK if target <= 0 or slope < 0 else NOT_MONOTONE
-            return fate, rounds, k, t, slope, low, high, last
+            return fate, rounds, k, t, slope, low, high
         k += -1 if t < 0 else 1
-    return UNSOLVED, rounds, k, t, slope, low, high, last
+    return UNSOLVED, rounds, k, t, slope, low, high
 
 
 @scalar
-def _ground_state(field, held, splines, target, h, rows, work, poly, row, out):
+def _ground_state(field, held, splines, target, h, rows, work, poly, lasts, row, out):
     """Separation [σ], rounds, fate and error of one state; its columns into ``row``."""
     apart()
     own = field[0]
-    if own[ROWS] > MOST_ROWS:
+    if own[ROWS] > len(rows[0]):
         return h, 0, TOO_LONG, math.inf
     k, rounds, good = _begin(field, held, target, h, rows, work, out)
     if not good:
@@ -511,8 +534,8 @@ def _ground_state(field, held, splines, target, h, rows, work, poly, row, out):
     rounds += n
     if fate != OK:
         return h, rounds, fate, math.inf
-    fate, n, k, t, slope, low, high, last = _settle_cell(
-        field, held, splines, k, target, h, rows, work, poly, row
+    fate, n, k, t, slope, low, high = _settle_cell(
+        field, held, splines, k, target, h, rows, work, poly, row, lasts
     )
     rounds += n
     if fate != OK:
@@ -520,69 +543,110 @@ def _ground_state(field, held, splines, target, h, rows, work, poly, row, out):
     if target > 0:
         h = own[LOWEST] + (k + t) * own[STEP]
     error = own[LEFT] + SETTLED + _error_of(field, k, low, high, rows)
-    error += _left_out(field, held, splines, k, t, low, high, last, rows, poly, row, out)
+    error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
     if slope < 0:
-        error = max(error, error * own[STEP] / -slope)
+        error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
     return h, rounds, OK if error <= ASKED else NOT_RESOLVED, error
+
+
+@scalar
+def _lay_section(given, sides, rules, scratch, cells, floor, section):
+    """Lay the cells of a section; what they leave out, and whether they are laid, or why not."""
+    apart()
+    panels, edges, values, out = scratch
+    count = lay_panels(given, sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:])
+    if count <= 0:
+        return 0.0, TOO_LONG
+    laid, left = lay_gaps(
+        given, sides, panels, count, rules[1], rules[0, POLYNOMIAL:], cells, floor, edges,
+        values[0], values[1], out,
+    )  # fmt: skip
+    section[CELLS] = laid
+    if laid > 0:
+        return left, OK
+    return left, TOO_LONG if laid < 0 else SQUEEZED
+
+
+@scalar
+def _lay_sections(i, parts, bodies, rules, scratch, cells, floor, sections, left, fates, sides):
+    """Lay the cells of every section of state i anew that differs from that of the state before.
+
+    What they leave out, at most, and what became of them.
+    """
+    apart()
+    worst, fate = 0.0, OK
+    for s in range(sections.shape[1]):
+        if i > 0 and (
+            is_alike(parts[i, s], parts[i - 1, s])
+            and is_alike(bodies[i, 2 * s], bodies[i - 1, 2 * s])
+            and is_alike(bodies[i, 2 * s + 1], bodies[i - 1, 2 * s + 1])
+        ):
+            sections[i, s, CELLS] = sections[i - 1, s, CELLS]
+        else:
+            for one in range(2):
+                for k in range(bodies.shape[2]):
+                    sides[one, k] = bodies[i, 2 * s + one, k]
+            left[s], fates[s] = _lay_section(
+                parts[i, s : s + 1], sides, rules, scratch, cells[s], floor[s], sections[i, s]
+            )
+        worst = max(worst, left[s])
+        fate = max(fate, fates[s])
+    return worst, fate
 
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def solve_grounded(skins, parts, bodies, tables, grounds, series, which, basis, splines, rules,
-                   target, h, count, fate, error, rows):  # fmt: skip
-    """Solve states by their own numbers: skins (N, 1, ...), one population each (N, 1, ...) and its
-    sides (N, 2, ...), tables of surfaces (N, M, ...), grounds (N, ...).
+def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, series, alone, which,
+                   basis, splines, rules, target, h, count, fate, error, rows):  # fmt: skip
+    """Solve states by their own numbers: skins (N, 1, ...), sections of sizes ``parts`` (N, S, ...)
+    and their sides (N, 2S, ...), tables of surfaces (N, M, ...), grounds (N, ...), seats (N, P,
+    ...), and of ``sections`` (N, S, ...) what their cells are.
 
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
-    that ``which`` says. For the loads target [Pa] or, where they are zero, at the separations ``h``
-    of the mean planes [σ]. Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and
-    the columns ``rows`` (N, 10).
+    that ``which`` says, or rows of ``alone``. For the loads target [Pa] or, where they are zero, at
+    the separations ``h`` of the mean planes [σ]. States whose ``fate`` is not `OK` are left out.
+    Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and the columns ``rows``
+    (N, 10).
     """
-    sides = np.zeros((2, SIDE))
-    panels = np.empty((1, MOST_PANELS + ROOM, PANEL))
-    cells, floor = np.zeros((MOST_CELLS, A_CELL)), np.zeros(COLUMNS)
-    edges, values = np.empty(MOST_CELLS), np.empty((2, COLUMNS, OF_CELL))
+    most, every, length = seats.shape[1], sections.shape[1], 0
+    for i in range(len(target)):
+        length = max(length, int(min(grounds[i, ROWS], MOST_ROWS)))
+    sides, left, fates = np.zeros((2, SIDE)), np.zeros(every), np.zeros(every, np.int64)
+    scratch = (
+        np.empty((1, MOST_PANELS + ROOM, PANEL)), np.empty(MOST_CELLS),
+        np.empty((2, COLUMNS, OF_CELL)), np.zeros(10),
+    )  # fmt: skip
+    cells, floor = np.zeros((every, MOST_CELLS, A_CELL)), np.zeros((every, COLUMNS))
     surface, held = np.zeros((HEIGHTS_OF_TABLE, TERMS, OF_SURFACE)), np.zeros((2, 2 * OF_SURFACE))
-    kernels, out, poly = np.empty(series.shape[2]), np.zeros(10), np.zeros((TERMS, COLUMNS + 1))
+    kernels, out = np.empty(series.shape[2]), np.zeros(10)
+    poly, lasts = np.zeros((most + 1, TERMS, COLUMNS)), np.zeros(most, np.int64)
     lines = (
-        np.zeros((MOST_ROWS, UNKNOWNS)), np.zeros(MOST_ROWS), np.zeros((MOST_ROWS, COLUMNS)),
-        np.zeros(MOST_ROWS), np.zeros(MOST_ROWS), np.zeros(MOST_ROWS, np.int64),
+        np.zeros((length, UNKNOWNS)), np.zeros(length), np.zeros((length, most, COLUMNS)),
+        np.zeros(length), np.zeros((length, most)), np.zeros(length, np.int64),
     )  # fmt: skip
     work = (
         np.zeros((6, max(OF_SURFACE, TAUS))), np.zeros((OF_NODES, PLACES)),
         np.zeros((2, KEPT, UNKNOWNS)), np.zeros(1), np.zeros((3, KEPT + 1, UNKNOWNS)),
-        np.zeros((5, UNKNOWNS)),
+        np.zeros((4, UNKNOWNS)),
     )  # fmt: skip
-    laid, left = 0, 0.0
     for i in range(len(target)):
-        if i == 0 or not (
-            is_alike(parts[i, 0], parts[i - 1, 0])
-            and is_alike(bodies[i, 0], bodies[i - 1, 0])
-            and is_alike(bodies[i, 1], bodies[i - 1, 1])
-        ):
-            for s in range(2):
-                for k in range(bodies.shape[2]):
-                    sides[s, k] = bodies[i, s, k]
-            laid = lay_panels(parts[i], sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:])
-            if laid > 0:
-                laid, left = lay_gaps(
-                    parts[i], sides, panels, laid, rules[1], rules[0, POLYNOMIAL:], cells, floor,
-                    edges, values[0], values[1], out,
-                )  # fmt: skip
-        if laid <= 0:
-            fate[i], error[i] = TOO_LONG, math.inf
+        worst, laid = _lay_sections(
+            i, parts, bodies, rules, scratch, cells, floor, sections, left, fates, sides
+        )
+        fate[i] = max(fate[i], laid)
+        if fate[i] != OK:
+            error[i] = math.inf
             continue
         own = grounds[i]
-        own[CELLS] = laid
-        own[LEFT] += left
+        own[LEFT] += worst
         lay_surface(skins[i], tables[i], surface)
         lay_field(held)
         for m in range(series.shape[2]):
-            kernels[m] = 0.0
-        for j in range(series.shape[1]):
+            kernels[m] = alone[-1 - which[i], m] if which[i] < 0 else 0.0
+        for j in range(series.shape[1] if which[i] >= 0 else 0):
             for m in range(series.shape[2]):
                 kernels[m] += basis[i, j] * series[which[i], j, m]
-        field = own, kernels, skins[i], surface, cells, floor
+        field = own, seats[i], sections[i], kernels, skins[i], surface, cells, floor
         h[i], count[i], fate[i], error[i] = _ground_state(
-            field, held, splines, target[i], h[i], lines, work, poly, rows[i], out
+            field, held, splines, target[i], h[i], lines, work, poly, lasts, rows[i], out
         )

@@ -20,19 +20,19 @@ from ...populations import distributions as sizes
 from . import fields as f
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-__all__ = ["Grounds", "check_grounded", "mean_diameters"]
+__all__ = ["Grounds", "check_grounded"]
 
 WIDTH, NODES = 0.5, 16
 """Of cells over the distance from which others are felt, and nodes of their series."""
-BANDWIDTHS, WAVES = (2.5, 3.3, 4.4, 6.2, 8.4), 16
-"""Ends of cells over the bandwidth, and nodes over ln(α − 2); beyond, integrals over distances end
+BANDWIDTHS, WAVES = (2.8, 3.3, 4.4, 6.2, 8.4), 16
+"""Ends of cells over the bandwidth, and nodes over ln(α − 2); outside, integrals over distances end
 where their panels do, and jump."""
+OF_STATE = (MOMENTS + 1) * (1 + 2 * TERMS)
+"""k_n of particles, and series of two more in τ."""
 FELT = 0.5
 """Of what series leave out in ground over σ: loads are some hundredths of E*g, at most tenths."""
 FARTHEST = 40.0
@@ -41,19 +41,36 @@ SHORT = "the ground of particles on a field of heights is a table of its own"
 """What is said where the kernel does not know it."""
 
 
-def check_grounded(contact: Any, arrays: Mapping[str, Array], found: list[Any]) -> None:
+def check_grounded(contact: Any, found: list[Any]) -> None:
     """Refuse populations whose ground the kernel does not know."""
-    one = found[0][0]
-    if len(found) > 1 or one.strength is not None or found[0][2].seat != "rough":
+    if any(each.one.strength is not None or each.law.seat != "rough" for each in found):
         raise NotCompiled(SHORT)
-    law = contact.asperity_law
-    if law.spectrum is not None:
+    if contact.asperity_law.spectrum is not None:
         raise NotCompiled(SHORT)
 
 
-def mean_diameters(one: Any, changed: Any, arrays: Mapping[str, Array], rows: Array) -> Any:
+def mean_diameter(found: list[Any], rows: Array) -> Any:
+    """Mean diameter of all particles [m], a float or one of each state.
+
+    Parameters
+    ----------
+    found : list of Section
+    rows : array (N, P, ...)
+        Their numbers.
+    """
+    diameters = [
+        mean_of_sizes(each.one.diameter, each.changed.diameter, rows[:, s])
+        for s, each in enumerate(found)
+    ]
+    first, total = diameters[0], 0.0
+    for s, diameter in enumerate(diameters):
+        total = total + rows[:, s, f.DENSITY] * (diameter - first)
+    return first + total / rows[:, :, f.DENSITY].sum(axis=1)
+
+
+def mean_of_sizes(one: Any, changed: Any, rows: Array) -> Any:
     """Mean diameter of each state [m], of sizes as they are and with arrays in them."""
-    if not any(name.startswith("particles.") and ".diameter." in name for name in arrays):
+    if changed is one:
         return one.mean_diameter
     if type(one) is sizes.Monodisperse:
         return changed.mean
@@ -79,40 +96,72 @@ class Displacements:
     series : array (C, K, 429)
         Of each cell over the distance from which others are felt, and over the bandwidth.
     which, basis : array (N,), (N, K)
-        Cell of each state, and what its terms are there.
+        Cell of each state, and what its terms are there. Below zero, −1 − m for row m of ``alone``.
+    alone : array (M, 429)
+        Of states whose bandwidth has series of its own: their sums.
     tails : array (N,)
         What the series leave out, at most.
+    known : array (N,)
+        Whether a state has series: those without are no states of the kernel.
     """
 
-    def __init__(self, keys: list[tuple[Any, ...]], which: Any, basis: Array):
+    def __init__(self, known: NDArray[np.bool_], terms: int):
+        self.series, self.basis = np.zeros((1, terms, OF_STATE)), np.zeros((len(known), terms))
+        self.which, self.alone = np.zeros(len(known), np.int64), np.zeros((1, OF_STATE))
+        self.known, self.tails = known, np.zeros(len(known))
+
+    def fill(self, states: Any, keys: list[tuple[Any, ...]], which: Any, basis: Array) -> None:
+        """Take the series of these keys, of which each of these states has one."""
         self.series = np.array([_series(*key) for key in keys])
-        self.which, self.basis = which, basis
+        self.which[states], self.basis[states] = which.ravel(), basis
         tails = np.array([_tail(one, basis.shape[1] > NODES) for one in self.series])
-        self.tails = tails[which]
+        self.tails[states] = tails[self.which[states]]
+
+    def fill_alone(self, states: Any, alpha: Array, apart: Array) -> None:
+        """Sum up the series of each of these states by itself."""
+        self.alone = np.zeros((max(len(states), 1), OF_STATE))
+        place, terms = _places(apart)
+        for m, i in enumerate(states.tolist()):
+            series = _series(float(alpha[m]), int(place[m]), -1)
+            self.which[i], self.tails[i] = -1 - m, _tail(series, False)
+            self.alone[m] = (terms[m][:, None] * series).sum(axis=0)
 
 
 def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
     """Of states with bandwidths α, or one, and distances over √(m0/m2) (N,)."""
-    place = np.minimum(apart / WIDTH, 1e9).astype(int)
-    terms = _terms(2 * (apart / WIDTH - place) - 1, NODES)
-    if not varies:
-        if apart.max() * float(rolled_off(alpha).q.max()) > FARTHEST:
-            raise NotCompiled(SHORT)
-        cells, which = np.unique(place, return_inverse=True)
-        keys: list[tuple[Any, ...]] = [(float(alpha), n, -1) for n in cells.tolist()]
-        return Displacements(keys, which.ravel().astype(np.int64), terms)
-    if np.any((alpha < BANDWIDTHS[0]) | (alpha > BANDWIDTHS[-1])):
-        raise NotCompiled("bandwidths vary so far that the ground of particles is not known")
-    if apart.max() * float(rolled_off(BANDWIDTHS[-1]).q.max()) > FARTHEST:
+    every = np.broadcast_to(np.asarray(alpha, float), len(apart))
+    together = (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1]) if varies else every > 0
+    finest = np.full(len(apart), rolled_off(BANDWIDTHS[-1] if varies else alpha).q.max())
+    for i in np.flatnonzero(~together):
+        finest[i] = rolled_off(float(every[i])).q.max()
+    known = apart * finest <= FARTHEST
+    if not known.any():
         raise NotCompiled(SHORT)
-    cell = np.clip(np.searchsorted(BANDWIDTHS, alpha, side="right") - 1, 0, len(BANDWIDTHS) - 2)
+    out = Displacements(known, WAVES * NODES if varies else NODES)
+    few, many = np.flatnonzero(known & ~together), np.flatnonzero(known & together)
+    out.fill_alone(few, every[few], apart[few])
+    if not len(many):
+        return out
+    place, terms = _places(apart[many])
+    if not varies:
+        cells, which = np.unique(place, return_inverse=True)
+        out.fill(many, [(float(alpha), n, -1) for n in cells.tolist()], which, terms)
+        return out
+    every = every[many]
+    cell = np.clip(np.searchsorted(BANDWIDTHS, every, side="right") - 1, 0, len(BANDWIDTHS) - 2)
     ends = np.log(np.array(BANDWIDTHS) - 2)
-    x = 2 * (np.log(alpha - 2) - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1
+    x = 2 * (np.log(every - 2) - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1
     across = _terms(x, WAVES)
     both, which = np.unique(np.stack([cell, place]), axis=1, return_inverse=True)
-    keys = [(math.nan, n, m) for m, n in both.T.tolist()]
-    basis = (across[:, :, None] * terms[:, None, :]).reshape(len(alpha), -1)
-    return Displacements(keys, which.ravel().astype(np.int64), basis)
+    basis = (across[:, :, None] * terms[:, None, :]).reshape(len(every), -1)
+    out.fill(many, [(math.nan, n, m) for m, n in both.T.tolist()], which, basis)
+    return out
+
+
+def _places(apart: Array) -> tuple[Any, Array]:
+    """Cells over the distance, and the terms of series there: (N,), (N, NODES)."""
+    place = (apart / WIDTH).astype(int)
+    return place, _terms(2 * (apart / WIDTH - place) - 1, NODES)
 
 
 def _terms(x: Array, count: int) -> Array:
@@ -189,46 +238,48 @@ class Grounds:
 
     Parameters
     ----------
-    skins, parts : array (N, 1, ...)
-        Of asperities and populations, filled.
-    alpha : float or array (N,)
-        Bandwidth, an array where it varies.
-    law, rough : Any
-        Law of the particles and roughness, with arrays in them.
-    diameter : float or array (N,)
-        Mean diameter [m].
-    datum : float
-        Height over σ from which d counts.
+    skins, parts : array (N, 1, ...), (N, S, ...)
+        Of asperities and of sections of sizes, filled.
+    found : list of Section
+        What these are.
+    rough : Roughness
+        With arrays in it.
     """
 
-    def __init__(
-        self, skins: Array, parts: Array, alpha: Any, law: Any, rough: Any, diameter: Any,
-        datum: float,
-    ):  # fmt: skip
+    def __init__(self, skins: Array, parts: Array, found: list[Any], rough: Any):
         from . import ground as g
 
-        skin, part, count = skins[:, 0], parts[:, 0], len(skins)
-        width, chi = np.broadcast_to(law.zeta_std, count), skin[:, f.CHI]
-        if np.any(part[:, f.HIGH] > WIDEST * width * rough.sigma):
-            raise NotCompiled(SHORT)
+        skin, count, alpha = skins[:, 0], len(skins), rough.alpha
+        chi, sigma = skin[:, f.CHI], np.broadcast_to(rough.sigma, count)[:, None]
+        fixed = np.where(parts[:, :, f.SHADOW] == f.COVERED, parts[:, :, f.COVERAGE], 0.0)
         self.parts = parts.copy()
-        fixed = np.where(part[:, f.SHADOW] == f.COVERED, part[:, f.COVERAGE], 0.0)
-        plain = {f.SEAT: f.PLANE, f.DENSITY: 1.0, f.OFFSET: 0.0, f.WIDTH: 0.0, f.COVERAGE: 0.0}
-        for column, value in plain.items():
-            self.parts[:, 0, column] = value
+        self.parts[:, :, f.DENSITY] = [each.part for each in found]
+        for column, value in {f.SEAT: f.PLANE, f.OFFSET: 0, f.WIDTH: 0, f.COVERAGE: 0}.items():
+            self.parts[:, :, column] = value
+        self.sections = np.zeros((*parts.shape[:2], g.OF_SECTION))
+        self.sections[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
+        self.seats = np.zeros((count, found[-1].component + 1, g.OF_SEAT))
+        top = parts[:, :, f.HIGH] / sigma
+        for s, each in enumerate(found):
+            seat = self.seats[:, each.component]
+            if seat[0, g.LAST_SECTION] == 0:
+                seat[:, g.MEAN], seat[:, g.SPREAD] = each.varied.zeta_mean, each.varied.zeta_std
+                seat[:, g.SECTION] = s
+            seat[:, g.LAST_SECTION] = s + 1
+            seat[:, g.TOP] = np.maximum(seat[:, g.TOP], top[:, s])
+            seat[:, g.DENSE] += parts[:, s, f.DENSITY]
+        mean, width, top = (self.seats[:, :, k] for k in (g.MEAN, g.SPREAD, g.TOP))
+        if np.any(top > WIDEST * width):
+            raise NotCompiled(SHORT)
         soft = skin[:, f.IS_SOFT] == 1
         lowest = np.where(soft, separations(True)[0], separations(False)[0])
-        top = part[:, f.HIGH] / rough.sigma
-        reach = top + NORMAL_REACH * width + law.zeta_mean - datum
+        reach = (top + NORMAL_REACH * width + mean - found[0].law.centre).max(axis=1)
         last = np.maximum(reach, lowest + 1.0)
-        steps = rows_between(lowest, reach, np.minimum(1.0, width))
+        steps = rows_between(lowest, reach, np.minimum(1.0, width.min(axis=1)))
         self.numbers = np.zeros((count, g.OF_GROUND))
         for column, value in {
             **{g.LOWEST: lowest, g.STEP: (last - lowest) / steps, g.ROWS: steps + 1},
-            **{g.MEAN: law.zeta_mean, g.SPREAD: width, g.TOP: top, g.SIGMA: rough.sigma},
-            **{g.DENSE: part[:, f.DENSITY], g.UNIT: skin[:, f.FORCE], g.FIXED: fixed},
-            g.DARK: (part[:, f.SHADOW] == f.FOOTPRINT) | (part[:, f.SHADOW] == f.PROJECTED),
-            g.POWER: np.where(part[:, f.KIND] == f.ONE_SIZE, 2.0, 4.0),
+            **{g.SIGMA: rough.sigma, g.UNIT: skin[:, f.FORCE], g.FIXED: fixed.sum(axis=1)},
         }.items():
             self.numbers[:, column] = value
         every = np.broadcast_to(np.asarray(alpha, float), count)
@@ -237,6 +288,7 @@ class Grounds:
             if some.any():
                 rows = rows_of(chi[some], every[some], soft=bool(soft[some][0]))
                 self.tables[some, : rows.shape[1]] = rows
+        diameter = mean_diameter(found, parts)
         apart = np.broadcast_to(diameter * rough.slope / (math.sqrt(2) * rough.sigma), count)
         known = displacements_of(alpha, np.array(apart), np.ndim(alpha) > 0)
         self.displacements = known

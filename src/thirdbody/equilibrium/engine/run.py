@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...contact.broken_averages import is_rough
 from ...contact.contact import Contact
 from ...contact.interface import together
 from ..columns import as_columns
@@ -29,7 +30,9 @@ AT_ONCE = 256
 """States handed to a thread at a time."""
 NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
-DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG)
+SQUEEZED = "particles are squeezed by more than their size on a field of heights"
+NO_SERIES = "the ground of such large particles on a field of heights is not known"
+DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES)
 """Why a state is for the NumPy engine to judge."""
 CODES = {
     f.UNSOLVED: NOT_BALANCED,
@@ -37,7 +40,13 @@ CODES = {
     f.NOT_MONOTONE: NOT_MONOTONE,
     f.NOT_RESOLVED: NOT_RESOLVED,
     f.TOO_LONG: TOO_LONG,
+    f.SQUEEZED: SQUEEZED,
+    f.NO_SERIES: NO_SERIES,
 }
+
+
+ROUGH = 1e-6
+"""Estimated error that does for one of many samples."""
 
 
 def own_columns(
@@ -63,6 +72,8 @@ def own_columns(
     if target is None:
         deep = given < numbers.deepest
         fate[deep], evaluations[deep] = Status.TOO_DEEP, 0
+    if is_rough():
+        fate[(fate == f.NOT_RESOLVED) & (error <= ROUGH)] = f.OK
     bad = fate != f.OK
     h[bad] = np.nan
     rows[bad] = np.nan
@@ -94,6 +105,8 @@ def solve(
     goal = np.array(np.broadcast_to(0.0 if target is None else target, count), dtype=float)
     evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
+    if numbers.ground is not None:
+        fate[~numbers.ground.displacements.known] = f.NO_SERIES
     rule = rules(bool(numbers.inside[0, 0] > 0))
 
     def solve_from(start: int) -> None:
@@ -130,7 +143,8 @@ def solve_on_ground(
     known = ground.displacements
     solve_grounded(
         *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
-        *(ground.numbers[here], known.series, known.which[here], known.basis[here]),
+        *(ground.numbers[here], ground.seats[here], ground.sections[here]),
+        *(known.series, known.alone, known.which[here], known.basis[here]),
         *(SPLINES, rule),
         *found,
     )

@@ -351,7 +351,7 @@ def _add_panel(given, sides, panels, p, count, n, gap, low, high, rule, out):
     """What sizes between two carry that are on panel n, or the squares of those beyond all."""
     apart()
     room, own, squared = panels[p, len(panels[p]) - ROOM :], scale_of(given, p, low), 0.0
-    parts = math.ceil((high - low) / (rule[0, PLANE_SPAN] * own) - 1e-9)
+    parts = max(1, math.ceil((high - low) / (rule[0, PLANE_SPAN] * own) - 1e-9))
     # the logarithm of what a squeeze leaves of one is that of the indentation over the gap
     variable = LINEAR if n == count else variable_of(given, panels, p, n)
     variable = LINEAR if variable == FLATTENED else variable
