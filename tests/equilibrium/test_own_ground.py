@@ -10,7 +10,7 @@ import pytest
 import thirdbody as tb
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.engine import grounds
-from thirdbody.equilibrium.engine.run import own_columns
+from thirdbody.equilibrium.engine.run import NO_SERIES, SQUEEZED, own_columns
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.field.own import RollOff
 from thirdbody.laws.field.programme import MOMENTS
@@ -259,7 +259,7 @@ def test_few_states_go_to_the_kernel_and_one_without_series_alone_to_numpy():
     )
     found = state_columns(contact(large), F_star=1e-6, vary=vary)
     assert found["engine"][[0, 1, 3]].tolist() == ["compiled"] * 3
-    assert str(found["engine"][2]).startswith("numpy: the ground of such large particles")
+    assert str(found["engine"][2]).startswith(f"numpy: {NO_SERIES}")
     assert set(found["status"]) == {"ok"}
 
 
@@ -278,9 +278,7 @@ def test_bandwidths_beyond_the_series_have_their_own():
 def test_flakes_squeezed_beyond_their_size_say_so():
     case, vary = contact(law=tb.particle.Flakes(aspect=8.0)), {"roughness.sigma": np.full(1, 1e-7)}
     found = own_columns(case, vary, "F_star", np.full(1, 1e-5))
-    assert found["doubt"].tolist() == [
-        "particles are squeezed by more than their size on a field of heights"
-    ]
+    assert found["doubt"].tolist() == [SQUEEZED]
 
 
 @pytest.mark.parametrize("name", ["hard", "two different sides", "classes of sizes and squashed"])
