@@ -105,7 +105,7 @@ BARE = (
 LEFT = {
     "of": 12,
     "at": 4,
-    "part": 2,
+    "part": 1,
     "held": 1,
     "met": 1,
 }

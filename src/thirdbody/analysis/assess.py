@@ -190,19 +190,19 @@ def assess_each(
     elif held:
         at: Any = held if len(held) > 1 else held[0]
         outputs = min(count, MOST_OUTPUTS) * len(held) if contact.outputs else 0
-        with work.part(count, count * len(held) + EVALUATED * work.critical, outputs):
+        with work.show_part(count, count * len(held) + EVALUATED * work.critical, outputs):
             found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
         work.second(found)
         bands = (found.at_load(i) for i in range(len(held)))
     progress(PARTS[1])
     slopes: dict[str, dict[str, float]] = {}
-    with work.part(work.ends):
+    with work.show_part(work.ends):
         out = [
             _page(title, next(bands), state, notes, slopes) if isinstance(state, _Own) else state
             for state in own
         ]
     progress(PARTS[2])
-    with work.part(work.ways), roughly():
+    with work.show_part(work.ways), roughly():
         found_ways = iter(_changes([page for page in out if isinstance(page, Assessment)]))
     pages: list[Assessment | NoEquilibrium] = []
     for page in out:
@@ -266,7 +266,7 @@ class _Work:
                 self.tell = progress.tell
 
     @contextmanager
-    def part(self, expected: int, states: int = 0, outputs: int = 0) -> Iterator[None]:
+    def show_part(self, expected: int, states: int = 0, outputs: int = 0) -> Iterator[None]:
         """One part, of so many contacts or states, and so many states with outputs."""
         done, of_outputs = 0.0, _Outputs(self.progress, outputs)
 

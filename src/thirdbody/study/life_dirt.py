@@ -42,8 +42,14 @@ def _code(reader: Reader, path: str, value: Any) -> str:
     try:
         cleanliness.read_iso4406(value)
     except InvalidValue as error:
-        raise InvalidValue(Problem(path, f": {error}", code=error.code)) from None
+        raise _placed(path, error) from None
     return str(value)
+
+
+def _placed(path: str, error: InvalidValue | TypeError) -> InvalidValue:
+    """The mistake at its place in the file."""
+    code = error.code if isinstance(error, InvalidValue) else Mistake.KIND
+    return InvalidValue(Problem(path, f": {error}", code=code))
 
 
 def _dust(reader: Reader, path: str, value: Any) -> str:
@@ -51,13 +57,7 @@ def _dust(reader: Reader, path: str, value: Any) -> str:
     try:
         dust = cleanliness.dust_table(value)
     except (InvalidValue, TypeError) as error:
-        raise InvalidValue(
-            Problem(
-                path,
-                f": {error}",
-                code=error.code if isinstance(error, InvalidValue) else Mistake.KIND,
-            )
-        ) from None
+        raise _placed(path, error) from None
     if not dust["verified"]:
         reader.notes.append(
             f"{path} = {say(value)}: its table is that of {dust['edition']} and was not "
@@ -71,13 +71,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> str:
     try:
         cleanliness.concentration(value)
     except (InvalidValue, TypeError) as error:
-        raise InvalidValue(
-            Problem(
-                path,
-                f": {error}",
-                code=error.code if isinstance(error, InvalidValue) else Mistake.KIND,
-            )
-        ) from None
+        raise _placed(path, error) from None
     return str(value)
 
 
