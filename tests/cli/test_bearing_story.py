@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody import cli, load_study
+from thirdbody.quantities.say import number, value_of
 from thirdbody.study import bearing_file, check
 from thirdbody.study.dirty_oil import dirty_oil
 from thirdbody.study.toml import read
@@ -21,6 +22,7 @@ from thirdbody.systems.bearing_life import contamination_factor, life_factor, vi
 from thirdbody.systems.bearing_sizes import DESIGNATIONS
 from thirdbody.systems.oil_filter import Filter
 from thirdbody.systems.oil_particles import FilmParticles
+from thirdbody.views.oil_words import answer, filter_answer, filter_rows
 
 
 def run(*arguments, code=0):
@@ -45,21 +47,32 @@ def test_which_of_them_dents_and_would_a_filter_help():
     title, *lines = shown.splitlines()
     assert title.startswith("Ball bearing 6205 under 0.5 kN at 3000 rpm, oil 18/16/13")
     told = " ".join(" ".join(lines).split())
-    answer, carries, life = re.split(r"(?<=\.) (?=The film|By ISO)", told)[:3]
-    assert re.match(r"Dust dents the inner ring deepest: \d+ dents an hour, \d+ nm deep on", answer)
-    assert "steel debris dents it most often:" in answer
-    assert re.search(r"carries [\d.]+ % of the load at 2.9 m/s \(lambda = [\d.]+\)", carries)
-    assert "oil 18/16/13 with kappa = 1.74 has e_C = 0.073, and the life factor a_ISO is" in life
+    study = load_study("ball-bearing.toml")
+    found = dirty_oil(study)
+    assert told.startswith(" ".join(answer(found)))
+    dents, carries, life = answer(found)
+    dust, steel = found.populations
+    assert dust.depth_p95 > steel.depth_p95
+    assert steel.per_hour > dust.per_hour
+    depths = [value_of(each, "m", 3) for part in (dust, steel)
+              for each in (part.depth, part.depth_p95)]  # fmt: skip
+    assert re.findall(r"[\d.]+ [nµ]m", dents) == depths
+    assert value_of(found.speed, "m/s", 3) == "2.9 m/s"
+    for each in ("2.9 m/s", f"lambda = {number(found.lambda_ratio, 2)}"):
+        assert each in carries
+    for value in (found.life.e_C, found.life.a_ISO, found.life.clean):
+        assert number(value, 2) in life
+    assert f"kappa = {number(found.life.kappa, 3)}" in life
     assert "Of 9 balls" in told
     assert "Stribeck" in told
     filtered = run("film", "ball-bearing.toml", "--filter", "5=75, 10=1000")
     assert max(map(len, filtered.splitlines())) <= 80
     told = " ".join(filtered.split())
-    assert re.search(
-        r"the filter takes the dents from \d+ to \d+ an hour, [\d.]+ times fewer", told
-    )
-    assert "the oil from 18/16/13 to 13/9/3" in told
-    assert "before after the filter" in told
+    after = dirty_oil(study, filter=Filter(sizes=(5e-6, 10e-6), betas=(75.0, 1000.0)))
+    assert f") {filter_answer(found, after)} {' '.join(answer(found))} " in told
+    assert (found.life.code, after.life.code) == ("18/16/13", "13/9/3")
+    for row in filter_rows(found, after):
+        assert " ".join(row) in told
 
 
 def test_the_numbers_of_the_answer_are_those_of_the_parts():
@@ -191,5 +204,7 @@ def test_soft_debris_is_flattened_and_an_oil_too_dirty_has_no_factor():
     found = dirty_oil(load_study("b.toml", dirty))
     assert math.isnan(found.life.a_ISO)
     assert "24/22/19" in found.life.why
-    shown = run("film", "b.toml", *(word for each in dirty for word in ("--set", each)))
-    assert "gives no life factor" in " ".join(shown.split())
+    asked = [word for each in dirty for word in ("--set", each)]
+    life = json.loads(run("film", "b.toml", *asked, "--json"))["oil"]["life"]
+    assert (life["a_ISO"], life["why"]) == (None, found.life.why)
+    assert found.life.why in " ".join(run("film", "b.toml", *asked).split())

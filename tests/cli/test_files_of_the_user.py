@@ -9,7 +9,9 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from command_line import refused, run
 from damage import empty, flipped, missing, truncated
+from refusals import Mistake, refuses
 
 import thirdbody as tb
 from thirdbody.cli.commands import COMMANDS
@@ -22,7 +24,7 @@ from thirdbody.study.dirty_oil import dirty_oil
 from thirdbody.study.oil_what_ifs import what_ifs_of_oil
 from thirdbody.views.html import document
 
-from .test_cli import EXAMPLES, run
+from .test_cli import EXAMPLES
 
 STUDY, EXPLICIT, DESIGN, FILM, ASSESS = (
     next(path for path in EXAMPLES if path.stem == stem)
@@ -96,20 +98,20 @@ def test_explicit_keeps_the_results_of_another_study(tmp_path):
     assert run(*words, "--out", tmp_path).exit_code == 0
     before = contents(tmp_path)
     for change, said in [
-        ("roughness.sigma=310 nm", "inputs.roughness.sigma is 3e-07 there and 3.1e-07 here"),
-        ("explicit.seed=1", "explicit.seed is null there and 1 here"),
-        ("load.F_star=[1e-3]", "F_star is"),
+        ("roughness.sigma=310 nm", ("inputs.roughness.sigma", " 3e-07 ", " 3.1e-07 ")),
+        ("explicit.seed=1", ("explicit.seed", " null ", " 1 ")),
+        ("load.F_star=[1e-3]", ("F_star",)),
     ]:
-        done = run(*words, "--out", tmp_path, "--set", change)
-        assert done.exit_code == 2, change
-        assert "holds another study" in done.stderr
-        assert said in done.stderr
+        (problem,) = refused(*words, "--out", tmp_path, "--set", change).problems
+        assert problem.code is Mistake.OTHER_STUDY
+        assert all(each in problem for each in said)
     assert contents(tmp_path) == before
     # more of the same goes on, less does not
     more = [*words[:2], "--surfaces", "2", *words[4:]]
     assert run(*more, "--out", tmp_path).exit_code == 0
-    done = run(*words, "--out", tmp_path)
-    assert "surfaces is 2 there and 1 here" in done.stderr
+    (problem,) = refused(*words, "--out", tmp_path).problems
+    assert problem.code is Mistake.OTHER_STUDY
+    assert all(each in problem for each in ("surfaces", " 2 ", " 1 "))
 
 
 def test_a_study_that_explicit_refuses_leaves_nothing(tmp_path):
@@ -129,13 +131,14 @@ def test_folders_of_an_earlier_version_of_explicit_go_on(tmp_path):
     (tmp_path / "study.json").unlink()
     done = run(*words, "--out", tmp_path)
     assert done.exit_code == 0, done.output
-    assert "1 surface of an earlier version of thirdbody kept no digest" in done.stderr
+    assert "kept.unchecked" in done.codes
     assert json.loads((tmp_path / "explicit.json").read_text()) == json.loads(
         wanted["explicit.json"]
     )
     (tmp_path / "study.json").unlink()
-    other = run(*words, "--out", tmp_path, "--set", "roughness.sigma=310 nm")
-    assert "another study: inputs.roughness.sigma" in other.stderr
+    (other,) = refused(*words, "--out", tmp_path, "--set", "roughness.sigma=310 nm").problems
+    assert other.code is Mistake.OTHER_STUDY
+    assert "inputs.roughness.sigma" in other
 
 
 @pytest.mark.parametrize("words", [("surface", "example"), ("compare", STUDY, "--laws", "gw")])
@@ -145,9 +148,8 @@ def test_names_that_a_command_chooses_are_taken_from_nobody(tmp_path, words):
     assert run(*words, "--out", out).exit_code == 0
     other = {"surface": ("--cutoff", "3 um"), "compare": ("--set", "roughness.sigma=90 nm")}
     before = contents(out)
-    done = run(*words, *other[words[0]], "--out", out)
-    assert done.exit_code == 2
-    assert "of another study" in done.stderr
+    done = refused(*words, *other[words[0]], "--out", out)
+    assert done.mistakes == [(Mistake.OTHER_STUDY, "")]
     assert contents(out) == before
     mine = tmp_path / "mine"
     mine.mkdir()
@@ -210,7 +212,7 @@ def test_a_measured_surface_is_not_written_over(tmp_path):
 
 
 def test_two_tables_do_not_go_into_one_file(tmp_path):
-    with pytest.raises(ValueError, match="another file of that name is written"):
+    with refuses(Mistake.UNWRITABLE, "", says=str(tmp_path / "t")):
         refuse_clashes([tmp_path / "t", None, tmp_path / "t"], [])
     refuse_clashes([Path(os.devnull), Path(os.devnull), None], [])
 
@@ -253,11 +255,10 @@ def test_a_file_of_somebody_else_is_replaced_by_force_only(tmp_path, name):
     assert run(*ONE_FILE[name], file).exit_code == 0, "our own file is refused"
     assert contents(tmp_path) == {name: wanted}
     file.write_bytes(b"mine")
-    done = run(*ONE_FILE[name], file)
-    assert done.exit_code == 2
-    (line,) = (each for each in done.stderr.splitlines() if each.startswith("error"))
-    assert f"cannot write {file}: it exists and is no" in line
-    assert "--force" in line
+    done = refused(*ONE_FILE[name], file)
+    (problem,) = done.problems
+    assert problem.code is Mistake.UNWRITABLE
+    assert all(each in problem for each in (str(file), "--force"))
     assert done.stdout == ""
     assert contents(tmp_path) == {name: b"mine"}
     assert run(*ONE_FILE[name], file, "--force").exit_code == 0
@@ -307,9 +308,9 @@ def test_one_of_ours_of_another_kind_is_not_replaced(tmp_path):
     file = tmp_path / "film.png"
     assert run(*ONE_FILE["film.png"], file).exit_code == 0
     before = contents(tmp_path)
-    done = run(*ONE_FILE["film.csv"], file)
-    assert done.exit_code == 2
-    assert "is no table of thirdbody" in done.stderr
+    (problem,) = refused(*ONE_FILE["film.csv"], file).problems
+    assert problem.code is Mistake.UNWRITABLE
+    assert all(each in problem for each in (str(file), "--force"))
     assert contents(tmp_path) == before
 
 
@@ -317,10 +318,10 @@ def test_one_of_ours_of_another_kind_is_not_replaced(tmp_path):
 def test_a_page_takes_the_place_of_a_page_only(tmp_path, words):
     file = tmp_path / "mine.html"
     file.write_text("<p>mine</p>")
-    done = run(*words, file)
-    assert done.exit_code == 2
-    assert "mine.html: it exists and is no page of thirdbody" in done.stderr
-    assert done.stderr.count("error:") == 1
+    # what is printed of it: the one place that holds these words
+    (problem,) = refused(*words, file).problems
+    assert problem.startswith(f"cannot write {file}: it exists and is no page of thirdbody; ")
+    assert problem.code is Mistake.UNWRITABLE
     assert file.read_text() == "<p>mine</p>"
     file.write_text(document("Report", []))
     need_places([(file, "page")], force=False)
@@ -329,9 +330,9 @@ def test_a_page_takes_the_place_of_a_page_only(tmp_path, words):
 def test_the_usual_report_takes_the_place_of_a_report_only(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "report.html").write_text("<p>mine</p>")
-    done = run("report", STUDY)
-    assert done.exit_code == 2
-    assert "report.html: it exists and is no page of thirdbody" in done.stderr
+    (problem,) = refused("report", STUDY).problems
+    assert problem.code is Mistake.UNWRITABLE
+    assert all(each in problem for each in ("report.html", "--force"))
     assert (tmp_path / "report.html").read_text() == "<p>mine</p>"
 
 
@@ -487,7 +488,7 @@ def test_damaged_files_of_a_folder_are_written_anew_or_left(tmp_path, words, nam
     assert "Traceback" not in done.output
     if name.endswith(("json", "csv")):
         assert done.exit_code == 2
-        assert "give another folder, remove what is not needed, or" in done.stderr
+        assert done.mistakes == [(Mistake.OTHER_STUDY, "")]
         assert contents(tmp_path) == before
     else:
         assert done.exit_code == 0

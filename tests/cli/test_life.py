@@ -16,7 +16,8 @@ from thirdbody.study.run_life import load_circuit, load_life, reports_of, run_li
 from thirdbody.systems.life.report_notes import below_counts, beyond_counts
 from thirdbody.systems.life.sizing import least_flow
 from thirdbody.views.html import words as words_in_html
-from thirdbody.views.life_words import answer
+from thirdbody.views.life_amounts import duration_of
+from thirdbody.views.life_words import HEADS, answer, last_words
 from thirdbody.views.report import report
 
 from .life_shell import CONTACT, HOUR, complained, enter, run, said, setting
@@ -32,14 +33,25 @@ def folder(tmp_path, monkeypatch):
 # ------------------------------------------------------------------------------ the history
 def test_codes_flows_and_events_are_told():
     told = said(run("life", "oil-circuit.toml"))
-    history = run_life(load_life("oil-circuit.toml")).history
-    assert f"The oil goes from {history.codes[0]} to {history.codes[-1]} in 2000 h" in told
-    assert f"it ends at {history.steady()[0].code}, and is within half a number of it" in told
-    assert "return filter is full with 50 g, and is changed" in told
-    assert "After 1500 h: the oil is changed" in told
-    assert "oil through the filters once 3.33 min" in told
-    assert "What nobody can predict: the ingress" in told
-    assert told.index("The oil goes") < told.index("time ISO 4406") < told.index("Time scales")
+    found = run_life(load_life("oil-circuit.toml"))
+    history = found.history
+    sentences, last = answer(found), last_words(found)
+    assert sentences[0] == f"The oil goes from {history.codes[0]} to {history.codes[-1]} in 2000 h."
+    assert history.steady()[0].code in sentences[1]
+    for time in history.code_times:
+        assert duration_of(time, 2) in sentences[1]
+    assert {each.name for each in history.events} == {"filter full", "oil change"}
+    for event in history.events:
+        assert duration_of(event.time) in " ".join(last)
+        assert event.sentence in told
+    assert history.time_scales["oil through the filters once"] == pytest.approx(
+        200
+    )  # 200 L, 60/min
+    for name, time in history.time_scales.items():
+        assert f"{name} {duration_of(time)}" in last[-2]
+    # the answer, the table, and then what happened
+    first, table, rest = (told.index(" ".join(each)) for each in (sentences, HEADS, last))
+    assert first < table < rest
 
 
 def test_every_line_fits_80_columns():

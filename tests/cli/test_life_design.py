@@ -1,6 +1,7 @@
 """``thirdbody design`` of an oil: the smallest filter for a code, the longest time to an event."""
 
 import json
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -123,7 +124,7 @@ def test_the_time_of_a_contact_is_that_of_its_history():
     asked = load_oil(file, [*keys, f'life.until.wear_depth="{depth!r} m"'])
     found = design_life(asked)
     assert found.times[0] == pytest.approx(3600.0, rel=1e-3)
-    assert found.names[0] == "as it is"
+    assert found.names[0] == tomllib.loads(CHOICES)["life"]["design"]["choices"][0]["name"]
 
 
 MISTAKES = [

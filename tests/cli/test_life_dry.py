@@ -18,6 +18,7 @@ from thirdbody.errors import Mistake
 from thirdbody.study.run_life import load_life, run_life
 from thirdbody.systems.life.debris import Debris
 from thirdbody.views.html import words as words_in_html
+from thirdbody.views.life_amounts import duration_of
 from thirdbody.views.life_dry_words import answer
 from thirdbody.views.report.tables import life_section
 
@@ -76,7 +77,10 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
     assert told.startswith(f"{head} {first} {second} time")
     assert found.history.reproduction in first
     assert "After 60 min wear has taken surface 1 by" in second
-    assert "residence of what rolls 0.2 s" in told
+    scales = found.history.time_scales
+    assert scales["residence of what rolls"] == pytest.approx(0.2)  # twice 10 mm by 0.1 m/s
+    for name, time in scales.items():
+        assert f"{name} {duration_of(time)}" in told
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 

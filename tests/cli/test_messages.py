@@ -54,11 +54,9 @@ def test_advice_is_in_the_words_of_the_study_file(setting, said):
 
 def test_advice_keeps_both_wordings_wherever_it_goes():
     """In sentences, mistakes, notes, warnings, and in what another process is sent."""
-    said = "use " + Advice("Hermite()", '"hermite"') + ", or remove law"
-    assert (said, in_study(said)) == (
-        "use Hermite(), or remove law",
-        'use "hermite", or remove law',
-    )
+    head, tail = "use ", ", or remove law"
+    said = head + Advice("Hermite()", '"hermite"') + tail
+    assert (said, in_study(said)) == (f"{head}Hermite(){tail}", f'{head}"hermite"{tail}')
     assert in_study("plain") == "plain"
     for made, start in (
         (Problem("law", said, "'zmc'", owner="Series"), "Series.law = 'zmc' "),

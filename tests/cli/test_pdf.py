@@ -52,7 +52,8 @@ def test_a_browser_that_fails_leaves_nothing(tmp_path, monkeypatch):
     """What it says is told; the page that was asked for beside it is not written either."""
     program = tmp_path / "bin" / "browser"
     program.parent.mkdir()
-    program.write_text(f"#!{sys.executable}\nimport sys\nsys.exit('no display here')\n")
+    told = "no display here"
+    program.write_text(f"#!{sys.executable}\nimport sys\nsys.exit({told!r})\n")
     program.chmod(0o755)
     monkeypatch.setenv(pdf.BROWSER, str(program))
     out = tmp_path / "out"
@@ -60,5 +61,5 @@ def test_a_browser_that_fails_leaves_nothing(tmp_path, monkeypatch):
     (problem,) = refused(
         "report", CLEAN, "--pdf", out / "report.pdf", "--out", out / "report.html"
     ).problems
-    assert problem.endswith("no display here")
+    assert problem.endswith(told)
     assert not list(out.iterdir())

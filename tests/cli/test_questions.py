@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import tomllib
 import zipfile
 from dataclasses import replace
@@ -13,10 +14,12 @@ import pytest
 from command_line import refused, run
 
 from thirdbody.errors import Mistake
+from thirdbody.quantities.say import value_of
 from thirdbody.study import check, load_study, run_film
 from thirdbody.study.run import run_film_curve
 from thirdbody.study.run_connector import load_connector, run_connector
 from thirdbody.study.run_plate import load_plate, run_plate
+from thirdbody.views import connector_words
 from thirdbody.views.plate_words import answer
 
 FILES = {"probability": "connector", "plate": "wafer-chuck"}
@@ -40,18 +43,24 @@ def test_how_often_a_connector_fails_to_close():
     told = said(run("probability", "connector.toml"))
     found = run_connector(load_connector("connector.toml"))
     (at,) = found.places
-    every = found.failure_of_all[at]
-    assert f"Under 0.5 N the connector fails to close once in {1 / every:.0f} closings" in told
-    assert "20 contacts" in told
-    assert told.index("fails to close") < told.index("contact force") < told.index("Most uncertain")
-    assert "tape lift" in told or "measure the sizes" in told
+    first, *others = connector_words.answer(found)
+    assert re.findall(r"\d[\d.]*", first)[:2] == ["0.5", f"{1 / found.failure_of_all[at]:.0f}"]
+    assert "20 contacts" in first
+    # the answer, the table, and then what it hangs on most
+    last = " ".join(connector_words.uncertainty(found))
+    assert all(part in last for part in (found.what_ifs[0].what, found.what_ifs[0].action))
+    heads = " ".join(connector_words.HEADS)
+    answers, table, rest = map(told.index, (" ".join([first, *others]), heads, last))
+    assert answers < table < rest
 
 
 def test_how_high_a_wafer_stands_over_a_grain():
     done = run("plate", "wafer-chuck.toml")
     told = said(done)
-    assert "The plate stands at most 410 nm high over a particle of 10 µm (quartz)" in told
     found = run_plate(load_plate("wafer-chuck.toml"))
+    first = answer(found)[0]
+    assert first in told
+    assert re.findall(r"\d+ [nµ]m", first) == ["410 nm", "10 µm"]
     assert f"{found.bumps:.3g}" == "1.78"
     for number in ("50 nm", "1.78", "16.8 %"):
         assert number in told
@@ -143,8 +152,14 @@ def test_a_plate_without_a_limit_tells_its_height_alone():
     Path("wafer-chuck.toml").write_text("\n".join(kept), "utf-8")
     told = said(run("plate", "wafer-chuck.toml"))
     assert " bumps " not in told
-    assert "Most uncertain: the size of the particle" in told
-    assert run_plate(load_plate("wafer-chuck.toml")).bumps is None
+    found = run_plate(load_plate("wafer-chuck.toml"))
+    assert found.bumps is None
+    # the largest grain, by its size
+    (dust,), most = found.asked.chuck.particles, found.what_ifs[0]
+    sizes = [part * float(found.grain[found.at]) for part in (0.8, 1.25)]
+    heights = [found.asked.chuck.over(size, dust).height for size in sizes]
+    assert most.values == pytest.approx(heights, rel=1e-12)
+    assert all(part in told for part in (most.what, most.between, most.action))
 
 
 @pytest.mark.parametrize(
@@ -252,7 +267,8 @@ def test_kinds_of_one_name_have_a_curve_each():
     found = run_plate(replace(asked, chuck=asked.chuck.replace(particles=both)))
     assert [name for name, _ in found.curve()[1]] == ["quartz", "quartz"]
     assert len(found.breaking) == 2
-    assert answer(found)[0].startswith("The plate stands at most 410 nm high")
+    assert value_of(float(found.height[found.at]), "m", 3) == "410 nm"
+    assert "410 nm" in answer(found)[0]
 
 
 @pytest.mark.parametrize(("command", "kind"), FILES.items())

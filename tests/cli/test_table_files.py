@@ -9,6 +9,7 @@ import zipfile
 import pytest
 from command_line import refused
 
+import thirdbody
 from thirdbody.cli import streams
 from thirdbody.errors import Mistake
 
@@ -190,7 +191,8 @@ def test_a_sweep_has_tables_beside_its_folder(tmp_path, design):
     sheets = openpyxl.load_workbook(book)
     assert sheets.sheetnames == ["Answer", "States", "Notes"]
     told, answer = (cell.value for cell in sheets["Answer"]["A"] if cell.value)
-    assert told.startswith("Sweep of study.toml (thirdbody")
+    assert study.name in told
+    assert f"(thirdbody {thirdbody.__version__})" in told
     assert answer in " ".join(done.stdout.split())
     assert [cell.value for cell in sheets["States"][1]] == list(rows[0])
     if design == "sampled":

@@ -7,8 +7,10 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from thirdbody import cli
+from thirdbody import cli, load_study
+from thirdbody.analysis.inputs import words_of
 from thirdbody.analysis.uncertainty import samples
+from thirdbody.equilibrium.columns import PLASTIC_SHARE
 from thirdbody.quantities.tables import Table
 
 from .test_cli import DUSTY, EXAMPLES
@@ -157,8 +159,9 @@ def test_design_speaks_the_units_of_its_file():
     text = " ".join(done.stdout.split())
     assert re.search(r"88\d nm", text)
     assert "0.7 wt %" in text
-    assert "concentration of the particles" in text
-    assert "plastic part of the real area at most 0.2" in text
+    asked = load_study(ADDITIVE, [each.removeprefix("--set=") for each in OFF])
+    assert words_of(asked.contact, "particles.concentration") in text
+    assert f"{PLASTIC_SHARE.meaning} at most 0.2" in text
     for code in ("particles.", "×10⁻⁷ ", "<="):
         assert code not in text
     for load in ("1 MPa", "2 MPa", "5 MPa", "10 MPa"):  # all that are asked for
