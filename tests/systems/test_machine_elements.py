@@ -187,7 +187,7 @@ def test_other_designations_are_named_with_what_can_be_done(text, kind, action):
         bearing_size(text)
     (problem,) = told.value.problems
     assert action in problem.hint
-    assert "did you mean" not in problem
+    assert problem.meant is None
 
 
 def test_what_the_hints_on_other_bearings_name_can_be_written():

@@ -170,5 +170,5 @@ def test_plane_seats_need_no_tables_over_the_gap():
 def test_contacts_that_cannot_be_tabulated_are_refused():
     bare = tb.Contact(surfaces=tb.MaterialPair(STEEL, STEEL),
                       roughness=tb.Roughness(sigma=1e-7, R=2.8e-6))  # fmt: skip
-    with refuses(Mistake.MISSING, "", says="outputs.Friction and outputs.Wear"):
+    with refuses(Mistake.MISSING, "", says="outputs.Wear"):
         ContactTables(bare, CLASSES, KINDS)
