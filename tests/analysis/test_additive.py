@@ -13,6 +13,7 @@ from refusals import Mistake, refuses
 from scipy.stats import norm
 
 import thirdbody as tb
+from thirdbody.analysis.inputs import words_of
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.study import load_study
 from thirdbody.study.analyses import arguments, design_study
@@ -127,7 +128,8 @@ def test_command(tmp_path):
     assert {row["feasible"] for row in rows} == {"True", "False"}
     assert told["plateau"].keys() <= told["tolerance"].keys()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["p.csv", "p.png"]
-    assert "the best concentration of the particles is an end of its range" in done.stderr
+    assert told["at_bound"] == [AMOUNT]
+    assert words_of(load_study(EXAMPLE).contact, AMOUNT) in done.stderr
 
 
 # ---------------------------------------------------------------------------- mistakes in a file

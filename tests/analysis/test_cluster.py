@@ -133,6 +133,15 @@ def test_a_mistake_comes_back_as_itself(client):
         tb.sweep(wide, F_star=1e-5, vary={"particles.diameter.mean": sizes}, client=client)
 
 
+def stamps(folder):
+    """When each file was written, but the lock."""
+    return {
+        path: path.stat().st_mtime_ns
+        for path in folder.rglob("*")
+        if path.is_file() and path.name != "lock"
+    }
+
+
 def test_command(cluster, tmp_path):
     def run(*arguments):
         return CliRunner().invoke(app, ["sweep", str(EXAMPLE), "--out", str(tmp_path), *arguments])
@@ -140,7 +149,10 @@ def test_command(cluster, tmp_path):
     done = run("--scheduler", cluster.scheduler_address, "--set", "sweep.chunk=64")
     assert done.exit_code == 0, done.stderr
     assert "192 states" in done.stderr
-    assert "nothing to do" in run("--set", "sweep.chunk=64").stderr
+    before = stamps(tmp_path)
+    again = run("--set", "sweep.chunk=64")
+    assert again.exit_code == 0, again.stderr
+    assert stamps(tmp_path) == before  # nothing was left to do
 
 
 def test_surfaces_survive_a_killed_worker(cluster, client, tmp_path):
