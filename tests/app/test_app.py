@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.analysis.inputs import words_of
 from thirdbody.errors import InvalidValue
 from thirdbody.study import DISTRIBUTIONS, check
 
@@ -466,7 +467,7 @@ def test_the_headline_says_what_the_command_line_says(state, tmp_path):
     for at in (5e-7, 2e-5, 2.4e-4):
         point = state.answer.solve(at)
         said = headline(point)
-        assert f"articles carry {say.percent(point.particle_load_share)} of the load" in said
+        assert f" {say.percent(point.particle_load_share)} " in said
         assert f"({point.mode})" in said
         assert say.value_of(point.pressure, "Pa") in said
 
@@ -698,10 +699,11 @@ def test_error_bars_are_those_of_the_library():
     # another process may have another engine: they agree to 1e-12
     np.testing.assert_allclose(found["bands"], own.bands["A_t"], rtol=1e-11)
     np.testing.assert_allclose(found["nominal"], own.nominal["A_t"], rtol=1e-11)
-    assert found["words"] == {"roughness.sigma": "RMS of equivalent surface heights"}
+    words = words_of(check(study).contact, "roughness.sigma")
+    assert found["words"] == {"roughness.sigma": words}
     assert found["ends"] == {"roughness.sigma": ["91 nm", "109 nm"]}
     bars = tornado_figure(found)["data"]
-    assert {"".join(each["y"]) for each in bars} == {"RMS of equivalent surface<br>heights"}
+    assert {"".join(each["y"]).replace("<br>", " ") for each in bars} == {words}
 
 
 @pytest.mark.check
@@ -918,12 +920,13 @@ def test_the_command_tells_bad_input_and_a_taken_port(tmp_path):
         return done.returncode, done.stderr
 
     code, told = said(str(tmp_path / "none.toml"))
-    assert (code, "no such file" in told) == (2, True)
+    assert (code, told.count("error: "), "none.toml" in told) == (2, 1, True)
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
-        code, told = said("--no-browser", "--port", str(taken.getsockname()[1]))
-    assert (code, "choose another with --port" in told) == (2, True)
+        port = str(taken.getsockname()[1])
+        code, told = said("--no-browser", "--port", port)
+    assert (code, told.count("error: "), port in told) == (2, 1, True)
 
 
 def test_the_command_says_what_is_missing(monkeypatch):
@@ -975,4 +978,4 @@ def test_pieces_are_no_part_of_the_particles_that_came(fragments, part):
     else:
         assert each > 1, "nothing broke: the test says nothing"
         assert "particles loaded" not in found
-        assert found["whole particles and pieces loaded"] == f"{number(each, 3)} for each particle"
+        assert found["whole particles and pieces loaded"].split()[0] == number(each, 3)
