@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 
 from thirdbody import cli, load_study
 from thirdbody.quantities.say import value_of
+from thirdbody.views.bearing_words import sharing
+from thirdbody.views.html import words
 from thirdbody.views.oil_words import HANGS_ON
 
 FILTER = "5=75, 10=1000"
@@ -60,7 +62,9 @@ def test_a_report_lists_the_bearing_and_its_load(folder):
     bearing = re.search(r"<h2>The bearing</h2>.*?</section>", page, re.DOTALL)[0]
     asked = load_study(folder / "b.toml", [SET])
     most = asked.body.share_load(1000.0, asked.contact.E_ss).largest
-    assert value_of(most, "N") in bearing
+    sentence = sharing(asked)
+    assert value_of(most, "N") in sentence
+    assert words(sentence) in bearing
 
 
 def test_what_a_study_states_is_no_default_be_it_the_same(folder):

@@ -71,6 +71,10 @@ def test_which_of_them_dents_and_would_a_filter_help():
     after = dirty_oil(study, filter=Filter(sizes=(5e-6, 10e-6), betas=(75.0, 1000.0)))
     assert f") {filter_answer(found, after)} {' '.join(answer(found))} " in told
     assert (found.life.code, after.life.code) == ("18/16/13", "13/9/3")
+    # before, and after the filter
+    assert "ISO 4406 code 18/16/13 13/9/3 " in told
+    depths = [value_of(each.populations[0].depth, "m", 3) for each in (found, after)]
+    assert f"dust: depth {depths[0]} {depths[1]} " in told
     for row in filter_rows(found, after):
         assert " ".join(row) in told
 
