@@ -10,7 +10,7 @@ import pytest
 import thirdbody as tb
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.engine import grounds
-from thirdbody.equilibrium.engine.run import NO_SERIES, SQUEEZED, own_columns
+from thirdbody.equilibrium.engine.run import NO_SERIES, NO_TABLE, SQUEEZED, own_columns
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.field.own import RollOff
 from thirdbody.laws.field.programme import MOMENTS
@@ -273,6 +273,17 @@ def test_bandwidths_beyond_the_series_have_their_own():
     assert off.max() <= BOUND
     alone = own_columns(case, {k: v[[3]] for k, v in vary.items()}, "F_star", loads[[3]])
     assert alone["d"][0] == got["d"][3]
+
+
+def test_a_bandwidth_without_a_table_leaves_the_other_states_to_the_kernel():
+    case, loads = contact(), np.full(3, 1e-6)
+    found = own_columns(case, {"roughness.alpha": np.array([5.0, 31.0, 8.0])}, "F_star", loads)
+    assert found["doubt"].tolist() == ["", NO_TABLE, ""]
+    inside = own_columns(case, {"roughness.alpha": np.array([5.0, 8.0])}, "F_star", loads[:2])
+    np.testing.assert_array_equal(found["d"][[0, 2]], inside["d"])
+    with pytest.raises(tb.InvalidValue) as error:  # the law itself is not known there
+        state_columns(case, F_star=loads, vary={"roughness.alpha": np.array([5.0, 31.0, 8.0])})
+    assert [each.code for each in error.value.problems] == [tb.errors.Mistake.BEYOND]
 
 
 def test_flakes_squeezed_beyond_their_size_say_so():

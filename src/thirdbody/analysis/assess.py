@@ -91,8 +91,8 @@ def assess(
     pressure, F_star : float
         The operating load: p [Pa] or F* [1]; exactly one.
     samples, seed : int, optional
-        As in `propagate`; 4096 without, or 64 where each sample takes tables of its own, as
-        particles that break or are squashed do.
+        As in `propagate`; 4096 without, 512 of particles on one `field` of heights, or 64 where
+        each sample takes tables of its own, as particles that break do.
     title : str, optional
         Over the page.
     progress : callable, optional

@@ -34,6 +34,8 @@ REPLICATES = 8
 LEAST, MOST_CRITICAL, USUAL = 64, 2_048, 2**12
 """Fewest samples, those for which critical loads are sought unless more are asked for, and usual
 ones."""
+ON_A_FIELD = 512
+"""Usual samples of particles on one field of heights, milliseconds each."""
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
 MARGINS = {"F/F_cr1": "F_cr1", "F/F_cr2": "F_cr2"}
 MODES_OR_NONE = (*MODES, "none")
@@ -58,7 +60,10 @@ def enough(contact: Contact, asked: int | None, vary: Iterable[str]) -> int:
     """Samples that were asked for, or the usual number; few where each builds its own tables."""
     if asked is not None:
         return asked
-    return LEAST if costly(contact, vary) else USUAL
+    if costly(contact, vary):
+        return LEAST
+    on_a_field = contact.asperity_law.of_surface and not contact.two_body
+    return ON_A_FIELD if on_a_field else USUAL
 
 
 def costly(contact: Contact, vary: Iterable[str]) -> bool:

@@ -287,6 +287,8 @@ class Numbers:
         """Where the separations of the kernel begin, over the datum of d [m]."""
         self.deepest = -DEEPEST
         """Lowest separation that may be given, in the unit of the kernel."""
+        self.outside: Any = np.zeros(count, bool)
+        """States that a table of the kernel does not reach, whose numbers are those of its edge."""
         if type(contact.asperity_law) is asperity.Field:
             self._add_field()
         else:
@@ -346,8 +348,10 @@ class Numbers:
         E, H = surfaces.E_star, _softer(surfaces.first, surfaces.second)[0]
         chi = np.broadcast_to(hardness_ratio(rough, E_star=E, H=H), self.count)
         alpha = np.array(np.broadcast_to(rough.alpha, self.count), dtype=float)
-        if np.any((alpha < ALPHAS[0]) | (alpha > ALPHAS[1])):
+        self.outside = (alpha < ALPHAS[0]) | (alpha > ALPHAS[1])
+        if self.outside.all():
             raise NotCompiled("bandwidths outside the table of the law field")
+        alpha = np.clip(alpha, *ALPHAS)
         self.skins = np.zeros((self.count, 1, f.OF_FIELD))
         skin = self.skins[:, 0]
         remains = remainder_height(chi, alpha) if law.remainder else 0.0

@@ -12,8 +12,8 @@ from ...contact.field_ground import TERMS, rows_between
 from ...contact.particle_averages import NORMAL_REACH, WIDEST
 from ...errors import NotCompiled
 from ...laws.field.programme import MOMENTS
-from ...laws.field.spectrum import _powers, rolled_off
-from ...laws.field.table import COLUMNS, rows_of, separations
+from ...laws.field.spectrum import integrals_of_powers, rolled_off
+from ...laws.field.table import ALPHAS, COLUMNS, rows_of, separations
 from ...numerics.chebyshev import chebyshev_transform
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
@@ -21,6 +21,8 @@ from . import fields as f
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from ...laws.field.spectrum import Spectrum
 
     Array = NDArray[np.float64]
 
@@ -118,13 +120,11 @@ class Displacements:
         self.tails[states] = tails[self.which[states]]
 
     def fill_alone(self, states: Any, alpha: Array, apart: Array) -> None:
-        """Sum up the series of each of these states by itself."""
+        """Take the numbers of each of these states by themselves."""
         self.alone = np.zeros((max(len(states), 1), OF_STATE))
-        place, terms = _places(apart)
-        for m, i in enumerate(states.tolist()):
-            series = _series(float(alpha[m]), int(place[m]), -1)
-            self.which[i], self.tails[i] = -1 - m, _tail(series, False)
-            self.alone[m] = (terms[m][:, None] * series).sum(axis=0)
+        self.which[states] = -1 - np.arange(len(states))
+        for m, one in enumerate(zip(alpha.tolist(), apart.tolist(), strict=True)):
+            self.alone[m] = _numbers(*one)
 
 
 def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
@@ -198,38 +198,38 @@ def _along(alpha: float, n: int) -> Array:
     return transform @ np.array([_numbers(alpha, each) for each in places.tolist()])
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=2048)
 def _far(alpha: float) -> tuple[Array, Array]:
     """Integrals over all distances."""
-    x, _ = chebyshev_transform(TERMS)
-    return rolled_off(alpha).integrals_from(0.0, 0.5 * (1 + x), MOMENTS)
+    return rolled_off(alpha).integrals_from(0.0, _filters(), MOMENTS)
 
 
+@lru_cache(maxsize=2048)
 def _numbers(alpha: float, apart: float) -> Array:
     """k_n of particles, and series in τ of the others, in a row."""
     own, mixed = _far(alpha)
     _, transform = chebyshev_transform(TERMS)
-    near = _near(alpha, apart)[0]
-    other = _near(alpha, 0.5 * apart)[1]
+    spectrum = rolled_off(alpha)
+    plain, _, weight = _near(spectrum, apart)
+    near = integrals_of_powers(plain, weight, MOMENTS)
+    plain, once, weight = _near(spectrum, 0.5 * apart)
+    other = integrals_of_powers(spectrum.mixed(plain, once, _filters()), weight, MOMENTS)
+    near[0], other[:, 0] = apart, 0.5 * apart
     rows = transform @ (mixed - other), transform @ mixed
     return np.concatenate([own - near, rows[0].ravel(), rows[1].ravel()])
 
 
-def _near(alpha: float, r: float) -> tuple[Array, Array]:
-    """What `Spectrum.integrals_from` leaves out up to r, by its nodes."""
-    spectrum = rolled_off(alpha)
+def _filters() -> Array:
+    """τ at which series in τ are known."""
+    x, _ = chebyshev_transform(TERMS)
+    return 0.5 * (1 + x)
+
+
+def _near(spectrum: Spectrum, r: float) -> tuple[Array, Array, Array]:
+    """∫C J_0 and ∫C q J_0 at the nodes of an integral up to r, and their weights."""
     at, weight = gauss_legendre(40)
     plain, once, _ = spectrum.correlations(0.5 * r * (1 + at))
-    weight = 0.5 * r * weight
-    own, mixed = _powers(plain, weight, MOMENTS), []
-    x, _ = chebyshev_transform(TERMS)
-    for tau in (0.5 * (1 + x)).tolist():
-        a = 1 - tau
-        root = math.sqrt(a * a + 2 * a * tau * spectrum.mean(1) + tau * tau * spectrum.mean(2))
-        mixed.append(_powers((a * plain + tau * once) / root, weight, MOMENTS))
-        mixed[-1][0] = r
-    own[0] = r
-    return own, np.array(mixed)
+    return plain, once, 0.5 * r * weight
 
 
 # ------------------------------------------------------------------------------ of a state
@@ -249,7 +249,7 @@ class Grounds:
     def __init__(self, skins: Array, parts: Array, found: list[Any], rough: Any):
         from . import ground as g
 
-        skin, count, alpha = skins[:, 0], len(skins), rough.alpha
+        skin, count, alpha = skins[:, 0], len(skins), np.clip(rough.alpha, *ALPHAS)
         chi, sigma = skin[:, f.CHI], np.broadcast_to(rough.sigma, count)[:, None]
         fixed = np.where(parts[:, :, f.SHADOW] == f.COVERED, parts[:, :, f.COVERAGE], 0.0)
         self.parts = parts.copy()

@@ -32,7 +32,8 @@ NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
 SQUEEZED = "particles are squeezed by more than their size on a field of heights"
 NO_SERIES = "the ground of such large particles on a field of heights is not known"
-DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES)
+NO_TABLE = "its bandwidth is outside the table of the law field"
+DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES, NO_TABLE)
 """Why a state is for the NumPy engine to judge."""
 CODES = {
     f.UNSOLVED: NOT_BALANCED,
@@ -42,6 +43,7 @@ CODES = {
     f.TOO_LONG: TOO_LONG,
     f.SQUEEZED: SQUEEZED,
     f.NO_SERIES: NO_SERIES,
+    f.NO_TABLE: NO_TABLE,
 }
 
 
@@ -131,6 +133,7 @@ def solve(
     else:
         for start in starts:
             solve_from(start)
+    fate[numbers.outside] = f.NO_TABLE
     return h, evaluations, fate, error, rows
 
 

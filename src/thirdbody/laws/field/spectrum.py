@@ -135,7 +135,7 @@ class Spectrum:
     def integrals(self, tau: float, count: int) -> Array:
         """k_n(τ) for n = 0 … count, with 0 in the place of k_0."""
         _, of_s, _ = self.filtered(tau)
-        out = _powers(of_s, self._weights, count)
+        out = integrals_of_powers(of_s, self._weights, count)
         a = 1 - tau
         norm = a * a + 2 * a * tau * self.mean(1) + tau * tau * self.mean(2)
         # without what the cut leaves out
@@ -155,27 +155,32 @@ class Spectrum:
         near = 0.5 * r * (1 + at)
         weight = 0.5 * r * weight
         plain, once, _ = self.correlations(near)
-        own = _powers(self._at_nodes[0], self._weights, count) - _powers(plain, weight, count)
+        own = integrals_of_powers(self._at_nodes[0], self._weights, count) - integrals_of_powers(
+            plain, weight, count
+        )
         own[1] = self.mean(-1) - float(weight @ plain)
-        mixed = np.empty((len(tau), count + 1))
-        for row, t in zip(mixed, tau.tolist(), strict=True):
-            a = 1 - t
-            root = math.sqrt(a * a + 2 * a * t * self.mean(1) + t * t * self.mean(2))
-            far = (a * self._at_nodes[0] + t * self._at_nodes[1]) / root
-            row[:] = _powers(far, self._weights, count)
-            row[1] = (a * self.mean(-1) + t) / root
-            row -= _powers((a * plain + t * once) / root, weight, count)
+        first, second, _ = self._at_nodes
+        mixed = integrals_of_powers(self.mixed(first, second, tau), self._weights, count)
+        mixed[:, 1] = self.mixed(self.mean(-1), 1.0, tau)[:, 0]
+        mixed -= integrals_of_powers(self.mixed(plain, once, tau), weight, count)
         own[0], mixed[:, 0] = -r, -r
         return own, mixed
 
+    def mixed(self, plain: Array | float, once: Array | float, tau: Array) -> Array:
+        """ρ_zs of each filter τ (T,) from ∫C J_0 and ∫C q J_0 at distances (N,): (T, N)."""
+        tau = tau[:, None]
+        a = 1 - tau
+        norm = a * a + 2 * a * tau * self.mean(1) + tau * tau * self.mean(2)
+        return np.asarray((a * plain + tau * once) / np.sqrt(norm))
 
-def _powers(rho: Array, weight: Array, count: int) -> Array:
-    """∫ρⁿ for n = 0 … count, with 0 for n = 0."""
-    out = np.zeros(count + 1)
-    term = weight.copy()
+
+def integrals_of_powers(rho: Array, weight: Array, count: int) -> Array:
+    """∫ρⁿ for n = 0 … count, with 0 for n = 0, of ρ (..., N): (..., count + 1)."""
+    out = np.zeros((*rho.shape[:-1], count + 1))
+    term = np.broadcast_to(weight, rho.shape).copy()
     for n in range(1, count + 1):
         term *= rho
-        out[n] = term.sum()
+        out[..., n] = term.sum(axis=-1)
     return out
 
 
