@@ -216,9 +216,9 @@ class Layout:
 
     sizes: dict[str, int]
     chunks: dict[str, int]
-    variables: dict[str, tuple[tuple[str, ...], str, dict[str, object]]]
+    variables: dict[str, tuple[tuple[str, ...], str, Mapping[str, object]]]
     """Dimensions, type and attributes of every variable that blocks write."""
-    coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, object]]]
+    coords: dict[str, tuple[tuple[str, ...], NDArray[Any], Mapping[str, object]]]
     """Dimensions, values and attributes of every coordinate known beforehand."""
     inputs: tuple[str, ...]
     """Those of the variables that are coordinates: sampled inputs."""
@@ -303,8 +303,8 @@ class Plan:
         kept = self.dims[: self.outer]
         names = tuple(dim.name for dim in kept)
         sizes = {dim.name: dim.size for dim in kept}
-        variables: dict[str, tuple[tuple[str, ...], str, dict[str, object]]] = {}
-        coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, object]]] = {}
+        variables: dict[str, tuple[tuple[str, ...], str, Mapping[str, object]]] = {}
+        coords: dict[str, tuple[tuple[str, ...], NDArray[Any], Mapping[str, object]]] = {}
         for dim in kept:
             for name in dim.names:
                 about = labels_of(self.contact, name)
