@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import special
@@ -29,6 +29,7 @@ from ...populations.materials import reduced_modulus
 from ...populations.shape import Sphere
 from . import fields as f
 from .grounds import Grounds, check_grounded
+from .sections import Power, Section
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from ...populations.particles import Particles
     from ...populations.shape import Angular
     from ...populations.strength import WeibullStrength
+    from .sections import Sizes
 
     Array = NDArray[np.float64]
     Number = float | Array
@@ -214,37 +216,6 @@ def _softer(first: Material, second: Material) -> tuple[Any, Any]:
     """Hardness and Poisson ratio of the softer of two bodies."""
     takes = first.H <= second.H
     return np.where(takes, first.H, second.H), np.where(takes, first.nu, second.nu)
-
-
-class Power(NamedTuple):
-    """Sizes x^(−slope−1) from low to high [m]: a section of a `PowerLaw`."""
-
-    low: float
-    high: float
-    slope: float
-
-
-Sizes: TypeAlias = "Distribution | Power"
-
-
-class Section(NamedTuple):
-    """Particles whose sizes the kernel knows: a population, or a part of one."""
-
-    one: Particles
-    """The population."""
-    changed: Any
-    """The same, with arrays in it."""
-    law: Any
-    varied: Any
-    """Its law, as it is and with arrays in it."""
-    share: float
-    """Part of the population."""
-    part: float
-    """Part of the component of its sizes that it belongs to."""
-    component: int
-    """Number of that component, through all populations."""
-    sizes: tuple[Sizes, Sizes]
-    """As they are, and with arrays in them."""
 
 
 def _sections(one: Any, changed: Distribution) -> list[tuple[float, tuple[Sizes, Sizes]]]:

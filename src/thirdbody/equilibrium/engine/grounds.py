@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from ...populations.distributions import Distribution
     from ...populations.roughness import Roughness
-    from .columns import Section
+    from .sections import Section
 
     Array = NDArray[np.float64]
     Index = NDArray[np.intp]
