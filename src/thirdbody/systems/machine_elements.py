@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
 
 import numpy as np
 
@@ -15,6 +15,11 @@ from ..quantities.value import choice, quantity
 from .body_shapes import BallInGroove, Body, Ring
 from .conjunctions import Hertz, Line, Point
 from .load_sharing import BALLS, ROLLERS, RadialShare, share_radial_load
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 __all__ = [
     "BallBearing",
@@ -69,11 +74,11 @@ class RadialBearing(Body):
         """Load over approach of the rings to the power ``exponent``, of one rolling body."""
 
     @abstractmethod
-    def widths(self, loads: object, ring: Ring, E_star: float) -> Any:
+    def widths(self, loads: object, ring: Ring, E_star: float) -> Array:
         """Widths of the tracks of rolling bodies under their loads [N] on a ring [m]."""
 
     @property
-    def conjunction(self) -> Any:
+    def conjunction(self) -> Point | Line:
         """The contact on the ring that is solved."""
         return self.on_ring(self.ring)
 
@@ -110,7 +115,7 @@ class RadialBearing(Body):
             exponent=self.exponent,
         )
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Array:
         """Load on the most loaded rolling body, of a radial load [N]."""
         forces = np.asarray(force, float)
         found = [self.share_load(float(each), E_star).largest for each in forces.ravel()]
@@ -255,7 +260,7 @@ class BallBearing(RadialBearing):
         yielding = sum(self.on_ring(ring).approach(1.0, E=2 * E_star) for ring in RINGS)
         return float(yielding**-BALLS)
 
-    def widths(self, loads: Any, ring: Ring, E_star: float) -> Any:
+    def widths(self, loads: Any, ring: Ring, E_star: float) -> Array:
         """Widths of the tracks: of the ellipses across the motion [m]."""
         return 2 * self.on_ring(ring).semi_axes(loads, E=2 * E_star)[1]
 
@@ -378,7 +383,7 @@ class RollerBearing(RadialBearing):
         """Load over approach of the rings to the power 10/9, of one roller [N/m^(10/9)]."""
         return float((self.length**0.8 / (2 * 1.36)) ** ROLLERS * E_star)
 
-    def widths(self, loads: object, ring: Ring, E_star: float) -> Any:
+    def widths(self, loads: object, ring: Ring, E_star: float) -> Array:
         """Widths of the tracks: the length of the rollers [m]."""
         return np.full_like(np.asarray(loads, float), self.length)
 
@@ -398,7 +403,9 @@ class RollerBearing(RadialBearing):
         return self.static_rating / 8.2 if self.fatigue_limit is None else self.fatigue_limit
 
 
-def _misfits(bearing: Any, size: float, what: str, count: float) -> list[str]:
+def _misfits(
+    bearing: BallBearing | RollerBearing, size: float, what: str, count: float
+) -> list[str]:
     """What cannot be of the dimensions of a bearing."""
     kind = type(bearing).__name__
     bore, outer = bearing.bore, bearing.outer_diameter
@@ -596,7 +603,7 @@ class BallScrew(Body):
         f = self.screw_conformity if self.side == "screw" else self.nut_conformity
         return Point(R=1 / along, R_y=1 / (2 / self.diameter - 1 / (f * self.diameter)))
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Array:
         """Load on a ball of the nut that carries more, of an axial force [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -682,7 +689,7 @@ class LinearGuide(Body):
         """An ellipse, long across the motion."""
         return BallInGroove(diameter=self.diameter, conformity=self.conformity).conjunction
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Array:
         """Load on a ball of the pressed rows, of a force on the carriage [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -785,7 +792,7 @@ class Gear(Body):
         length = self.face_width / math.cos(self.base_helix)
         return Line(R=1 / (1 / first + 1 / second), length=length)
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Array:
         """Load normal to the teeth, of a tangential force [N]."""
         tilt = math.cos(self.transverse_angle) * math.cos(self.base_helix)
         return np.asarray(force, float) / tilt
