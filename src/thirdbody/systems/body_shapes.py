@@ -16,7 +16,7 @@ from .conjunctions import Hertz, Line, Point
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    Number = float | NDArray[np.float64]
 
 __all__ = ["BallInGroove", "BallOnFlat", "Body", "Cylinders", "Flat", "Ring", "Roller"]
 
@@ -50,7 +50,7 @@ class Body(Value, ABC):
         """What the second surface is."""
         return "surface 2"
 
-    def load_on_one(self, force: object, E_star: float) -> Array:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on the contact that carries most of the force on all [N]."""
         return np.asarray(force, float) / self.bodies
 

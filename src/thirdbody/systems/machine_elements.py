@@ -19,7 +19,7 @@ from .load_sharing import BALLS, ROLLERS, RadialShare, share_radial_load
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    Number = float | NDArray[np.float64]
 
 __all__ = [
     "BallBearing",
@@ -74,7 +74,7 @@ class RadialBearing(Body):
         """Load over approach of the rings to the power ``exponent``, of one rolling body."""
 
     @abstractmethod
-    def widths(self, loads: object, ring: Ring, E_star: float) -> Array:
+    def widths(self, loads: object, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks of rolling bodies under their loads [N] on a ring [m]."""
 
     @property
@@ -115,7 +115,7 @@ class RadialBearing(Body):
             exponent=self.exponent,
         )
 
-    def load_on_one(self, force: object, E_star: float) -> Array:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on the most loaded rolling body, of a radial load [N]."""
         forces = np.asarray(force, float)
         found = [self.share_load(float(each), E_star).largest for each in forces.ravel()]
@@ -260,7 +260,7 @@ class BallBearing(RadialBearing):
         yielding = sum(self.on_ring(ring).approach(1.0, E=2 * E_star) for ring in RINGS)
         return float(yielding**-BALLS)
 
-    def widths(self, loads: Any, ring: Ring, E_star: float) -> Array:
+    def widths(self, loads: Any, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks: of the ellipses across the motion [m]."""
         return 2 * self.on_ring(ring).semi_axes(loads, E=2 * E_star)[1]
 
@@ -383,7 +383,7 @@ class RollerBearing(RadialBearing):
         """Load over approach of the rings to the power 10/9, of one roller [N/m^(10/9)]."""
         return float((self.length**0.8 / (2 * 1.36)) ** ROLLERS * E_star)
 
-    def widths(self, loads: object, ring: Ring, E_star: float) -> Array:
+    def widths(self, loads: object, ring: Ring, E_star: float) -> Any:
         """Widths of the tracks: the length of the rollers [m]."""
         return np.full_like(np.asarray(loads, float), self.length)
 
@@ -603,7 +603,7 @@ class BallScrew(Body):
         f = self.screw_conformity if self.side == "screw" else self.nut_conformity
         return Point(R=1 / along, R_y=1 / (2 / self.diameter - 1 / (f * self.diameter)))
 
-    def load_on_one(self, force: object, E_star: float) -> Array:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on a ball of the nut that carries more, of an axial force [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -689,7 +689,7 @@ class LinearGuide(Body):
         """An ellipse, long across the motion."""
         return BallInGroove(diameter=self.diameter, conformity=self.conformity).conjunction
 
-    def load_on_one(self, force: object, E_star: float) -> Array:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on a ball of the pressed rows, of a force on the carriage [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -792,7 +792,7 @@ class Gear(Body):
         length = self.face_width / math.cos(self.base_helix)
         return Line(R=1 / (1 / first + 1 / second), length=length)
 
-    def load_on_one(self, force: object, E_star: float) -> Array:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load normal to the teeth, of a tangential force [N]."""
         tilt = math.cos(self.transverse_angle) * math.cos(self.base_helix)
         return np.asarray(force, float) / tilt
