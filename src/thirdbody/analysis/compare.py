@@ -16,7 +16,7 @@ import dataclasses
 import json
 import math
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -297,7 +297,7 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persso
     else:
         asked = list(laws)
     problems: list[str] = []
-    found: list[Any] = [own]
+    found: list[AbstractAsperityLaw | Persson | type] = [own]
     for item in asked:
         if isinstance(item, AbstractAsperityLaw):
             found.append(item)
@@ -412,7 +412,7 @@ def _outside(contact: Contact, state: Equilibrium) -> list[str]:
     """Where the states leave the published range of the law, one phrase each."""
     law, R = contact.asperity_law, contact.roughness.R
     E_star, H = contact.E_ss, contact.surfaces.H
-    body: dict[str, Any] = dict(R=R, E_star=E_star, H=H)
+    body: dict[str, float] = dict(R=R, E_star=E_star, H=H)
     bound = law.bound(**body, nu=contact.surfaces.softer.nu)
     out = []
     w = getattr(law, "w", None)
@@ -433,7 +433,7 @@ def _outside(contact: Contact, state: Equilibrium) -> list[str]:
 
 
 def _share_beyond(
-    contact: Contact, law: AbstractAsperityLaw, d: float, limit: float, body: dict[str, Any]
+    contact: Contact, law: AbstractAsperityLaw, d: float, limit: float, body: dict[str, float]
 ) -> float:
     """Part of the asperities' area that is pressed by more than ``limit``."""
     asperities = interface(contact).asperities
@@ -471,7 +471,9 @@ def csv_text(table: xarray.Dataset) -> str:
     return csv_of(with_units(plain, units))
 
 
-def flat(laws: list[str], columns: dict[str, Any], notes: list[str]) -> dict[str, list[object]]:
+def flat(
+    laws: list[str], columns: Mapping[str, NDArray[np.generic]], notes: list[str]
+) -> dict[str, list[object]]:
     """Columns (laws, N) with a row for each law and load; None where nothing is to be told."""
     each = len(columns["A_t"][0])
     rows = {"law": [law for law in laws for _ in range(each)]}

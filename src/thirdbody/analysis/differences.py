@@ -118,10 +118,10 @@ class Entry(NamedTuple):
 
     derivative: Array
     error: Array
-    status: NDArray[Any]
+    status: NDArray[np.object_]
 
 
-def _entries(total: Slope, size: Array, scale: Any, doubtful: float) -> list[Entry]:
+def _entries(total: Slope, size: Array, scale: float | Array, doubtful: float) -> list[Entry]:
     """Notes on derivatives (M, C) over ``scale``, for columns of this size."""
     value, error, _, below, above = (part / scale for part in total)
     error = np.abs(error)
@@ -284,7 +284,7 @@ class Places:
             out[load] = self._entries_of(Slope(*(0 * part for part in columns)), size, 1.0)
         return out
 
-    def _entries_of(self, total: Slope, size: Array, scale: object) -> list[Entry]:
+    def _entries_of(self, total: Slope, size: Array, scale: float | Array) -> list[Entry]:
         return _entries(total, size, scale, self.rule.doubtful)
 
 

@@ -22,6 +22,8 @@ from ..quantities.value import Value
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
     Offsets = NDArray[np.intp]
 
 __all__ = ["inputs"]
@@ -71,7 +73,7 @@ class Input(NamedTuple):
     values: tuple[float, ...]
     scales: tuple[float, ...]
 
-    def numbers_at(self, t: Any) -> dict[str, Any]:
+    def numbers_at(self, t: float | Array) -> dict[str, Any]:
         parts = zip(self.names, self.values, self.scales, strict=True)
         return {name: value + scale * t for name, value, scale in parts}
 

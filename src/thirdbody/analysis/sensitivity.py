@@ -200,7 +200,7 @@ class Sensitivity(Record):
         if problems:
             raise InvalidValue(*problems)
 
-        def one(of: str, i: int | None) -> Any:
+        def one(of: str, i: int | None) -> object:
             def as_float(value: Any) -> float:
                 return float(value if i is None or np.ndim(value) == 0 else value[i])
 
@@ -369,14 +369,14 @@ def sensitivity(
         start[load] = np.atleast_1d(np.asarray(given[load], dtype=float))
     one = {name: name in CRITICAL or np.ndim(given[load]) == 0 for name in results}
 
-    def number(values: NDArray[Any], name: str) -> Any:
+    def number(values: NDArray[np.generic], name: str) -> Any:
         return values.tolist()[0] if one[name] else values
 
     def elasticity(name: str, label: str) -> Array:
         with np.errstate(divide="ignore", invalid="ignore"):
             return entries[name][label].derivative * (start[label] / value[name])
 
-    def table(of: Callable[[str, str], Any]) -> dict[str, dict[str, Any]]:
+    def table(of: Callable[[str, str], NDArray[np.generic]]) -> dict[str, dict[str, Any]]:
         return {
             name: {label: number(np.asarray(of(name, label)), name) for label in labels}
             for name in results

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from nicegui import ui
 
@@ -16,6 +16,11 @@ from .fields import VARIANTS, Field, fields_of, known_keys, options_of, text_of,
 from .state import State
 from .text import from_toml, to_toml, with_micro
 from .widgets import set_attributes
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from nicegui.events import ValueChangeEventArguments
 
 __all__ = ["Entries", "Place", "about_of", "dotted"]
 
@@ -56,8 +61,8 @@ class Entry(NamedTuple):
     """A widget of one entry; ``read`` gives what is meant by its text, None for a menu."""
 
     widget: Any
-    read: Callable[[str], Any] | None = None
-    show: Callable[[Any], str] = text_of
+    read: Callable[[str], object] | None = None
+    show: Callable[[object], str] = text_of
     whole: bool = False
     """Whether mistakes inside the table belong to it as well."""
 
@@ -115,7 +120,9 @@ class Entries:
         else:
             self.text(place, field)
 
-    def text(self, place: Place, field: Field, to: Callable[[object], None] | None = None) -> Any:
+    def text(
+        self, place: Place, field: Field, to: Callable[[object], None] | None = None
+    ) -> ui.input:
         """An entry that is written: the study changes when typing pauses."""
         set_to = to or (lambda value: self.state.set(*place, value))
         read, show = (
@@ -148,7 +155,7 @@ class Entries:
                 )
             return given.get(name)
 
-        def changed(event: Any) -> None:
+        def changed(event: ValueChangeEventArguments[Any]) -> None:
             try:
                 self.state.set(name, read(event.value or ""))
             except InvalidValue:
@@ -173,10 +180,10 @@ class Entries:
         label: str,
         then: Callable[[Any], None] | None = None,
         hint: str = "",
-    ) -> Any:
+    ) -> ui.select:
         """A menu; what follows from a choice is ``then``."""
 
-        def changed(event: Any) -> None:
+        def changed(event: ValueChangeEventArguments[Any]) -> None:
             if then is not None:
                 then(event.value)
             elif place is not None:
@@ -234,7 +241,7 @@ class Entries:
     def variant(
         self,
         place: Place,
-        registry: Any,
+        registry: Mapping[str, type],
         default: str,
         label: str,
         tag: str = "name",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from nicegui import ui
 
@@ -57,7 +57,7 @@ class Question(NamedTuple):
     about: str
     kind: type
     own: tuple[Field, ...]
-    start: dict[str, Any]
+    start: dict[str, object]
     left_out: tuple[str, ...]
     contents: Callable[[Answer], Shown]
 
@@ -68,7 +68,7 @@ class QuestionTab:
     def __init__(self, state: State, question: Question) -> None:
         self.state, self.question, self.tab = state, question, state.tab
         self.inputs = Inputs(state, self._renewed)
-        self.there: Any = None
+        self.there: bool | None = None
         """Whether there were entries."""
         self.answer: Answer | None = None
         name = question.table

@@ -24,6 +24,7 @@ from .streams import (
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from ..study.asked_result import QuestionResult
     from ..views.workbook import Grid, Sheet
 
 __all__ = ["give_answer", "read_question"]
@@ -56,7 +57,7 @@ def read_question(
 
 
 def give_answer(
-    found: Any,
+    found: QuestionResult,
     files: TableFiles,
     *,
     answer: Sequence[str],

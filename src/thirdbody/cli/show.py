@@ -34,7 +34,7 @@ def terminal() -> Console:
         width = PIPE
 
     class Terminal(Console):
-        def print(self, *objects: Any, **how: Any) -> None:
+        def print(self, *objects: object, **how: Any) -> None:
             """Print as rich does, but for sentences: their numbers stay beside their units."""
             lines = [
                 _filled(each, self.width) if isinstance(each, str) else each for each in objects

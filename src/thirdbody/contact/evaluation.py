@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,7 +14,7 @@ from ..quantities.say import number
 from .output import AbstractOutput
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from ..laws.base import AbstractParticleLaw
     from ..laws.spots import ParticleSpots
@@ -72,14 +72,14 @@ class Solved:
     """Of other contacts under a load; None where separations are given."""
     counted: Callable[[], Array] | None = None
     """Loaded particles per nominal area [1/m²], where that is known without every one of them."""
-    kept: dict[Any, Any] = field(init=False, repr=False, default_factory=dict)
+    kept: dict[Hashable, Any] = field(init=False, repr=False, default_factory=dict)
     """What an output found for these states, for its warnings."""
 
-    def total(self, of_asperities: Callable[[AsperitySpots], Any]) -> Array:
+    def total(self, of_asperities: Callable[[AsperitySpots], ArrayLike]) -> Array:
         """Σ n q over the asperities: (N,)."""
         return _sum(self.d, self.asperities, of_asperities)
 
-    def total_of_particles(self, of_particles: Callable[[ParticleSpots], Any]) -> Array:
+    def total_of_particles(self, of_particles: Callable[[ParticleSpots], ArrayLike]) -> Array:
         """Σ n q over the particles: (N,)."""
         return _sum(self.d, self.particles, of_particles)
 
@@ -94,7 +94,7 @@ class Solved:
         return next(each for each in self.contact.outputs if each.name == name)
 
 
-def _sum(d: Array, groups: Sequence[Any], q: Callable[[Any], Any]) -> Array:
+def _sum(d: Array, groups: Sequence[Any], q: Callable[[Any], ArrayLike]) -> Array:
     return sum((spots.total(q(spots)) for spots in groups), np.zeros_like(d))
 
 
@@ -112,7 +112,7 @@ UNHEARD = 0.01
 """Share of the load up to which few contacts of a kind do not matter to the sums."""
 
 
-def _load(spots: Any) -> Any:
+def _load(spots: AsperitySpots | ParticleSpots) -> Array:
     return spots.load
 
 
@@ -124,7 +124,7 @@ def _about_few(state: Solved) -> list[str]:
     if not concerned or not max(areas) or not len(state.d):
         return []
 
-    def pressed(spots: Any) -> Any:
+    def pressed(spots: AsperitySpots | ParticleSpots) -> NDArray[np.bool_]:
         return spots.load > 0
 
     kinds = {
@@ -167,14 +167,14 @@ def _how_many(which: NDArray[np.bool_]) -> str:
     return f"{np.count_nonzero(which)} of {len(which)} states"
 
 
-class LaidOutParticles(Sequence[Any]):
+class LaidOutParticles(Sequence["ParticleSpots"]):
     """Particles that are laid out once an output asks for them: many do not."""
 
-    def __init__(self, lay_out: Callable[[], Sequence[Any]]):
+    def __init__(self, lay_out: Callable[[], Sequence[ParticleSpots]]):
         self._lay_out = lay_out
 
     @cached_property
-    def _items(self) -> Sequence[Any]:
+    def _items(self) -> Sequence[ParticleSpots]:
         return self._lay_out()
 
     def __len__(self) -> int:

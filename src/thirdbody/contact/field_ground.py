@@ -75,7 +75,7 @@ FEWEST = 12
 """Separations that a table must keep."""
 
 
-def rows_between(lowest: Any, reach: Any, width: Any) -> Any:
+def rows_between(lowest: float | Array, reach: float | Array, width: float | Array) -> Any:
     """How many steps a table has from the lowest separation up; the same whatever is rounded.
 
     Floats or arrays, for the lowest and highest separation and the width of the seat [σ].
@@ -291,7 +291,9 @@ class Ground:
                 return self._above(row + 1, u, w)
         return u, w[:, 0]
 
-    def _iterated(self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array) -> Any:
+    def _iterated(
+        self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array
+    ) -> NDArray[np.intp]:
         """Iteration after Anderson from the states kept; fills in rows, gives those not found."""
         state = kept[rest]
         states: list[Array] = []
@@ -314,7 +316,7 @@ class Ground:
             state = _accelerated(states, misses)
         return rest[left == MORE]
 
-    def _above(self, first: Any, u: Array, w: Array) -> tuple[Array, Array]:
+    def _above(self, first: int, u: Array, w: Array) -> tuple[Array, Array]:
         """The table without separations where particles, all but grown together, find no ground."""
         if len(self.h) - first < FEWEST:
             raise NoEquilibrium(

@@ -130,7 +130,7 @@ class FieldSpots(AsperitySpots):
         if share is None:
             number = np.broadcast_to(spots.number, (len(count), spots.number.shape[1]))
 
-        def flattened(values: Any) -> Any:
+        def flattened(values: NDArray[Any]) -> NDArray[Any]:
             flat = values if share is None else values[:, 0]
             return np.broadcast_to(flat, number.shape)
 

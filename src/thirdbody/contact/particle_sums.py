@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from ..populations.distributions import Distribution
 
     Array = NDArray[np.float64]
+    Number = float | Array
 
 __all__ = ["ParticleSum", "particle_sum", "printed_numbers", "together_in"]
 
@@ -336,15 +337,20 @@ def together_in(sums: Sequence[ParticleSum]) -> ParticleSum:
 class PrintedNumbers(NamedTuple):
     """The numbers in the printed integrals; arrays where their inputs are."""
 
-    C: Any
+    C: Number
     h_e: Any
-    area_factor: Any
-    pressure: Any
-    shadow_factor: Any
+    area_factor: Number
+    pressure: Number
+    shadow_factor: Number
 
 
 def printed_numbers(
-    law: Any, surfaces: Any, roughness: Any, particles: Any, x_a: Any, mass: Any
+    law: Horng2022,
+    surfaces: MaterialPair,
+    roughness: Roughness,
+    particles: Particles,
+    x_a: Number,
+    mass: Number,
 ) -> PrintedNumbers:
     """The numbers in the printed integrals, of a law as it is or with arrays in it.
 

@@ -413,17 +413,17 @@ class Dents(AbstractOutput):
 
     def _share_held(self, groups: Sequence[ParticleSpots], side: int, contact: Contact) -> float:
         """The largest share of flattened particles in any state whose width is the widest."""
-        marks: Any = 0.0
-        held: Any = 0.0
+        marks: float | Array = 0.0
+        held: float | Array = 0.0
         for spots in groups:
             population = spots.population
             assert population is not None
             law, own = contact.law_of(population), population.material
             widest = _widest(law, contact.surfaces, own, side)
             dent = self._dent_left(spots, side, contact)
-            flat: Any = np.isnan(dent.depth) & (dent.diameter > 0)
+            flat = np.isnan(dent.depth) & (dent.diameter > 0)
             marks = marks + spots.total(flat.astype(float))
-            wide: Any = flat & (dent.diameter >= widest * spots.x)
+            wide = flat & (dent.diameter >= widest * spots.x)
             held = held + spots.total(wide.astype(float))
         return float(np.max(held / np.where(marks > 0, marks, 1.0), initial=0.0))
 

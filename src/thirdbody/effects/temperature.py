@@ -27,14 +27,14 @@ from .single.heat import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from ..contact.contact import Contact
     from ..contact.evaluation import Solved
     from ..contact.spots import AsperitySpots
-    from ..laws.spots import ParticleSpots
+    from ..laws.spots import ParticleSpots, Spots
     from ..populations.materials import Material
     from .friction import Friction
 
@@ -301,7 +301,9 @@ class FlashTemperature(AbstractOutput):
         )
         return partition(force * self.v, G_1=self.h_1, G_2=self.h_2, T_1=self.T_1, T_2=self.T_2)  # type: ignore[return-value]
 
-    def _summary(self, group: str, spots: Any, T: list[Array], states: int) -> dict[str, Array]:
+    def _summary(
+        self, group: str, spots: Sequence[Spots], T: list[Array], states: int
+    ) -> dict[str, Array]:
         """Means, quantiles and peak of one group of contacts: NaN where there are none."""
         out = {}
         total: dict[str, Array] = {}
@@ -369,7 +371,7 @@ class FlashTemperature(AbstractOutput):
         return [*self._about_few(state), *([about_wide(self.name, share)] if share >= 0.01 else [])]
 
 
-def _pressing(spots: Any) -> Array:
+def _pressing(spots: Spots) -> Any:
     return spots.load > 0
 
 
@@ -378,14 +380,14 @@ def _area(spots: Any) -> Array:
     return spots.area if hasattr(spots, "area") else np.minimum(*spots.areas)
 
 
-def _load(spots: Any) -> Array:
+def _load(spots: Spots) -> Array:
     return spots.load
 
 
-WEIGHTS: dict[str, Callable[[Any], Array]] = {"number": _pressing, "area": _area, "load": _load}
+WEIGHTS: dict[str, Callable[[Spots], Array]] = {"number": _pressing, "area": _area, "load": _load}
 
 
-def _sum(states: int, parts: Any, axes: int = 0) -> Array:
+def _sum(states: int, parts: Iterable[Array], axes: int = 0) -> Array:
     return sum(parts, np.zeros((states,) + (1,) * axes))
 
 
@@ -397,7 +399,7 @@ class _Counted(NamedTuple):
 
     @staticmethod
     def from_spots(
-        spots: Any, T: list[Array], weight: Callable[[object], Array], states: int
+        spots: Sequence[Spots], T: list[Array], weight: Callable[[Spots], Array], states: int
     ) -> _Counted:
         parts = [t[each.load > 0] for each, t in zip(spots, T, strict=True)]
         known = np.concatenate([*parts, np.zeros(0)])

@@ -122,12 +122,12 @@ class Equilibrium(_ContactRecord):
         said = {"engine": self.engine, "warnings": "\n".join(self.warnings)}
         return said | provenance(self.contact)
 
-    def more_variables(self) -> tuple[dict[str, Any], dict[str, Any]]:
+    def more_variables(self) -> tuple[dict[str, object], dict[str, object]]:
         """Variables of several populations, along the dimension ``population`` too."""
         parts, dims = self.populations, ("state", "population")
         if not parts:
             return {}, {}
-        stacked = {
+        stacked: dict[str, object] = {
             f"population_{name}": (
                 dims,
                 np.stack([part.columns()[name] for part in parts], axis=-1),
@@ -185,7 +185,7 @@ class PopulationShare(_ContactRecord):
 CODE = "status_code"
 """Column of the codes of `Status`, beside those of a result."""
 FLAGS = {"flag_values": list(range(len(WORDS))), "flag_meanings": " ".join(WORDS)}
-MARKS: dict[str, dict[str, Any]] = {
+MARKS: dict[str, dict[str, object]] = {
     "engine": {"long_name": "what found the separation"},
     CODE: {"units": "", "long_name": "code of the status", **FLAGS},
 }
@@ -216,7 +216,7 @@ def quantity_of(contact: Contact, name: str) -> Quantity | None:
     return {item.name: item.metadata.get("quantity") for item in fields(owner)}.get(last)
 
 
-def labels_of(contact: Contact, name: str) -> dict[str, Any]:
+def labels_of(contact: Contact, name: str) -> dict[str, str]:
     """Attributes of an input or load in a data set."""
     if name in COLUMNS:
         return COLUMNS[name].labels
@@ -263,7 +263,7 @@ def columns_of(contact: Contact) -> tuple[str, ...]:
     return (*COLUMNS, *(name for output in contact.outputs for name in output.columns))
 
 
-def _mode(particle_share: ArrayLike, eps_1: float, eps_2: float) -> Any:
+def _mode(particle_share: ArrayLike, eps_1: float, eps_2: float) -> str | NDArray[np.str_]:
     share = np.asarray(particle_share)
     # codes first: choosing among strings is slow
     sliding = np.where(1 - share >= 1 - eps_2, 3, 2)

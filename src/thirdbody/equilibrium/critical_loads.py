@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
+    Case = tuple[NDArray[np.bool_], CriticalStatus, float]
     Loads = dict[str, tuple[Array, NDArray[np.str_]]]
+
+Input = TypeVar("Input")
 
 __all__ = ["CRITICAL", "carrying", "critical_loads", "load_falls"]
 
@@ -269,7 +272,7 @@ def _critical_loads(
     lost = np.isnan(shares.top)
 
     def entry(
-        cases: Sequence[tuple[NDArray[np.bool_], CriticalStatus, float]], loads: tuple[Array, Any]
+        cases: Sequence[Case], loads: tuple[Array, NDArray[np.intp]]
     ) -> tuple[Array, NDArray[np.str_]]:
         value, status = np.full(count, np.nan), np.full(count, CriticalStatus.FOUND, dtype="<U12")
         value[loads[1]] = loads[0]
@@ -300,7 +303,7 @@ def _critical_loads(
         np.repeat([0, 0, 1], [len(some) for some in where]),
         np.repeat([LEVEL_1, LEVEL_2, 0.0], [len(some) for some in where]),
     )
-    cases: list[Any] = [
+    cases: list[list[Case]] = [
         [(never, CriticalStatus.NEVER_P_S, 0.0), (always, CriticalStatus.ALWAYS_P_S, np.inf)],
         [(none, CriticalStatus.ALWAYS_S_S, 0.0), (end, CriticalStatus.NEVER_S_S, np.inf)],
         [(unequal, CriticalStatus.NONE, np.nan)],
@@ -397,7 +400,11 @@ def _parabola(x: Array, one: Array, two: Array, three: Array) -> Array:
 
 
 def _peak(
-    shares: Shares, area: Array, t: Array, lost: NDArray[np.bool_], entry: Any
+    shares: Shares,
+    area: Array,
+    t: Array,
+    lost: NDArray[np.bool_],
+    entry: Callable[..., tuple[Array, NDArray[np.str_]]],
 ) -> tuple[Array, NDArray[np.str_]]:
     """The load of the largest area share, where the share falls on both sides."""
     from scipy.optimize import elementwise
@@ -420,6 +427,6 @@ def _peak(
     return entry([(~good, CriticalStatus.NONE, np.nan)], (shares.load(answer.x, which), which))
 
 
-def carrying(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:
+def carrying(contact: Contact, vary: Mapping[str, Input]) -> tuple[Contact, dict[str, Input]]:
     """The contact without outputs, and the varied inputs that affect how it carries load."""
     return contact.replace(outputs=()), {name: v for name, v in vary.items() if carries(name)}

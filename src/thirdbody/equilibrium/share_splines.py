@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import expit
@@ -154,7 +154,7 @@ class SplineLoads:
         self._read()
 
     # ------------------------------------------------------------------ the splines
-    def _terms(self, k: int, rows: Any, x: Array, slope: int) -> Array:
+    def _terms(self, k: int, rows: Rows, x: Array, slope: int) -> Array:
         """Values, slopes or second slopes at x of the k-th spline of rows."""
         cell = np.clip((x / self.step).astype(int), 0, len(self.t) - 2)
         a, b, c, value = self.c[:, cell, k, rows]
@@ -165,7 +165,7 @@ class SplineLoads:
             return np.asarray((3 * a * u + 2 * b) * u + c)
         return np.asarray(((a * u + b) * u + c) * u + value)
 
-    def values_at(self, what: int, rows: Any, x: Array, slope: int = 0) -> Array:
+    def values_at(self, what: int, rows: Rows, x: Array, slope: int = 0) -> Array:
         """Values or slopes of area, equality or load of rows at x; of the area second slopes."""
         if what == AREA:
             return self._terms(0, rows, x, slope)
@@ -178,7 +178,7 @@ class SplineLoads:
         return part * one + (1 - part) * two
 
     def root(
-        self, what: int, rows: Rows, level: float, low: Any, high: Any, slope: int = 0
+        self, what: int, rows: Rows, level: float, low: Array, high: Array, slope: int = 0
     ) -> Array:
         """x between two at which rows pass a level."""
         begin = self.values_at(what, rows, low, slope) >= level

@@ -516,7 +516,7 @@ def _population_shares(
     contact: Contact,
     bound: Interface,
     d: Array,
-    columns: Mapping[str, Any],
+    columns: Mapping[str, Array],
     scalar: bool,
     outputs: Sequence[dict[str, Array]],
 ) -> tuple[PopulationShare, ...]:

@@ -130,9 +130,7 @@ def fewest_of(contact: Contact) -> int:
     return min(FEWEST, FEWEST_GROUNDS) if grounded else FEWEST
 
 
-def direct_columns(
-    contact: Contact, d: NDArray[np.float64], vary: Mapping[str, NDArray[Any]]
-) -> Columns:
+def direct_columns(contact: Contact, d: NDArray[np.float64], vary: Arrays) -> Columns:
     """Columns at separations d (N,) with inputs (N,), by quadrature at each: no table is made.
 
     What a few states of contacts are found by that no other state shares, by the compiled engine
@@ -170,7 +168,7 @@ def _loads_and_inputs(
     F_star: ArrayLike | None,
     d: ArrayLike | None,
     vary: Mapping[str, ArrayLike] | None,
-) -> tuple[str, NDArray[np.float64], dict[str, NDArray[Any]]]:
+) -> tuple[str, NDArray[np.float64], Columns]:
     """Name and values of the load, and the values of every varied input, all (N,)."""
     load, _, _ = given_load(contact, pressure, F_star, d)
     if problems := list(unknown_inputs(contact, vary or ())):
@@ -278,13 +276,15 @@ ROOM = 3_000_000
 
 Arrays = Mapping[str, NDArray[Any]]
 Columns = dict[str, NDArray[Any]]
+Which = slice | NDArray[np.intp]
+"""Some of the states."""
 
 
-def _take_states(arrays: Arrays, which: Any) -> dict[str, NDArray[Any]]:
+def _take_states(arrays: Arrays, which: Which) -> Columns:
     return {name: values[which] for name, values in arrays.items()}
 
 
-def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
+def _joined(count: int, parts: Iterable[tuple[Which, Columns]]) -> Columns:
     """Columns of all states, put together from subsets in their order."""
     out: Columns = {}
     for which, columns in parts:
@@ -444,7 +444,7 @@ def solves_each(contact: Contact, vary: Iterable[str]) -> bool:
 
 def _value_in(contact: Contact, name: str) -> Any:
     """The value of an input in the contact itself."""
-    value: Any = contact
+    value: object = contact
     for part in name.split("."):
         if isinstance(value, tuple) and part.isdigit() and int(part) < len(value):
             value = value[int(part)]
@@ -465,7 +465,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
         order = np.argsort(fine, kind="stable")  # those that need as many nodes side by side
 
-    def solve_part(here: Any) -> tuple[Any, Columns, int]:
+    def solve_part(here: Which) -> tuple[Which, Columns, int]:
         if order is not None:
             here = order[here]
         given = loads[here]
@@ -480,7 +480,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         parts = chain([(here, columns)], (found[:2] for found in rest))
         out = _joined(len(loads), _with_progress(parts))
 
-    def solve_again(which: Any, why: str) -> Columns:
+    def solve_again(which: NDArray[np.intp], why: str) -> Columns:
         try:
             return _by_own(contact, _take_states(arrays, which), load, loads[which])
         except NotCompiled:
@@ -493,14 +493,14 @@ def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float
     """Columns by quadrature of each state; doubtful states are solved one by one."""
     at_once = AT_ONCE // 16 if any(each.strength for each in contact.populations) else AT_ONCE
 
-    def solve_from(start: int) -> tuple[Any, Columns]:
+    def solve_from(start: int) -> tuple[Which, Columns]:
         here = np.arange(start, min(start + at_once, len(loads)))
         columns = own_columns(
             contact, _take_states(arrays, here), load, loads[here], engine.threads()
         )
         return here, _with_words(contact, columns)
 
-    def solve_again(which: Any, why: str) -> Columns:
+    def solve_again(which: NDArray[np.intp], why: str) -> Columns:
         return _by_groups(contact, _take_states(arrays, which), load, loads[which], why)
 
     out = _joined(len(loads), _with_progress(map(solve_from, range(0, len(loads), at_once))))
@@ -521,7 +521,7 @@ def _with_words(contact: Contact, columns: Columns) -> Columns:
 
 
 def _without_doubts(
-    out: Columns, doubts: Iterable[str], solve_again: Callable[[Any, str], Columns]
+    out: Columns, doubts: Iterable[str], solve_again: Callable[[NDArray[np.intp], str], Columns]
 ) -> Columns:
     """Columns in which doubtful states are replaced by those of another engine."""
     for why in doubts:
@@ -531,13 +531,13 @@ def _without_doubts(
     return out
 
 
-def _with_progress(parts: Iterable[tuple[Any, Columns]]) -> Iterator[tuple[Any, Columns]]:
+def _with_progress(parts: Iterable[tuple[Which, Columns]]) -> Iterator[tuple[Which, Columns]]:
     for here, columns in parts:
         solved(len(columns["status"]))
         yield here, columns
 
 
-def _all(count: int, word: str) -> NDArray[Any]:
+def _all(count: int, word: str) -> NDArray[np.object_]:
     return np.full(count, word, dtype=object)
 
 
@@ -575,7 +575,7 @@ def _groups(arrays: Arrays, count: int) -> NDArray[np.intp]:
     return group
 
 
-def varied(contact: Contact, changes: Mapping[str, Any]) -> Contact:
+def varied(contact: Contact, changes: Mapping[str, object]) -> Contact:
     """The contact with some inputs changed; a size or density of zero removes the particles."""
     if any(changes.get(name, 1) == 0 for name in ABSENT):
         kept = {name: v for name, v in changes.items() if not name.startswith("particles.")}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -98,7 +98,7 @@ class Statuses:
     """Codes of N states (N,), and their sentences, which may tell more than the code."""
 
     codes: NDArray[np.int8]
-    words: NDArray[Any]
+    words: NDArray[np.object_]
 
     @staticmethod
     def from_codes(codes: ArrayLike) -> Statuses:
@@ -111,7 +111,12 @@ class Statuses:
         """All of them ok."""
         return Statuses.from_codes(np.zeros(count, np.int8))
 
-    def set(self, which: Any, status: Status, sentence: str = "") -> None:
+    def set(
+        self,
+        which: np.intp | NDArray[np.intp] | NDArray[np.bool_],
+        status: Status,
+        sentence: str = "",
+    ) -> None:
         """Give states a status, and their sentence where it differs from that of the code."""
         self.codes[which] = status
         self.words[which] = sentence or status.sentence

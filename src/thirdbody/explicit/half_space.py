@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numba import njit
@@ -71,7 +71,7 @@ class HalfSpace:
         workers: int = 1,
     ):
         self.shape, self.spacing, self.E_star = shape, spacing, E_star
-        self.kind: Any = np.float32 if single else np.float64
+        self.kind: type[np.float32] | type[np.float64] = np.float32 if single else np.float64
         self.workers = workers
         n, m = shape
         q = np.hypot(np.fft.fftfreq(n)[:, None], np.fft.rfftfreq(m)) * (2 * math.pi / spacing)

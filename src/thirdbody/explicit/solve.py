@@ -442,7 +442,7 @@ def _maps(inside: Interface, state: Pressed) -> xarray.Dataset:
     touching = state.p > 0
     contact = np.where(touching, np.where(state.p >= inside.c, 2, 1), 0)
     contact[inside.c <= 0] = 3
-    fields: dict[str, tuple[Any, str, str]] = {
+    fields: dict[str, tuple[NDArray[np.generic], str, str]] = {
         "pressure": (state.p, "Pa", "contact pressure"),
         "gap": (state.h + state.u - z, "m", "gap; negative where the cap let the flat sink in"),
         "height": (z, "m", "height of the composite surface"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import ndtr
@@ -47,7 +47,7 @@ def one_surface(
     inside = interface_of(contact, surface, seats=rule, cap=cap, rng=rng)
     states, _ = curve(inside, "h", grid, effort)
     bare = curve(inside.bare(), "h", grid, effort)[0] if len(inside.bodies) else states
-    out: dict[str, Any] = {name: [] for name in SUMS}
+    out: dict[str, list[float]] = {name: [] for name in SUMS}
     columns = [numbers_of(inside, state) for state in states]
     pixel = surface.spacing**2
     for h, state, alone in zip(grid.tolist(), states, bare, strict=True):

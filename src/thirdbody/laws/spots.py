@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Hashable
+
     from numpy.typing import NDArray
 
     from ..populations.distributions import Distribution
@@ -43,7 +45,7 @@ class Spots:
     share: Array | None
     number: Array
     load: Array
-    kept: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+    kept: dict[Hashable, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
     """What outputs found for these spots, for each other."""
 
     def total(self, q: Array | float) -> Array:

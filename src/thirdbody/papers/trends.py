@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +72,7 @@ class Reading:
     pressures: Array
     solve: Callable[[Array, Mapping[str, float]], Trend]
     factors: tuple[str, ...]
-    inputs: Mapping[str, Any]
+    inputs: Mapping[str, str]
     """What the reading assumes, for the reader: numbers with units in words."""
 
     def trend(self, pressures: object = None, **factors: float) -> Trend:

@@ -26,7 +26,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -531,7 +531,7 @@ def _probes(ratio: float, radius: float) -> list[float]:
     return [tip.R_A * radius, tip.root_R_F * math.sqrt(radius), y, *decays]
 
 
-def _means(ratios: Array, radii: Array, shares: Any = 1.0) -> Array:
+def _means(ratios: Array, radii: Array, shares: float | Array = 1.0) -> Array:
     values = np.array([_probes(float(a), float(b)) for a, b in zip(ratios, radii, strict=True)])
     shares = np.broadcast_to(shares, len(ratios))
     return shares @ values / shares.sum()

@@ -261,7 +261,9 @@ def refuse_another(
     )
 
 
-def differences(old: Mapping[str, object], new: Mapping[str, object]) -> dict[str, tuple[Any, Any]]:
+def differences(
+    old: Mapping[str, object], new: Mapping[str, object]
+) -> dict[str, tuple[object, object]]:
     """Where two records differ, by dotted key."""
     flat_old, flat_new = _flat(old), _flat(json.loads(json.dumps(new)))
     return {
@@ -271,7 +273,7 @@ def differences(old: Mapping[str, object], new: Mapping[str, object]) -> dict[st
     }
 
 
-def _flat(data: object, path: str = "") -> dict[str, Any]:
+def _flat(data: object, path: str = "") -> dict[str, object]:
     if not isinstance(data, Mapping):
         return {path: data}
     out: dict[str, object] = {}

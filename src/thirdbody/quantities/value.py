@@ -426,8 +426,8 @@ class Value:
             A field that is not a quantity.
         """
         fields = {item.name: item for item in dataclasses.fields(self)}  # type: ignore[arg-type]
-        now: dict[str, Any] = {}
-        inner: dict[str, dict[str, Any]] = {}
+        now: dict[str, object] = {}
+        inner: dict[str, dict[str, NDArray[np.float64]]] = {}
         for key, values in changes.items():
             head, _, rest = key.partition(".")
             if head not in fields:
@@ -477,9 +477,9 @@ class Value:
 
 def _each_with_arrays(
     parts: tuple[Value, ...], changes: Mapping[str, NDArray[np.float64]], name: str
-) -> tuple[Any, ...]:
+) -> tuple[object, ...]:
     """Stand-ins of the numbered parts that change, beside the others."""
-    own: dict[int, dict[str, Any]] = {}
+    own: dict[int, dict[str, NDArray[np.float64]]] = {}
     for key, values in changes.items():
         number, _, rest = key.partition(".")
         if not number.isdigit() or int(number) >= len(parts) or not rest:
@@ -495,7 +495,7 @@ def _placed(owner: str, problem: str) -> str:
     return problem
 
 
-def _taker(member: object) -> Any:
+def _taker(member: object) -> object:
     """A method that takes quantities with a unit; None for what is no method."""
     if isinstance(member, types.FunctionType):
         return takes_units(member)
@@ -523,7 +523,7 @@ def paths_of(value: Value, prefix: str = "") -> Iterator[str]:
                 yield from paths_of(each, f"{name}." if place is None else f"{name}.{label}.")
 
 
-def _without_unit(kind: type[Value], name: str, value: object) -> tuple[Any, str]:
+def _without_unit(kind: type[Value], name: str, value: object) -> tuple[object, str]:
     """The value of a field in SI where it carries a unit, and why it cannot be."""
     item = kind.__dataclass_fields__[name]  # type: ignore[attr-defined]
     about = item.metadata.get("quantity") or item.metadata.get("several")
@@ -543,7 +543,7 @@ def _without_unit(kind: type[Value], name: str, value: object) -> tuple[Any, str
         return value, Problem(name, f"= {error}", owner=kind.__name__, code=error.code)
 
 
-def items_of(given: Any) -> tuple[Any, ...]:
+def items_of(given: Any) -> tuple[object, ...]:
     """The items of what should hold several; of anything else itself, to be refused by name."""
     try:
         return tuple(given)
@@ -621,14 +621,14 @@ def _stand_in(kind: type[Value]) -> type[Any]:
     return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))
 
 
-def _replace_at(where: str, part: object, changes: Mapping[str, object]) -> Any:
+def _replace_at(where: str, part: object, changes: Mapping[str, object]) -> object:
     """A value, or a tuple of them with the number of the one before the dot, with changes."""
     if isinstance(part, Value):
         return part.replace(**changes)
     if not isinstance(part, tuple):
         raise InvalidValue(f"{where} has no fields of its own", code=Mistake.MISSING)
     items = list(part)
-    inner: dict[int, dict[str, Any]] = {}
+    inner: dict[int, dict[str, object]] = {}
     for key, value in changes.items():
         which, _, rest = key.partition(".")
         inner.setdefault(_index(where, items, which), {})[rest] = value
@@ -651,7 +651,7 @@ def _index(where: str, items: Sequence[object], which: str) -> int:
     )
 
 
-def _revive(value: object) -> Any:
+def _revive(value: object) -> object:
     if isinstance(value, dict):
         return Value.from_dict(value)
     if isinstance(value, list):

@@ -76,7 +76,7 @@ RATIOS = {"first": "first_ratio", "second": "second_ratio"}
 RADII = ("R_first", "R_second")
 
 
-def _ellipticity(reader: Reader, path: str, data: Any) -> object:
+def _ellipticity(reader: Reader, path: str, data: object) -> object:
     """Classes of ratios, or two faces at an angle."""
     given = data if isinstance(data, dict) else {}
     if "ratios" in given or not {"first", "second", "angle"} & given.keys():

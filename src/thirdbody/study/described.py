@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from ..populations.materials import Material
     from ..quantities.units import Quantity
     from ..quantities.value import Value
+    from ..systems.chuck import Chuck
+    from ..systems.connector import Connector
 
 __all__ = ["BareNumber", "Described", "describe"]
 
@@ -34,7 +36,7 @@ class Described(NamedTuple):
     numbers: tuple[BareNumber, ...] = ()
 
 
-def describe(prefix: str, part: Any) -> Described:
+def describe(prefix: str, part: Connector | Chuck) -> Described:
     """Inputs of a part that has surfaces and particles.
 
     Parameters

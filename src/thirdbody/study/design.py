@@ -43,7 +43,7 @@ WORDS = {
 EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
-def _design(reader: Reader, path: str, data: Any) -> object:
+def _design(reader: Reader, path: str, data: object) -> object:
     """The task of [design]: variables, objectives, limits."""
     if all(get(data, name) is not None for name in ("F_star", "pressure")):
         rule = f"and {path}.pressure: only one of these can be given"
@@ -71,7 +71,7 @@ def _vary(reader: Reader, path: str, given: object) -> dict[str, object]:
     )
 
 
-def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, object]:
+def _variable(reader: Reader, where: str, told: tuple[str, object]) -> tuple[str, object]:
     """One variable: its name in the library, and its range or its materials."""
     label, entry = told
     if isinstance(entry, list):
@@ -89,7 +89,7 @@ def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, o
             rule = ": [particles] gives no concentration; write there concentration and gap"
             raise InvalidValue(Problem(where, rule, code=Mistake.MISSING))
         ends = [_amount(f"{where}.{end}", entry[end]) for end in ("low", "high")]
-        own = _amount("particles.concentration", reader.whole["particles"]["concentration"])
+        own = _amount("particles.concentration", get(reader.whole["particles"], "concentration"))
         if {each.by for each in ends} != {own.by}:
             rule = f"must be by {own.by}, like particles.concentration"
             raise InvalidValue(Problem(where, rule, code=Mistake.KIND))
@@ -124,7 +124,7 @@ def _fluid(reader: Reader) -> Suspension | None:
     given = reader.whole.get("particles")
     if get(given, "concentration") is None:
         return None
-    values: dict[str, Any] = {}
+    values: dict[str, float] = {}
     try:
         amount = cleanliness.concentration(given["concentration"])  # type: ignore[index]
         for key, name in (
@@ -152,7 +152,7 @@ def _several(
     return list(reader.read_each(entries, partial(_one, kind)))
 
 
-def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: object) -> Any:
+def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: object) -> object:
     example = EXAMPLE if kind is Objective else '{ of = "plastic_share", most = 0.3 }'
     if not isinstance(entry, dict) or not isinstance(entry.get("of"), str):
         raise wrong(where, f"must be a table such as {example}", entry, code=Mistake.KIND)

@@ -63,7 +63,7 @@ class Declaration:
     kind: Literal["number", "word", "list", "switch", "text", "word or number", "other"]
     declared: str
     needed: bool
-    default: Any = None
+    default: object = None
     quantity: Quantity | None = None
     options: tuple[str, ...] = ()
     meaning: str = ""

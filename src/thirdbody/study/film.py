@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
@@ -41,7 +42,7 @@ def _read_filter(reader: Reader, path: str, value: object) -> Filter:
         raise wrong(path, f": {bare}", value, code=first.code) from None
 
 
-def filter_of(whole: dict[str, Any]) -> Filter | None:
+def filter_of(whole: Mapping[str, object]) -> Filter | None:
     """The filter of a parsed file that was read; None where it names none."""
     told = get(whole.get("film"), "filter")
     return Filter.from_text(told) if isinstance(told, str) else None
@@ -70,7 +71,7 @@ def _keys() -> dict[str, Key]:
     }
 
 
-def _film(reader: Reader, path: str, data: Any) -> Any:
+def _film(reader: Reader, path: str, data: object) -> FilmConditions | dict[str, object]:
     """The bodies, the oil, the load, and the speeds."""
     reader.known.refused[path] = {"pressure": NO_PRESSURE}
     keys = _keys()
@@ -78,7 +79,7 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
     if pressed:
         keys = keys | {name: keys[name]._replace(required=False) for name in TAKEN}
 
-    def build(values: dict[str, Any]) -> FilmConditions | dict[str, Any]:
+    def build(values: dict[str, Any]) -> FilmConditions | dict[str, object]:
         if values.pop("filter", None) is not None and get(reader.whole, "particles") is None:
             raise InvalidValue(
                 Problem(
@@ -98,7 +99,7 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
 
 def on_body(
     reader: Reader,
-    film: FilmConditions | dict[str, Any],
+    film: FilmConditions | dict[str, object],
     bodies: Body | None,
     forces: np.ndarray | None,
     E_star: float,

@@ -92,7 +92,7 @@ def _kinds(whole: Mapping[str, object]) -> list[tuple[str, type]]:
         if isinstance(word := get(get(table, "shape"), "kind"), str):
             found.append((f"{path}.shape", SHAPES.get(word)))
         if get(table, "law") is not None:
-            found.append((f"{path}.law", class_of(table["law"], particle.REGISTRY)))
+            found.append((f"{path}.law", class_of(get(table, "law"), particle.REGISTRY)))
     if any(get(table, "law") is None for table in tables.values()):
         common = class_of(whole.get("particle_law", "series"), particle.REGISTRY)
         found.append(("particle_law", common))

@@ -133,7 +133,7 @@ class AskedLife:
         return Described(values, bodies, rows)
 
 
-def _duration(reader: Reader, path: str, value: Any) -> float:
+def _duration(reader: Reader, path: str, value: object) -> float:
     """A duration; without a unit it is in seconds, which is said."""
     found = read_number(DURATION, reader, path, value)
     bare = str(value).strip()
@@ -143,7 +143,7 @@ def _duration(reader: Reader, path: str, value: Any) -> float:
     return found
 
 
-def _times(reader: Reader, path: str, value: Any) -> tuple[float, ...]:
+def _times(reader: Reader, path: str, value: object) -> tuple[float, ...]:
     """One time, or a list of them."""
     given = value if isinstance(value, list) else [value]
     items = {f"{path}[{i}]": each for i, each in enumerate(given)}
@@ -170,12 +170,12 @@ def _oil_keys() -> dict[str, Key]:
     }
 
 
-def _oil(reader: Reader, path: str, data: Any) -> Any:
+def _oil(reader: Reader, path: str, data: object) -> dict[str, object]:
     return reader.table(path, data, _oil_keys())
 
 
 # -------------------------------------------------------------------------- filters
-def _filter(reader: Reader, path: str, data: Any, *, with_flow: bool = True) -> Any:
+def _filter(reader: Reader, path: str, data: object, *, with_flow: bool = True) -> Filter:
     """One filter."""
     own = keys_of(Filter)
     beta = sized_numbers(BETA, '{ "5 um" = 2, "10 um" = 75 }')
@@ -199,7 +199,7 @@ def _in_beta(name: str) -> str:
     return "beta" if name in ("sizes", "betas") else name
 
 
-def _filters(reader: Reader, path: str, data: Any) -> Any:
+def _filters(reader: Reader, path: str, data: object) -> tuple[Filter, ...]:
     """A list of filters."""
     if not isinstance(data, list):
         raise wrong(path, "must be a table, headed [[life.filters]]", data, code=Mistake.KIND)
@@ -217,7 +217,7 @@ FILTERS = Key(
 
 
 # -------------------------------------------------------------------------- what is waited for
-def _until(reader: Reader, path: str, data: Any) -> Any:
+def _until(reader: Reader, path: str, data: object) -> tuple[until.Until, ...]:
     """What ends the history."""
     keys = {
         "iso4406": CODE._replace(about="the oil reaches this code"),
@@ -239,7 +239,7 @@ def _until(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys, build)
 
 
-def _read_entries(reader: Reader, path: str, value: Any) -> Any:
+def _read_entries(reader: Reader, path: str, value: object) -> dict[str, object]:
     """A table of which the circuit says what its keys mean."""
     if not isinstance(value, dict) or not value:
         raise wrong(
@@ -252,7 +252,7 @@ def _read_entries(reader: Reader, path: str, value: Any) -> Any:
 
 
 def _uncertainty(
-    reader: Reader, given: Mapping[str, Any], circuit: OilCircuit, contact: LifeContact | None
+    reader: Reader, given: Mapping[str, object], circuit: OilCircuit, contact: LifeContact | None
 ) -> KnownOfLife:
     """What is known of the numbers of a circuit and of its contacts, by their names in them."""
     more = {} if contact is None else {f"contact.{name}": q for name, q in OF_CONTACT.items()}
@@ -296,7 +296,7 @@ def _keys() -> dict[str, Key]:
     }
 
 
-def _life(reader: Reader, path: str, data: Any) -> Any:
+def _life(reader: Reader, path: str, data: object) -> dict[str, object]:
     """The table, as what its keys stand for."""
     keys = _keys()
     if reader.every_way or get(data, "dry") is not None:

@@ -52,11 +52,11 @@ class LifeAssessment(QuestionResult):
         """None: they are those of `thirdbody life`."""
         return ()
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row an input, and their units."""
         swings = self.bands.swings
         unit = "1/m^3" if self.bands.swings_of == COUNT else "m"
-        columns: dict[str, list[Any]] = {
+        columns: dict[str, list[object]] = {
             "input": [each.name for each in swings],
             "at_low": [each.low for each in swings],
             "at_high": [each.high for each in swings],

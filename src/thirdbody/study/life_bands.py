@@ -158,7 +158,7 @@ class LifeBands(Record):
         return round(self.samples * (1 - self.reached[name]))
 
 
-def _number_of(circuit: OilCircuit, name: str) -> Any:
+def _number_of(circuit: OilCircuit, name: str) -> object:
     """What a name stands for in a circuit."""
     if (place := place_of_beta(circuit, name)) is not None:
         return circuit.filters[place[0]].betas[place[1]]
@@ -323,7 +323,7 @@ def is_of_contact(name: str) -> bool:
     return "." in name and name.partition(".")[0] in PARTS
 
 
-def _problems_of_part(name: str, known: Any, contact: Contact) -> list[Problem]:
+def _problems_of_part(name: str, known: object, contact: Contact) -> list[Problem]:
     """Why a number inside a contact cannot be varied so."""
     if not isinstance(known, Uncertain):
         return [Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND)]
@@ -343,7 +343,7 @@ def _contact_with(contact: Contact, values: dict[str, float]) -> Contact:
     return contact.replace(**own) if own else contact
 
 
-def _problems_of_condition(name: str, known: Any, given: Mapping[str, Any]) -> list[Problem]:
+def _problems_of_condition(name: str, known: object, given: Mapping[str, object]) -> list[Problem]:
     """Why a condition of a contact cannot be varied so."""
     if not isinstance(known, Uncertain):
         return [Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND)]
@@ -358,7 +358,7 @@ def _problems_of_condition(name: str, known: Any, given: Mapping[str, Any]) -> l
     return []
 
 
-def _with_hardness(given: Mapping[str, Any], values: dict[str, float]) -> dict[str, Any]:
+def _with_hardness(given: Mapping[str, object], values: dict[str, float]) -> dict[str, Any]:
     """Arguments of a contact with some of its numbers changed."""
     out = dict(given)
     if HARDNESS in values:
@@ -588,7 +588,7 @@ def _bands(
     swings_of: str,
     progress: bool | Report,
     keep: Path | str | None,
-    inputs: Mapping[str, Any],
+    inputs: Mapping[str, object],
 ) -> LifeBands:
     """Ends of all sets of inputs, and of each input alone at its ends."""
     names, sets = list(vary), _sets(vary, samples, seed, probabilities)

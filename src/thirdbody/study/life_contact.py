@@ -82,7 +82,7 @@ class LifeContact:
     running_in: RunningIn | None = None
 
 
-def _worn(reader: Reader, path: str, value: Any) -> tuple[float, float]:
+def _worn(reader: Reader, path: str, value: object) -> tuple[float, float]:
     """Areas of both surfaces."""
     if not isinstance(value, list) or len(value) != 2:
         raise wrong(
@@ -103,7 +103,7 @@ WORN_AREA = Key(
 )
 
 
-def need_debris(contact: Contact, life: Mapping[str, Any]) -> None:
+def need_debris(contact: Contact, life: Mapping[str, object]) -> None:
     """Refuse surfaces that wear where [life.debris] does not say what they lose."""
     if wears(contact) and "debris" not in life:
         rule = "is missing: surfaces wear, and what they lose has sizes that nobody can predict"
@@ -114,7 +114,7 @@ def need_debris(contact: Contact, life: Mapping[str, Any]) -> None:
         raise InvalidValue(Problem("life.debris.sizes", rule, hint=hint, code=Mistake.MISSING))
 
 
-def _contact(reader: Reader, path: str, data: Any) -> Any:
+def _contact(reader: Reader, path: str, data: object) -> dict[str, object]:
     """What enters the contacts."""
     keys = {name: quantity_key(name, about) for name, about in QUANTITIES.items()}
     ratio = keys["entry_ratio"]
@@ -124,7 +124,7 @@ def _contact(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys)
 
 
-def _sizes(reader: Reader, path: str, value: Any) -> Any:
+def _sizes(reader: Reader, path: str, value: object) -> Debris:
     """The word of the one estimate there is."""
     if value != BOUNDARY:
         table = '{ distribution = "log-normal", median = "1 um", gsd = 1.6 }'
@@ -134,7 +134,7 @@ def _sizes(reader: Reader, path: str, value: Any) -> Any:
     return Debris.boundary_lubricated()
 
 
-def _distribution(reader: Reader, path: str, data: Any) -> Any:
+def _distribution(reader: Reader, path: str, data: object) -> object:
     """Sizes of debris as a distribution."""
 
     def build(values: dict[str, Any]) -> Debris:
@@ -144,12 +144,12 @@ def _distribution(reader: Reader, path: str, data: Any) -> Any:
     return reader.variant(path, data, "distribution", DISTRIBUTIONS, build)
 
 
-def _hardness(reader: Reader, path: str, value: Any) -> float | None:
+def _hardness(reader: Reader, path: str, value: object) -> float | None:
     """A hardness, or that of the surface."""
     return None if value == AS_SURFACE else read_number(HARDNESS, reader, path, value)
 
 
-def _debris(reader: Reader, path: str, data: Any) -> Any:
+def _debris(reader: Reader, path: str, data: object) -> Debris:
     """What wear leaves behind."""
     keys = {
         "sizes": Key(

@@ -46,17 +46,17 @@ class AskedDesign:
 
 
 # ------------------------------------------------------------------------------ the table
-def design_key(one_filter: Callable[[Reader, str, Any], Any]) -> Key:
+def design_key(one_filter: Callable[[Reader, str, object], Filter]) -> Key:
     """The key of the table; ``one_filter`` reads a filter whose flow may be left out."""
 
-    def filters(reader: Reader, path: str, data: Any) -> Any:
+    def filters(reader: Reader, path: str, data: object) -> tuple[Filter, ...]:
         if not isinstance(data, list):
             raise wrong(
                 path, "must be a table, headed [[life.design.filters]]", data, code=Mistake.KIND
             )
         return reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, one_filter)
 
-    def read_table(reader: Reader, path: str, data: Any) -> Any:
+    def read_table(reader: Reader, path: str, data: object) -> dict[str, object]:
         keys = {
             "code": CODE._replace(about="the code that the oil is to come to"),
             "filters": Key(
@@ -85,7 +85,7 @@ def design_key(one_filter: Callable[[Reader, str, Any], Any]) -> Key:
     return Key(None, False, about, NOTHING, read_table)
 
 
-def _choice(reader: Reader, path: str, data: Any) -> Any:
+def _choice(reader: Reader, path: str, data: object) -> dict[str, object]:
     """One choice: its name, and numbers that are read once there is a circuit."""
     if reader.every_way:
         return {"type": "object"}
@@ -94,7 +94,7 @@ def _choice(reader: Reader, path: str, data: Any) -> Any:
     return data
 
 
-def _choices(reader: Reader, path: str, data: Any) -> Any:
+def _choices(reader: Reader, path: str, data: object) -> tuple[dict[str, object], ...]:
     if not isinstance(data, list) or len(data) < 2:
         raise wrong(path, f"must be a list of tables, {CHOICES}", data, code=Mistake.SHAPE)
     found = reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, _choice)
@@ -107,11 +107,11 @@ def _choices(reader: Reader, path: str, data: Any) -> Any:
 
 
 def _circuit(
-    reader: Reader, path: str, entry: Mapping[str, Any], circuit: OilCircuit, about: About
+    reader: Reader, path: str, entry: Mapping[str, object], circuit: OilCircuit, about: About
 ) -> OilCircuit:
     """The circuit with the numbers of a choice."""
 
-    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, float]:
+    def one(reader: Reader, where: str, pair: tuple[str, object]) -> tuple[str, float]:
         label, value = pair
         name = one_name_of(circuit, label.removeprefix("oil."))
         if (quantity := about(circuit, name)) is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from ..systems.life.ingress import Ingress
 from ..systems.life.oil_dirt import OilDirt
 from ..systems.life.reports import read_reports
 from .mistakes import clash
-from .reader import Key, Reader, ReadOne, get, number, quantity_key, read_number, word, wrong
+from .reader import Key, Reader, get, number, quantity_key, read_number, word, wrong
 from .surfaces import MATERIAL
 
 __all__ = ["ARRIVALS", "CLEAN", "CODE", "DIRT", "INGRESS", "dirts_of", "sized_numbers"]
@@ -29,6 +29,9 @@ LARGEST = quantity("x_max", "m", "largest size", gt=0).metadata["quantity"]
 SMALLEST = quantity("x_min", "m", "smallest size", gt=0).metadata["quantity"]
 CLEAN = "clean"
 """The word for oil without particles, and for no ingress."""
+Dirts = list[tuple[str, dict[str, Any]]]
+"""Tables of particles as they are read, each with its path."""
+ReadDirts = Callable[[Reader, str, object], Dirts]
 
 
 # -------------------------------------------------------------------------- particles
@@ -88,11 +91,11 @@ ENDS = {
 def sized_numbers(about: Quantity, what: str) -> Key:
     """The key of a table from sizes to numbers, of any sizes."""
 
-    def read(reader: Reader, path: str, data: Any) -> tuple[tuple[float, float], ...]:
+    def read(reader: Reader, path: str, data: object) -> tuple[tuple[float, float], ...]:
         if not isinstance(data, dict) or not data:
             raise wrong(path, f"must be a table of sizes, e.g. {what}", data, code=Mistake.KIND)
 
-        def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[float, float]:
+        def one(reader: Reader, where: str, pair: tuple[str, object]) -> tuple[float, float]:
             size, value = pair
             bare = size.replace("(c)", "").strip()
             at = read_number(SIZE, reader, where, bare)
@@ -104,7 +107,7 @@ def sized_numbers(about: Quantity, what: str) -> Key:
     return Key(read, about=f"by size, e.g. {what}", schema={"type": "object"})
 
 
-def _dirt_table(reader: Reader, path: str, data: Any) -> Any:
+def _dirt_table(reader: Reader, path: str, data: object) -> Dirts:
     """Particles in an oil, from a code or of a test dust."""
     keys = {
         "material": OF,
@@ -121,7 +124,7 @@ def _dirt_table(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, data, keys, lambda values: [(path, values)])
 
 
-def _reports(reader: Reader, path: str, value: Any) -> Any:
+def _reports(reader: Reader, path: str, value: object) -> tuple[object, ...]:
     """Reports of the oil, from a file."""
     if not isinstance(value, str):
         raise wrong(path, 'must be the name of a file, e.g. "oil.csv"', value, code=Mistake.KIND)
@@ -132,7 +135,7 @@ def _reports(reader: Reader, path: str, value: Any) -> Any:
         raise error.under(path) from None
 
 
-def _table_of_ingress(sources: tuple[str, ...]) -> ReadOne:
+def _table_of_ingress(sources: tuple[str, ...]) -> ReadDirts:
     """What reads a table of particles that enter, said in one of these ways."""
     counts = '{ "4 um" = "1e6 / min", "6 um" = "3e5 / min", "14 um" = "1e4 / min" }'
     ways = {
@@ -152,14 +155,14 @@ def _table_of_ingress(sources: tuple[str, ...]) -> ReadOne:
         **ends,
     }
 
-    def read(reader: Reader, path: str, data: Any) -> Any:
+    def read(reader: Reader, path: str, data: object) -> Dirts:
         _one_source(reader, path, data, sources)
         return reader.table(path, data, keys, lambda values: [(path, values)])
 
     return read
 
 
-def _one_source(reader: Reader, path: str, data: Any, sources: tuple[str, ...]) -> None:
+def _one_source(reader: Reader, path: str, data: object, sources: tuple[str, ...]) -> None:
     """Tell where particles are given twice, or not at all."""
     if reader.every_way or not isinstance(data, dict):
         return
@@ -172,10 +175,10 @@ def _one_source(reader: Reader, path: str, data: Any, sources: tuple[str, ...]) 
         reader.mistakes.append(Problem(path, rule, code=Mistake.MISSING))
 
 
-def _several(table: Any, plain: Any) -> Any:
+def _several(table: ReadDirts, plain: ReadDirts) -> ReadDirts:
     """What reads one entry, or a list of them."""
 
-    def read(reader: Reader, path: str, value: Any) -> Any:
+    def read(reader: Reader, path: str, value: object) -> Dirts:
         if isinstance(value, list):
             items = {f"{path}.{i}": item for i, item in enumerate(value)}
             found = reader.read_each(items, table)
@@ -185,12 +188,12 @@ def _several(table: Any, plain: Any) -> Any:
     return read
 
 
-def _start(reader: Reader, path: str, value: Any) -> Any:
+def _start(reader: Reader, path: str, value: object) -> Dirts:
     """Particles in an oil, as a code; none."""
     return [] if value == CLEAN else [(path, {"iso4406": _code(reader, path, value)})]
 
 
-def _no_ingress(reader: Reader, path: str, value: Any) -> Any:
+def _no_ingress(reader: Reader, path: str, value: object) -> Dirts:
     """No particles that enter."""
     if value == CLEAN:
         return []
@@ -229,7 +232,7 @@ ARRIVALS = Key(
 
 # -------------------------------------------------------------------------- what they are
 def dirts_of(
-    given: list[tuple[str, dict[str, Any]]] | None,
+    given: Dirts | None,
     material: Material | None,
     *,
     ingress: bool,
@@ -263,7 +266,7 @@ OPTIONS: Mapping[str, tuple[str, ...]] = {
 """What goes with each way of saying how many particles there are."""
 
 
-def _misfit(values: Mapping[str, Any]) -> str:
+def _misfit(values: Mapping[str, object]) -> str:
     """Which keys do not go with each other."""
     source = next(name for name in OPTIONS if name in values)
     idle = [name for name in values if name not in (source, *OPTIONS[source])]

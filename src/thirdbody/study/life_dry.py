@@ -134,7 +134,7 @@ def _keys() -> dict[str, Key]:
     }
 
 
-def _dry(reader: Reader, path: str, data: Any) -> Any:
+def _dry(reader: Reader, path: str, data: object) -> dict[str, object]:
     return reader.table(path, data, _keys())
 
 
@@ -162,7 +162,7 @@ def _pressure(values: Mapping[str, Any], contact: Contact) -> float:
     return float(loads[0]) * (1.0 if name == "pressure" else contact.E_ss)
 
 
-def _uncertainty(reader: Reader, given: Mapping[str, Any], debris: Debris | None) -> KnownOfLife:
+def _uncertainty(reader: Reader, given: Mapping[str, object], debris: Debris | None) -> KnownOfLife:
     """What is known of the numbers of a dry contact, by their names as arguments."""
     known = {f"dry.{name}": (name, about) for name, about in QUANTITIES.items()}
     known |= {"arrivals": ("arrivals", FACTOR), "load.pressure": ("pressure", LOADS["pressure"])}

@@ -38,7 +38,7 @@ class KeptEnds:
     ({'wear': 1e-06}, {'wear': 1e-06}, None)
     """
 
-    def __init__(self, file: Path | None, inputs: Mapping[str, Any]):
+    def __init__(self, file: Path | None, inputs: Mapping[str, object]):
         self.file = file
         text = json.dumps({"version": __version__} | dict(inputs), sort_keys=True, default=repr)
         self.of = hashlib.sha256(text.encode()).hexdigest()
@@ -104,11 +104,11 @@ class KeptEnds:
         return end
 
 
-def _to_plain(end: Mapping[str, Any]) -> dict[str, Any]:
+def _to_plain(end: Mapping[str, object]) -> dict[str, object]:
     """Every number as JSON has it; NaN is null."""
     return {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in end.items()}
 
 
-def _from_plain(end: Mapping[str, Any]) -> dict[str, Any]:
+def _from_plain(end: Mapping[str, object]) -> dict[str, Any]:
     out = {k: math.nan if v is None else v for k, v in end.items()}
     return {k: tuple(v) if isinstance(v, list) else v for k, v in out.items()}

@@ -137,7 +137,7 @@ def with_numbers(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit
     return circuit.replace(**changes) if changes else circuit
 
 
-def names_life(whole: Mapping[str, Any]) -> bool:
+def names_life(whole: Mapping[str, object]) -> bool:
     """Whether a parsed file says what is known of numbers of its [life]."""
     if get(whole.get("life"), "uncertainty") is not None:
         return True
@@ -146,7 +146,7 @@ def names_life(whole: Mapping[str, Any]) -> bool:
 
 
 def known_of_life(
-    reader: Reader, given: Mapping[str, Any], about: About, names: str, *, contact: bool
+    reader: Reader, given: Mapping[str, object], about: About, names: str, *, contact: bool
 ) -> KnownOfLife:
     """What is known of the numbers of a life.
 
@@ -165,7 +165,7 @@ def known_of_life(
     """
     parts = _inputs_of_contact(reader) if contact else {}
 
-    def one(reader: Reader, where: str, pair: tuple[str, Any]) -> tuple[str, Uncertain]:
+    def one(reader: Reader, where: str, pair: tuple[str, object]) -> tuple[str, Uncertain]:
         label, entry = pair
         name, quantity_of = about(label)
         if quantity_of is None:
@@ -176,7 +176,7 @@ def known_of_life(
 
     places: dict[str, str] = {}
 
-    def all_of(pairs: Mapping[str, tuple[str, Any]]) -> dict[str, Uncertain]:
+    def all_of(pairs: Mapping[str, tuple[str, object]]) -> dict[str, Uncertain]:
         found = reader.read_each(pairs, one)
         first: dict[str, str] = {}
         twice = []
@@ -194,7 +194,7 @@ def known_of_life(
         places.update(first)
         return dict(found)
 
-    def pairs_of(path: str, entries: Mapping[str, Any]) -> dict[str, tuple[str, Any]]:
+    def pairs_of(path: str, entries: Mapping[str, object]) -> dict[str, tuple[str, object]]:
         return {
             f"{path}.{say(label)}": (label.removeprefix(LIFE), entry)
             for label, entry in entries.items()

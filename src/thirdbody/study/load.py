@@ -24,7 +24,7 @@ MOST_INTEGRATED = 3
 KEYS = {name: amounts(name, about) for name, about in (LOADS | {"force": FORCE}).items()}
 
 
-def _load(reader: Reader, path: str, data: Any) -> object:
+def _load(reader: Reader, path: str, data: object) -> object:
     """Name and values of the load."""
     reader.only_one(path, data)
 

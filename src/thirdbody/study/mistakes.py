@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..errors import InvalidValue, Mistake, Problem, in_study
 from ..quantities.nearest import Guess, guess
@@ -27,7 +27,7 @@ class Unknown(NamedTuple):
 
     path: str
     key: str
-    value: Any
+    value: object
 
 
 class Known:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ..contact.contact import Contact
 from ..populations.materials import materials
@@ -14,6 +15,9 @@ from ..systems.film_conditions import FilmConditions
 from .dirty_oil import DirtyOil, dirty_oil
 from .what_ifs import HARDNESS, TWICE
 from .whole import Study
+
+if TYPE_CHECKING:
+    from ..populations.particles import Particles
 
 __all__ = ["OilWhatIf", "what_ifs_of_oil"]
 
@@ -122,8 +126,8 @@ def _deepest(oil: DirtyOil) -> float:
                default=math.nan)  # fmt: skip
 
 
-def _pair(both: list[DirtyOil | None], number: Any) -> tuple[float, float]:
-    return tuple(float(number(each)) for each in both)  # type: ignore[return-value]
+def _pair(both: list[DirtyOil | None], number: Callable[[DirtyOil], float]) -> tuple[float, float]:
+    return tuple(float(number(each)) for each in both)  # type: ignore[return-value, arg-type]
 
 
 def _ratio(values: tuple[float, float]) -> float:
@@ -133,7 +137,7 @@ def _ratio(values: tuple[float, float]) -> float:
     return high / low if low > 0 else math.inf if high > 0 else 1.0
 
 
-def _with_parts(study: Study, parts: tuple[Any, ...]) -> Study:
+def _with_parts(study: Study, parts: tuple[Particles, ...]) -> Study:
     contact = study.contact
     several = isinstance(contact.particles, tuple)
     return replace(study, contact=contact.replace(particles=parts if several else parts[0]))

@@ -11,7 +11,11 @@ from ..systems.bodies import Flat
 from .reader import NOTHING, Key, Reader, Table, get, table_of
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from ..contact.contact import Contact
+    from ..contact.output import AbstractOutput
+    from ..systems.bodies import Body
 
 __all__ = ["OUTPUTS", "on_area"]
 
@@ -22,7 +26,9 @@ def _outputs(reader: Reader, path: str, data: object) -> object:
     return reader.table(path, data, keys, lambda values: tuple(values.values()))
 
 
-def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contact, list[str]]:
+def on_area(
+    contact: Contact, body: Body | None, forces: np.ndarray | None, data: object
+) -> tuple[Contact, list[str]]:
     """The contact whose outputs are of the area of the body where the file gives none, and notes.
 
     A flat body has one area; curved ones have Hertz's, which is one where there is one force. The
@@ -33,7 +39,7 @@ def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contac
         area = body.area
     elif body is not None and forces is not None and len(forces) == 1:
         area = float(body.hertz(forces[0], contact.E_ss).area)
-    out: list[Any] = []
+    out: list[AbstractOutput] = []
     notes: list[str] = []
     each: Any
     for each in contact.outputs:
@@ -60,7 +66,7 @@ def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contac
     return (contact if same else contact.replace(outputs=tuple(out))), notes
 
 
-def _closing_column(output: Any) -> str:
+def _closing_column(output: AbstractOutput) -> str:
     """The column that is the probability of closing; empty where there is none."""
     return next((name for name in output.columns if name.endswith("_closed")), "")
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue, Mistake, Note, Problem
-from ..populations.distributions import Histogram
+from ..populations.distributions import Distribution, Histogram
 from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
 from ..populations.particles import Particles
@@ -123,7 +123,7 @@ def _of_material(reader: Reader, path: str, value: object) -> dict[str, object]:
     return {}
 
 
-def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[str, Any]:
+def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[str, object]:
     """A strength with its numbers, or changes to that of the material."""
     given = data if isinstance(data, dict) else {}
     keys = dict(keys_of(WeibullStrength))
@@ -137,7 +137,7 @@ def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[st
             rule = "both are the size of the test; keep one of them"
             reader.mistakes.append(clash(path, data, ("at", "x_0"), rule))
 
-    def build(values: dict[str, object]) -> WeibullStrength | dict[str, Any]:
+    def build(values: dict[str, object]) -> WeibullStrength | dict[str, object]:
         if "at" in values:
             values["x_0"] = values.pop("at")
         return values if of_material else reader.make(WeibullStrength, path, values)
@@ -169,7 +169,7 @@ def with_strength(particles: Particles, path: str, asked: object) -> Particles:
 # -------------------------------------------------------------------------- populations
 
 
-def populations(whole: Mapping[str, object]) -> dict[str, Any]:
+def populations(whole: Mapping[str, object]) -> dict[str, object]:
     """The tables of all populations of a file by their paths, particles or particles.0, ..."""
     given = whole.get("particles")
     if isinstance(given, list) and given:
@@ -226,7 +226,7 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _population(reader: Reader, path: str, data: Any) -> object:
+def _population(reader: Reader, path: str, data: object) -> object:
     """One population, whose sizes are a distribution or were counted."""
     given = data if isinstance(data, dict) else {}
     sources = [key for key in ("distribution", *COUNTED) if given.get(key) is not None]
@@ -344,7 +344,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concent
         raise InvalidValue(Problem(path, f"= {error}", code=error.code)) from None
 
 
-def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
+def _keys_of_count(given: Mapping[str, object], kind: str) -> dict[str, Key]:
     """Keys of a count of particles: what was counted, and its options."""
     keys = {
         name: word(WORDS[name]) if name in WORDS else KEYS_OF_AMOUNT[name] for name in COUNTED[kind]
@@ -399,7 +399,7 @@ def _sizes_of_file(reader: Reader, value: object, weighting: str) -> MeasuredSiz
 
 
 # -------------------------------------------------------------------------- particles
-def _laden(reader: Reader, path: str, values: dict[str, Any], diameter: Any) -> Particles:
+def _laden(reader: Reader, path: str, values: dict[str, Any], diameter: Distribution) -> Particles:
     """Particles with these sizes, and the density or the concentration of the file."""
     if "concentration" not in values:
         return reader.make(Particles, path, values | {"diameter": diameter})

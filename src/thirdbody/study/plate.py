@@ -55,7 +55,7 @@ class AskedPlate:
         return describe("plate.", self.chuck)
 
 
-def _plate(reader: Reader, path: str, data: object) -> Any:
+def _plate(reader: Reader, path: str, data: object) -> dict[str, object]:
     """The plate of [plate], as a table of arguments."""
     return reader.table(path, data, keys_of(Chuck) | {"grain": amounts("grain", GRAIN)})
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar, overload
 
 import numpy as np
 
@@ -47,6 +47,7 @@ __all__ = [
     "quantity_key",
     "read_number",
     "read_numbers",
+    "read_text",
     "read_word",
     "refused",
     "rivals",
@@ -82,7 +83,8 @@ NOTHING: dict[str, Any] = {"enum": []}
 
 Item = TypeVar("Item")
 Read = TypeVar("Read")
-ReadOne = Callable[["Reader", str, Any], Any]
+Made = TypeVar("Made")
+ReadOne = Callable[["Reader", str, object], object]
 """What reads the value at a path."""
 
 
@@ -114,7 +116,7 @@ class Key(NamedTuple):
     about: str = ""
     schema: dict[str, Any] = ANYTHING
     table: ReadOne | None = None
-    also: tuple[dict[str, Any], ...] = ()
+    also: tuple[Mapping[str, object], ...] = ()
     items: ReadOne | None = None
     default: bool | float | str | None = None
 
@@ -148,7 +150,7 @@ class Table:
 
     name: str
     key: Key
-    required: Callable[[Mapping[str, Any]], bool] | None = None
+    required: Callable[[Mapping[str, object]], bool] | None = None
     role: str = "contact"
 
     def is_required(self, whole: Mapping[str, object]) -> bool:
@@ -178,7 +180,7 @@ class Reader:
     every_way = False
     """Whether keys are looked up for whatever data may come, to say what a file may hold."""
 
-    def __init__(self, folder: Path, whole: dict[str, Any]) -> None:
+    def __init__(self, folder: Path, whole: dict[str, object]) -> None:
         self.folder = folder
         self.whole = whole
         self.library: MaterialLibrary | None = materials
@@ -197,13 +199,23 @@ class Reader:
         """Dotted names of all keys of the file, items of lists by their numbers."""
         return frozenset(_names_in(self.whole, ""))
 
+    @overload
     def table(
         self,
         path: str,
         data: object,
         keys: Mapping[str, Key],
-        build: Callable[[dict[str, Any]], Any] = dict,
-    ) -> Any:
+        build: Callable[[dict[str, Any]], Made],
+    ) -> Made: ...
+    @overload
+    def table(self, path: str, data: object, keys: Mapping[str, Key]) -> dict[str, Any]: ...
+    def table(
+        self,
+        path: str,
+        data: object,
+        keys: Mapping[str, Key],
+        build: Callable[[dict[str, Any]], object] = dict,
+    ) -> object:
         """Object built from a table with these keys and no others.
 
         Its mistakes are kept, and an empty `InvalidValue` says that there are some.
@@ -243,9 +255,10 @@ class Reader:
             raise InvalidValue(*problems)
         return tuple(out)
 
-    def value(self, path: str, data: object, kind: type) -> Any:
+    def value(self, path: str, data: object, kind: type[Made]) -> Made:
         """A table that stands for a value class: its fields are the keys."""
-        return self.table(path, data, keys_of(kind), partial(self.make, kind, path))
+        keys = keys_of(kind)  # type: ignore[arg-type]  # a class is hashable
+        return self.table(path, data, keys, partial(self.make, kind, path))
 
     def variant(
         self,
@@ -253,7 +266,7 @@ class Reader:
         data: object,
         tag: str,
         kinds: Mapping[str, type],
-        build: Callable[[dict[str, Any]], Any] | None = None,
+        build: Callable[[dict[str, Any]], object] | None = None,
         common: Mapping[str, Key] | None = None,
     ) -> object:
         """A table whose other keys depend on the word under ``tag``.
@@ -280,7 +293,7 @@ class Reader:
             self.mistakes.append(clash(path, data, given, rule))
         return given[1:]
 
-    def make(self, kind: type, path: str, values: Mapping[str, object]) -> Any:
+    def make(self, kind: type[Made], path: str, values: Mapping[str, object]) -> Made:
         """The object, its own complaints told with the keys of the file."""
         try:
             return kind(**values)
@@ -475,7 +488,7 @@ def _amounts(about: Quantity, reader: Reader, path: str, value: object) -> np.nd
     return np.array(read_numbers(about, reader, path, value))
 
 
-def _range(about: Quantity, sampled: bool, reader: Reader, path: str, data: Any) -> Any:
+def _range(about: Quantity, sampled: bool, reader: Reader, path: str, data: object) -> object:
     spacings = ("linear", "log") if about["gt"] is None else ("log", "linear")
     example = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
     end, points = number(about)._replace(required=True), count(f"how many values, {example}")
@@ -490,7 +503,7 @@ def _range(about: Quantity, sampled: bool, reader: Reader, path: str, data: Any)
     problems = _problems_of_ends(about, path, data, log)
     reader.mistakes += problems
 
-    def build(values: dict[str, Any]) -> Any:
+    def build(values: dict[str, Any]) -> np.ndarray | dict[str, object]:
         low, high = values["from"], values["to"]
         if problems:
             raise InvalidValue
@@ -591,7 +604,8 @@ def _read_word_or_number(reader: Reader, path: str, value: object) -> str | floa
     raise wrong(path, "must be a word in quotes or a number", value, code=Mistake.KIND)
 
 
-def _read_text(reader: Reader, path: str, value: object) -> str:
+def read_text(reader: Reader, path: str, value: object) -> str:
+    """The text that a value of a file is."""
     if isinstance(value, str):
         return value
     simple = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -606,7 +620,7 @@ def _read_switch(reader: Reader, path: str, value: object) -> bool:
     raise wrong(path, "must be true or false, without quotes", value, code=Mistake.KIND)
 
 
-text = Key(_read_text, schema={"type": "string"})
+text = Key(read_text, schema={"type": "string"})
 """Text in quotes."""
 switch = Key(_read_switch, schema={"type": "boolean"})
 """True or false."""
@@ -618,6 +632,6 @@ PLAIN: Mapping[str, Key] = {
 """Keys of which all is known but what they are."""
 
 
-def get(data: Any, key: str) -> Any:
+def get(data: object, key: str) -> Any:
     """An entry of a table, None where there is no table or no entry."""
     return data.get(key) if isinstance(data, dict) else None

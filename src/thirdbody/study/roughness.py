@@ -34,7 +34,7 @@ from .reader import (
 __all__ = ["ROUGHNESS", "is_drawn"]
 
 
-def _roughness(reader: Reader, path: str, data: Any) -> Any:
+def _roughness(reader: Reader, path: str, data: Any) -> object:
     """The equivalent rough surface."""
     if isinstance(data, dict) and "topography" in data:
         return _topography(reader, path, data)
@@ -75,7 +75,7 @@ def is_drawn(data: object) -> bool:
     return isinstance(data, dict) and not data.keys().isdisjoint({*STATED, *SIDES, "process"})
 
 
-def _read_drawing(reader: Reader, path: str, data: dict[str, object]) -> Any:
+def _read_drawing(reader: Reader, path: str, data: dict[str, object]) -> object:
     """Heights of the pair or of each face, the process, and numbers that replace its ranges."""
     keys = {name: key._replace(required=False) for name, key in keys_of(Roughness).items()}
     keys |= _height_keys() | dict.fromkeys(SIDES, FACE)
@@ -175,7 +175,7 @@ def _shape_measured(reader: Reader, path: str, value: object) -> str:
     return "measured"
 
 
-def _shape_beside(reader: Reader, path: str, data: Mapping[str, object]) -> object:
+def _shape_beside(reader: Reader, path: str, data: Any) -> object:
     """Classes and faces as elsewhere, without the radii."""
     if radii := [key for key in RADII if get(data, key) is not None]:
         both = "both" if len(radii) == 2 else "it"

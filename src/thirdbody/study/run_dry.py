@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from ..systems.life.run import life
 from .asked_result import QuestionResult
 from .life_bands import LifeBands, check_dry, propagate_dry
 from .life_dry import AskedDry
+
+if TYPE_CHECKING:
+    from ..systems.life.history import LifeHistory
+    from .life import AskedLife
 
 __all__ = ["DryResult", "bands_of_dry", "drawn_of", "life_of_asked", "run_dry"]
 
@@ -64,10 +68,10 @@ class DryResult(QuestionResult):
         columns = self.history.ledger.over_time()
         return {name.replace("in the oil", "in the contact"): v for name, v in columns.items()}
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row a time, and their units."""
         history = self.history
-        columns: dict[str, list[Any]] = {
+        columns: dict[str, list[object]] = {
             "time": plain_data(history.times),
             "eta": plain_data(history.numbers.sum(axis=(1, 2))),
         }
@@ -104,7 +108,7 @@ def _arguments(asked: AskedDry) -> dict[str, Any]:
     return {**asked.conditions, "debris": asked.debris, "running_in": asked.running_in}
 
 
-def life_of_asked(asked: Any, **arguments: Any) -> Any:
+def life_of_asked(asked: AskedLife | AskedDry, **arguments: Any) -> LifeHistory | DryHistory:
     """The history that a study asks for; its warnings stand in it, and are not told twice."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
@@ -119,7 +123,7 @@ def life_of_asked(asked: Any, **arguments: Any) -> Any:
             ) from None
 
 
-def drawn_of(asked: Any) -> dict[str, Any]:
+def drawn_of(asked: AskedLife | AskedDry) -> dict[str, Any]:
     """Arguments that say what is drawn of a study, and over which time."""
     return {
         "vary": asked.uncertainty,

@@ -121,7 +121,7 @@ class ReportsResult(QuestionResult):
         """Those of the circuit with what enters it."""
         return tuple(self.asked.circuit.replace(ingress=(self.reports.ingress,)).notes())
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row a size, and their units."""
         found = self.reports
         columns = {name: getattr(found, name) for name in ("rate", "low", "high")}
@@ -197,10 +197,10 @@ class LifeResult(QuestionResult):
             **of_contact,
         }
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row a time, and their units."""
         history = self.history
-        columns: dict[str, list[Any]] = {
+        columns: dict[str, list[object]] = {
             "time": plain_data(history.times),
             "code": list(history.codes),
         }
@@ -241,9 +241,8 @@ def history_of(asked: AskedLife, *, keep: Path | None = None) -> LifeHistory:
         As of `thirdbody.life`.
     """
     more: dict[str, Any] = {} if keep is None else {"keep": keep}
-    found: LifeHistory = life_of_asked(
-        asked, oil=asked.circuit, **(_arguments(asked) or {}), **more
-    )
+    found = life_of_asked(asked, oil=asked.circuit, **(_arguments(asked) or {}), **more)
+    assert isinstance(found, LifeHistory)
     return found
 
 

@@ -73,9 +73,9 @@ class LifeDesign(QuestionResult):
         """Those of the circuit."""
         return tuple(self.asked.circuit.notes())
 
-    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row a choice, and their units."""
-        columns: dict[str, list[Any]] = {"name": list(self.names)}
+        columns: dict[str, list[object]] = {"name": list(self.names)}
         units = {"name": ""}
         if self.codes:
             columns["code"], units["code"] = list(self.codes), ""

@@ -10,7 +10,7 @@ from typing import Any
 
 from .life import LIFE
 from .mistakes import Known
-from .reader import Key, Reader, ReadOne, get, keys_of, tag_key
+from .reader import Key, Reader, Table, get, keys_of, tag_key
 from .tables import TABLES
 
 __all__ = ["Describer", "study_schema"]
@@ -57,7 +57,7 @@ class Describer(Reader):
     ``table`` gives JSON Schema in the place of a value, and keeps the keys in ``known``.
     """
 
-    def known_of(self, tables: Iterable[Any]) -> Known:
+    def known_of(self, tables: Iterable[Table]) -> Known:
         """The keys of these tables, for the data of the file."""
         self.table("", self.whole, {table.name: table.key for table in tables})
         return self.known
@@ -86,7 +86,9 @@ class Describer(Reader):
             properties[name] = described | _any_of(ways)
         return _schema_of(properties, [name for name, key in keys.items() if key.required])
 
-    def read_each(self, items: Mapping[str, object], read: ReadOne) -> Any:
+    def read_each(
+        self, items: Mapping[str, object], read: Callable[[Reader, str, Any], Any]
+    ) -> Any:
         """The schema of a list."""
         ways = [read(self, *item) for item in items.items()]
         return {"type": "array", "items": _any_of(ways)} if self.every_way else {}
@@ -116,7 +118,8 @@ class Describer(Reader):
         outermost = "." not in path and not isinstance(data, list)
         alone = self.every_way or key.read is None or outermost
         if key.table is not None and (alone or isinstance(data, dict)):
-            yield from (key.table(self, path, each) for each in among)
+            ways: Iterator[Any] = (key.table(self, path, each) for each in among)
+            yield from ways
         if key.items is not None and (self.every_way or isinstance(data, list)):
             form = "{}.{}" if "." not in path else "{}[{}]"
             items = among if self.every_way else data

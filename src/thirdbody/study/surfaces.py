@@ -5,13 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import partial
-from typing import Any
 
 from ..errors import InvalidValue, Mistake, Problem
 from ..laws import asperity, particle
 from ..populations.materials import Material, MaterialPair, materials
 from ..quantities.units import say
-from .reader import FIELDS, NOTHING, Key, Reader, Table, get, read_word, table_of, text, wrong
+from .reader import (
+    FIELDS,
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    get,
+    read_text,
+    read_word,
+    table_of,
+    text,
+    wrong,
+)
 
 __all__ = [
     "ASPERITY_LAW",
@@ -59,7 +70,7 @@ def _surfaces(reader: Reader, path: str, data: object) -> object:
 
 def _own_materials(reader: Reader, path: str, given: object) -> object:
     """Name of a file of materials; tables read after this one may use its names."""
-    name = text.read(reader, path, given)  # type: ignore[misc]
+    name = read_text(reader, path, given)
     try:
         reader.library = materials.load(reader.folder / name)
     except InvalidValue as error:
@@ -82,7 +93,7 @@ def law_key(registry: Mapping[str, type], about: str = "") -> Key:
             return table(reader, path, data)
         return reader.make(registry[read_word(registry, reader, path, data)], path, {})
 
-    def table(reader: Reader, path: str, data: Any) -> Any:
+    def table(reader: Reader, path: str, data: object) -> object:
         return reader.variant(path, data, "name", registry)
 
     return Key(read, False, about, {"enum": registry}, table)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from ..contact.contact import Contact
 from ..populations.distributions import Distribution
@@ -98,7 +97,7 @@ def swept(
 
 
 def tracks_of(
-    contact: Contact, film: FilmConditions, body: Any, force: float | None, *, entry: float
+    contact: Contact, film: FilmConditions, body: Body | None, force: float | None, *, entry: float
 ) -> tuple[Track, ...]:
     """The tracks of an oil without particles: both rings of a bearing, or the one of other bodies.
 
@@ -119,7 +118,7 @@ def tracks_of(
     """
     clean = contact.replace(particles=None)
     film = film.replace(entrainment=None)
-    parts: Sequence[tuple[Any, FilmConditions]] = [(body, film)]
+    parts: Sequence[tuple[Body | None, FilmConditions]] = [(body, film)]
     if isinstance(body, RadialBearing) and film.conjunction == body.conjunction:
         rings = [body.replace(ring=ring) for ring in RINGS]
         parts = [(each, film.replace(conjunction=each.conjunction)) for each in rings]

@@ -64,7 +64,7 @@ KEYS = {
 }
 
 
-def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
+def _uncertainty(reader: Reader, path: str, data: object) -> Any:
     def build(values: dict[str, Any]) -> Uncertainty | None:
         return Uncertainty(**values) if values["inputs"] else None  # all of them are of [life]
 
@@ -134,7 +134,7 @@ def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -
         ) from None
 
 
-def ranges_of(tree: dict[str, Any], path: str = "") -> dict[str, object]:
+def ranges_of(tree: Mapping[str, Any], path: str = "") -> dict[str, object]:
     """Entries of uncertain inputs, from names in quotes or nested tables."""
     out: dict[str, object] = {}
     for name, value in tree.items():

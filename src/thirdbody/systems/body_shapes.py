@@ -5,13 +5,18 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from ..errors import Mistake, Problem
 from ..quantities.value import Value, choice, quantity
 from .conjunctions import Hertz, Line, Point
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Number = float | NDArray[np.float64]
 
 __all__ = ["BallInGroove", "BallOnFlat", "Body", "Cylinders", "Flat", "Ring", "Roller"]
 
@@ -45,7 +50,7 @@ class Body(Value, ABC):
         """What the second surface is."""
         return "surface 2"
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on the contact that carries most of the force on all [N]."""
         return np.asarray(force, float) / self.bodies
 

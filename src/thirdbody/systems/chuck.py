@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..laws.particle.series import Series
 from ..laws.particle.tension import breaks
@@ -159,7 +159,7 @@ class Chuck(Value):
             out += self.touching * self.area * dust.areal_density * max(above, 0.0)
         return out
 
-    def _law(self, dust: Particles) -> Any:
+    def _law(self, dust: Particles) -> AbstractParticleLaw:
         return (dust.law or self.law).of_shape(dust.shape)  # type: ignore[attr-defined]
 
     def _plate(self, law: AbstractParticleLaw) -> PlateOverParticle:

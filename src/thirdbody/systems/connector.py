@@ -47,9 +47,13 @@ from .contact_probability import (
 )
 
 if TYPE_CHECKING:
+    from types import EllipsisType
+
     from numpy.typing import ArrayLike, NDArray
 
     from ..laws.base import AbstractParticleLaw
+    from ..populations.distributions import Distribution
+    from ..populations.materials import Material
 
     Array = NDArray[np.float64]
     Yes = NDArray[np.bool_]
@@ -369,7 +373,7 @@ class _Kind:
         """Load of the largest particle, squeezed to its diameter [N]."""
         return self.most * float(self.high.max()) ** 2
 
-    def within(self, u: Array, of: Any = ...) -> Array:
+    def within(self, u: Array, of: int | EllipsisType = ...) -> Array:
         """Particles of each class, or of one, nearer than u = r²/(2 R_s x)."""
         inside = np.maximum(u, 0.0)
         if not self.aside:
@@ -401,7 +405,7 @@ class _Kind:
 
 
 @lru_cache(maxsize=64)
-def _loads_of_one(law: Any, surfaces: MaterialPair, material: Any) -> tuple[Any, Array]:
+def _loads_of_one(law: Any, surfaces: MaterialPair, material: Material) -> tuple[Any, Array]:
     """What one particle does, and the table of its squeezes under loads over x² [Pa]."""
     from .compound_sums import tabulate_squeezes
 
@@ -440,7 +444,7 @@ def _classes(diameter: Any) -> tuple[Array, Array, Array, Array]:
     return x, low, high, weight
 
 
-def _edges(diameter: Any, low: float, high: float, count: int) -> Array:
+def _edges(diameter: Distribution, low: float, high: float, count: int) -> Array:
     """Edges of classes that are equally wide in ln x, with the kinks of the sizes among them."""
     first, last = diameter.support
     edges = np.unique([first, *np.geomspace(low, high, count + 1), last, *diameter.kinks])

@@ -204,7 +204,7 @@ def mean_interaction(
     known = np.isfinite(np.atleast_1d(state.d))
     slope = np.full(known.shape, np.nan)
     slope[known] = -bound.load(np.atleast_1d(state.d)[known])[:, 1]
-    summit: Any = slope if np.ndim(state.d) else float(slope[0])
+    summit: Number = slope if np.ndim(state.d) else float(slope[0])
     U = compliance * state.pressure
     return MeanInteraction(
         state=state,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
 
 import numpy as np
 
@@ -15,6 +15,11 @@ from ..quantities.value import choice, quantity
 from .body_shapes import BallInGroove, Body, Ring
 from .conjunctions import Hertz, Line, Point
 from .load_sharing import BALLS, ROLLERS, RadialShare, share_radial_load
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Number = float | NDArray[np.float64]
 
 __all__ = [
     "BallBearing",
@@ -73,7 +78,7 @@ class RadialBearing(Body):
         """Widths of the tracks of rolling bodies under their loads [N] on a ring [m]."""
 
     @property
-    def conjunction(self) -> Any:
+    def conjunction(self) -> Point | Line:
         """The contact on the ring that is solved."""
         return self.on_ring(self.ring)
 
@@ -110,7 +115,7 @@ class RadialBearing(Body):
             exponent=self.exponent,
         )
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on the most loaded rolling body, of a radial load [N]."""
         forces = np.asarray(force, float)
         found = [self.share_load(float(each), E_star).largest for each in forces.ravel()]
@@ -398,7 +403,9 @@ class RollerBearing(RadialBearing):
         return self.static_rating / 8.2 if self.fatigue_limit is None else self.fatigue_limit
 
 
-def _misfits(bearing: Any, size: float, what: str, count: float) -> list[str]:
+def _misfits(
+    bearing: BallBearing | RollerBearing, size: float, what: str, count: float
+) -> list[str]:
     """What cannot be of the dimensions of a bearing."""
     kind = type(bearing).__name__
     bore, outer = bearing.bore, bearing.outer_diameter
@@ -596,7 +603,7 @@ class BallScrew(Body):
         f = self.screw_conformity if self.side == "screw" else self.nut_conformity
         return Point(R=1 / along, R_y=1 / (2 / self.diameter - 1 / (f * self.diameter)))
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on a ball of the nut that carries more, of an axial force [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -682,7 +689,7 @@ class LinearGuide(Body):
         """An ellipse, long across the motion."""
         return BallInGroove(diameter=self.diameter, conformity=self.conformity).conjunction
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on a ball of the pressed rows, of a force on the carriage [N]."""
         forces = np.asarray(force, float)
         more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
@@ -785,7 +792,7 @@ class Gear(Body):
         length = self.face_width / math.cos(self.base_helix)
         return Line(R=1 / (1 / first + 1 / second), length=length)
 
-    def load_on_one(self, force: object, E_star: float) -> Any:
+    def load_on_one(self, force: object, E_star: float) -> Number:
         """Load normal to the teeth, of a tangential force [N]."""
         tilt = math.cos(self.transverse_angle) * math.cos(self.base_helix)
         return np.asarray(force, float) / tilt

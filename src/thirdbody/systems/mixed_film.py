@@ -238,7 +238,7 @@ class MixedFilm(StateRecord):
         return self.ss_share + self.sa_share
 
     @takes_units
-    def regimes(self, *, few: float = FEW, most: float = MOST) -> Any:
+    def regimes(self, *, few: float = FEW, most: float = MOST) -> str | NDArray[np.str_]:
         """Regime with other thresholds of the solids' share of the load."""
         return _regimes(self.solid_share, few, most)
 
@@ -247,7 +247,7 @@ COLUMNS = declared_columns(MixedFilm)
 """Symbol, unit and meaning of every column."""
 
 
-def _regimes(solids: Number, few: float, most: float) -> Any:
+def _regimes(solids: Number, few: float, most: float) -> str | NDArray[np.str_]:
     solids = np.asarray(solids)
     out = np.where(solids > most, BOUNDARY, np.where(solids < few, FULL, MIXED))
     return out if out.ndim else str(out)

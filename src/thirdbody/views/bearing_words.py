@@ -80,5 +80,5 @@ def rows(study: Study) -> list[list[str]]:
     return out
 
 
-def _lengths(axes: tuple[Any, Any]) -> list[str]:
+def _lengths(axes: tuple[float, float]) -> list[str]:
     return [value_of(2 * float(each), "m", 3) for each in axes]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..contact.output import AbstractOutput
 from ..study.fields import Declaration, declarations
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 __all__ = ["entries", "outputs_page"]
 
@@ -90,7 +93,7 @@ def _default_text(default: object) -> str:
 
 
 def _table(head: tuple[str, ...], rows: list[list[str]]) -> str:
-    def line(cells: Any) -> str:
+    def line(cells: Iterable[object]) -> str:
         return "| " + " | ".join(str(cell).replace("|", "\\|") for cell in cells) + " |"
 
     return "\n".join([line(head), line("---" for _ in head), *map(line, rows), ""])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Any
 
 from ..quantities.say import NOT_KNOWN, PREFIXED, number
 from .columns import Cell
@@ -49,7 +48,7 @@ def grid_of_words(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Grid:
     return Grid(made, list(zip(*(cells for _, cells in columns), strict=True)))
 
 
-def _in_one_unit(texts: Sequence[str]) -> tuple[str, list[Any]]:
+def _in_one_unit(texts: Sequence[str]) -> tuple[str, list[Cell | str]]:
     """The unit, in brackets, and the cells of values that share one; else the words."""
     found = [cell_of_words(text) for text in texts]
     parts = [(cell, unit) for cell, unit in found if isinstance(cell, Cell)]

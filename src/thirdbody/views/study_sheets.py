@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -42,6 +42,7 @@ from .workbook import Grid, Sheet, cell_of, cell_of_words, sheet_of_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
 
     from ..contact.contact import Contact
     from ..study import FilmResult, StudyResult
@@ -131,7 +132,7 @@ def _some_rows(grid: Grid) -> list[str | Grid]:
     return [some, f"{MOST_ROWS} of {total} states; the sheet States has all."]
 
 
-def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
+def grid_of(columns: Sequence[Shown], values: Mapping[str, ArrayLike]) -> Grid:
     """A table for readers, each column in the unit that suits most of its values."""
     drawn = [each.column(np.atleast_1d(values[each.name]).tolist()) for each in columns]
     return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))

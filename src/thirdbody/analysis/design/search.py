@@ -19,7 +19,7 @@ from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
 from ...quantities.progress import Cost, solving
 from ...quantities.say import percent
-from ..attempts import columns_tried
+from ..attempts import Columns, columns_tried
 from ..inputs import Input, inputs
 from ..uncertainty.inputs import Drawn
 
@@ -157,7 +157,7 @@ class Task:
             changes |= self.variables[name].changes(value)
         return self._filled(self.contact.replace(**materials), changes)
 
-    def _filled(self, contact: Contact, changes: dict[str, Any]) -> Contact:
+    def _filled(self, contact: Contact, changes: Mapping[str, Any]) -> Contact:
         """The contact with these numbers, and as many particles as the fluid then brings."""
         plain = {name: float(value) for name, value in changes.items() if name != AMOUNT}
         if self.suspension is None:
@@ -192,7 +192,7 @@ class Task:
     # ------------------------------------------------------------------ metrics
     def metrics(
         self, numbers: Sequence[Numbers], materials: Materials, *, samples: bool = True
-    ) -> dict[str, NDArray[Any]]:
+    ) -> Columns:
         """Every metric (P, 1 + samples, loads), and coverage (P, 1 + samples).
 
         NaN where there is no such contact, with an infinite coverage, or no state; ``refused`` (P,)
@@ -236,12 +236,12 @@ class Task:
 
     def _states(
         self, contact: Contact, vary: dict[str, Array], names: Iterable[str]
-    ) -> tuple[dict[str, NDArray[Any]], dict[int, str]]:
+    ) -> tuple[Columns, dict[int, str]]:
         """Columns of contacts at every load, and why those that have none are refused."""
         count = len(next(iter(vary.values()))) if vary else len(self.loads)
         loads = np.tile(self.loads, count // len(self.loads))
 
-        def solve(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
+        def solve(which: NDArray[np.intp]) -> Columns:
             some = {name: values[which] for name, values in vary.items()}
             given = as_load(self.load, loads[which])
             return state_columns(contact, vary=some or None, fewest=1, **given)

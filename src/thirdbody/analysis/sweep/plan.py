@@ -216,9 +216,9 @@ class Layout:
 
     sizes: dict[str, int]
     chunks: dict[str, int]
-    variables: dict[str, tuple[tuple[str, ...], str, dict[str, object]]]
+    variables: dict[str, tuple[tuple[str, ...], str, Mapping[str, object]]]
     """Dimensions, type and attributes of every variable that blocks write."""
-    coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, object]]]
+    coords: dict[str, tuple[tuple[str, ...], NDArray[Any], Mapping[str, object]]]
     """Dimensions, values and attributes of every coordinate known beforehand."""
     inputs: tuple[str, ...]
     """Those of the variables that are coordinates: sampled inputs."""
@@ -303,8 +303,8 @@ class Plan:
         kept = self.dims[: self.outer]
         names = tuple(dim.name for dim in kept)
         sizes = {dim.name: dim.size for dim in kept}
-        variables: dict[str, tuple[tuple[str, ...], str, dict[str, object]]] = {}
-        coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, object]]] = {}
+        variables: dict[str, tuple[tuple[str, ...], str, Mapping[str, object]]] = {}
+        coords: dict[str, tuple[tuple[str, ...], NDArray[Any], Mapping[str, object]]] = {}
         for dim in kept:
             for name in dim.names:
                 about = labels_of(self.contact, name)
@@ -407,7 +407,9 @@ def _boxes(sizes: Sequence[int], box: Sequence[int]) -> Iterator[Box]:
     return itertools.product(*cuts)
 
 
-def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, object], Any]]:
+def _alike(
+    words: Arrays, count: int
+) -> Iterator[tuple[dict[str, object], slice | NDArray[np.intp]]]:
     """States with equal words: those words, and which states."""
     if not words:
         yield {}, slice(None)
@@ -420,14 +422,14 @@ def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, object], Any]]
         yield {name: values[which[0]] for name, values in words.items()}, np.array(which)
 
 
-def _mode_codes(words: NDArray[Any]) -> NDArray[np.int8]:
+def _mode_codes(words: NDArray[np.object_ | np.str_]) -> NDArray[np.int8]:
     return sum(
         ((words == mode) * np.int8(code) for code, mode in enumerate(("", *MODES))),
         start=np.zeros(words.shape, np.int8),
     )
 
 
-def _largest(values: NDArray[Any]) -> float:
+def _largest(values: NDArray[np.float64]) -> float:
     return float(np.fmax.reduce(values, axis=None, initial=0.0))
 
 

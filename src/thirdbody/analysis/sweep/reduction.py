@@ -179,13 +179,13 @@ class Reduction:
                 out[f"{name}_quantile"] = part[f"{name}:quantile"]
         return out
 
-    def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, dict[str, object]]]:
+    def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, Mapping[str, object]]]:
         """Every stored variable: whether it has quantiles as its last dimension, and attributes."""
         words = {"mean": "mean of the {}", "min": "smallest {}", "max": "largest {}"}
         kinds = ["mean"] if self.mean else []
         kinds += ["min", "max"] if self.extrema else []
         thresholds = dict(self.exceed)
-        out: dict[str, tuple[bool, dict[str, Any]]] = {
+        out: dict[str, tuple[bool, Mapping[str, object]]] = {
             "solved": (False, {"units": "1", "long_name": "share of samples that were solved"})
         }
         for name in columns:
@@ -204,7 +204,9 @@ class Reduction:
         return out
 
 
-def _quantiles(values: NDArray[Any], probabilities: tuple[float, ...], every: bool) -> NDArray[Any]:
+def _quantiles(
+    values: NDArray[np.float64], probabilities: tuple[float, ...], every: bool
+) -> NDArray[np.float64]:
     if every:
         return np.moveaxis(np.quantile(values, probabilities, axis=-1), 0, -1)
     out = np.full((*values.shape[:-1], len(probabilities)), np.nan)

@@ -204,7 +204,7 @@ class Uncertain:
         """The value that is exceeded with probability 1 − u."""
         from scipy.special import ndtri
 
-        x: Any = np.clip(np.asarray(u, float), TAIL, 1 - TAIL)
+        x = np.clip(np.asarray(u, float), TAIL, 1 - TAIL)
         if self.kind == "uniform":
             out = self.first + x * (self.second - self.first)
         elif self.kind == "log-uniform":
@@ -344,7 +344,7 @@ class Drawn(NamedTuple):
         return self.moved_numbers([known.quantile(u[:, j]) for j, known in enumerate(self.known)])
 
     @property
-    def nominal(self) -> list[Any]:
+    def nominal(self) -> list[float]:
         """The values that the contact has; NaN for the load."""
         return [math.nan if isinstance(m, str) else m.values[0] for m in self.moved]
 

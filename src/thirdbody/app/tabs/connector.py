@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from ..state import Answer, State
 __all__ = ["START", "TITLE", "build", "contents_of"]
 
 TITLE = "Connector"
-START: dict[str, Any] = {"radius": "2 mm", "force": "0.5 N", "contacts": 20}
+START: dict[str, object] = {"radius": "2 mm", "force": "0.5 N", "contacts": 20}
 FORCE = Field(
     name="force",
     kind="text",

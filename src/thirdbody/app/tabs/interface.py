@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Awaitable, Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
@@ -31,6 +31,9 @@ from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..text import as_shown
 from ..widgets import Facts, set_attributes
+
+if TYPE_CHECKING:
+    from ..cross_section import Section
 
 __all__ = ["TITLE", "abouts", "build", "drawing_of", "facts_of", "headline", "swatch"]
 
@@ -285,7 +288,7 @@ def drawing_of(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     return "", (svg, _caption(made, held), made.names, facts_of(point, held), headline(point, held))
 
 
-def _caption(drawn: Any, held: float) -> str:
+def _caption(drawn: Section, held: float) -> str:
     """What is drawn, and of how much surface."""
     said = (
         "One draw from the model, to scale. Below the rough surface of both bodies together, "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from nicegui import ui
@@ -28,7 +28,7 @@ from ..widgets import Facts, Plot, set_attributes
 __all__ = ["START", "TITLE", "LifeShown", "build", "contents_of", "words_of_oil"]
 
 TITLE = "Life"
-START: dict[str, Any] = {
+START: dict[str, object] = {
     "duration": "2000 h",
     "oil": {
         "volume": "200 L",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from typing import Any
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from ..state import Answer, State
 __all__ = ["START", "TITLE", "build", "contents_of"]
 
 TITLE = "Wafer"
-START: dict[str, Any] = {"thickness": "775 um", "pressure": "80 kPa"}
+START: dict[str, object] = {"thickness": "775 um", "pressure": "80 kPa"}
 GRAIN = Field(
     name="grain",
     kind="text",

@@ -18,6 +18,8 @@ from ..show import MOST_ROWS, some, terminal
 from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, write_figure
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from ...analysis.design.design import Best
     from ...study import Study
     from ...views.workbook import Sheet
@@ -108,7 +110,7 @@ def _choose_for_oil(options: Options) -> None:
 
 
 def _sheets(
-    asked: Study, best: Best, columns: dict[str, Any], units: dict[str, str]
+    asked: Study, best: Best, columns: dict[str, list[object]], units: dict[str, str]
 ) -> list[Sheet]:
     from ...contact.citations import cite
     from ...contact.evaluation import bodies_of
@@ -270,7 +272,7 @@ class _Words:
         return text.replace("A_t <", "real contact area over the nominal area <")
 
 
-def _against_load(out: Any, best: Best, said: _Words) -> None:
+def _against_load(out: Console, best: Best, said: _Words) -> None:
     """Numbers against the loads."""
     units = {name: each.about["units"] for name, each in best.of_states.items()}
     legend = {

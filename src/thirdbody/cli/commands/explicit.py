@@ -7,7 +7,7 @@ import sys
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -19,6 +19,9 @@ from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, not_a_folder, option, read_study
 from ..show import terminal
 from ..streams import NO_ANSWER, TableFiles, print_json, tell_written, warn, warn_of, write_figure
+
+if TYPE_CHECKING:
+    from ...study.run_explicit import ExplicitResult
 
 __all__ = ["command"]
 
@@ -114,7 +117,7 @@ def _check(maps: str, workers: int, out: Path | None) -> None:
         raise InvalidValue(*problems)
 
 
-def _write(out: Path, result: Any) -> None:
+def _write(out: Path, result: ExplicitResult) -> None:
     from ...quantities.files import write_text
     from ...views.plot import explicit
 

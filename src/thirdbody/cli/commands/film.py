@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
@@ -27,6 +27,8 @@ from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, write_figure
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from ...study import FilmResult
     from ...study.dirty_oil import DirtyOil
     from ...study.oil_columns import OilColumn
@@ -132,7 +134,7 @@ class _Found(NamedTuple):
         behind = columns_of_oil(self.filtered, speeds, before="oil_filtered: ")
         return [*columns_of_oil(self.oil, speeds), *behind]
 
-    def table(self) -> tuple[dict[str, Any], dict[str, str]]:
+    def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row a speed, and their units."""
         columns, units = self.result.table()
         for each in self.oil_columns():
@@ -238,7 +240,7 @@ def _oil_table(found: _Found) -> Table:
     return table
 
 
-def _show_bearing(console: Any, result: FilmResult) -> None:
+def _show_bearing(console: Console, result: FilmResult) -> None:
     """How the bodies of a bearing share its load."""
     from ...views import bearing_words as words
 

@@ -34,6 +34,8 @@ from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import STDOUT, TableFiles, tell_written, warn_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ...equilibrium.columns import PopulationShare
     from ...equilibrium.transitions import Transitions
     from ...study import StudyResult
@@ -150,7 +152,7 @@ def _show(result: StudyResult) -> None:
     console.print(f"E_ss = {value_of(contact.E_ss, 'Pa')}, sigma = {value_of(sigma, 'm')}")
 
 
-def _cell(column: Shown, values: Any, i: int) -> str:
+def _cell(column: Shown, values: Sequence[float], i: int) -> str:
     """A number of a state as a reader gets it."""
     return column.words(values[i])
 

@@ -17,6 +17,8 @@ from ..show import ALL, terminal
 from ..streams import STDOUT, TableFiles, tell_written, warn_of
 
 if TYPE_CHECKING:
+    from ...populations.measured.spectra import SpectralMoments, Summits
+    from ...populations.measured.topography import Topography
     from ...views.workbook import Sheet
 
 __all__ = ["command"]
@@ -108,7 +110,7 @@ def command(options: Options) -> None:
     tell_written(*written)
 
 
-def _sheets(found: Any, result: dict[str, Any]) -> list[Sheet]:
+def _sheets(found: Topography, result: dict[str, Any]) -> list[Sheet]:
     from ...views.question_sheets import question_sheets
 
     sentence = _in_one_sentence(found, result["cutoff"]["used"])
@@ -145,7 +147,9 @@ def _lengths(
     return lengths
 
 
-def _write_surface(folder: Path, found: Any, result: dict[str, object], force: bool) -> list[Path]:
+def _write_surface(
+    folder: Path, found: Topography, result: dict[str, object], force: bool
+) -> list[Path]:
     import matplotlib as mpl
 
     from ...quantities.files import make_folder, whole, write_text
@@ -167,7 +171,7 @@ def _write_surface(folder: Path, found: Any, result: dict[str, object], force: b
     return out
 
 
-def _show_surface(found: object, result: dict[str, Any]) -> None:
+def _show_surface(found: Topography, result: dict[str, Any]) -> None:
     """What was read, the answer at the cut-off used, and its course with the cut-off."""
     console = terminal()
     console.print(_in_one_sentence(found, result["cutoff"]["used"]))
@@ -184,7 +188,7 @@ def _show_surface(found: object, result: dict[str, Any]) -> None:
     )
 
 
-def _in_one_sentence(found: Any, cutoff: float) -> str:
+def _in_one_sentence(found: Topography, cutoff: float) -> str:
     """The roughness that a contact takes, and what it owes to the cut-off."""
     curve, one = found.curve(), found.moments
     at = "as sampled" if cutoff == 0 else f"at a cut-off of {value_of(cutoff, 'm')}"
@@ -199,7 +203,7 @@ def _in_one_sentence(found: Any, cutoff: float) -> str:
     return f"{told}; twice the cut-off changes R by {signed(100 * change[near], 0, '%')}."
 
 
-def _what_was_read(found: Any, result: dict[str, Any]) -> list[str]:
+def _what_was_read(found: Topography, result: dict[str, Any]) -> list[str]:
     """Points, moments as sampled, the limit of the instrument and the cut-off recommended."""
     points = " x ".join(map(str, result["points"]))
     sides = " x ".join(value_of(side, "m") for side in result["size"])
@@ -218,7 +222,7 @@ def _what_was_read(found: Any, result: dict[str, Any]) -> list[str]:
     ]
 
 
-def _answer(found: Any, cutoff: float) -> Table:
+def _answer(found: Topography, cutoff: float) -> Table:
     """Moments and asperities at the cut-off, by differences, spectrum and counted summits."""
     at = "as sampled" if cutoff == 0 else f"at {value_of(cutoff, 'm')}"
     drop = ("eta R sigma", "y_s", "alpha")
@@ -226,7 +230,9 @@ def _answer(found: Any, cutoff: float) -> Table:
         (at, *MEANS), right=True, words=[at], drop=drop, more="--json has all of it", legend=MEANS
     )
 
-    def add(label: str, one: Any, sigma: float, eta: float, alpha: str) -> None:
+    def add(
+        label: str, one: SpectralMoments | Summits, sigma: float, eta: float, alpha: str
+    ) -> None:
         answer.add_row(
             label,
             value_of(sigma, "m"),
@@ -249,7 +255,7 @@ def _answer(found: Any, cutoff: float) -> Table:
     return answer
 
 
-def _course(found: Any, curve: dict[str, Any]) -> Table:
+def _course(found: Topography, curve: dict[str, Any]) -> Table:
     """The same against the cut-off."""
     heads = ["cut-off", "sigma", "gradient", "alpha", "R", "R counted", "eta", "eta counted"]
     heads.append("R per octave")

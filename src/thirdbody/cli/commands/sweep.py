@@ -7,7 +7,7 @@ import sys
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...quantities.say import join_words, percent, plural, value_of
@@ -129,7 +129,7 @@ def _need_files(
     files.need(force=force)
 
 
-def _table(data: xarray.Dataset) -> tuple[dict[str, Any], dict[str, str]]:
+def _table(data: xarray.Dataset) -> tuple[dict[str, list[object]], dict[str, str]]:
     """Columns of a folder and their units, a row a state."""
     from ...analysis.sweep.plan import CODES
     from ...equilibrium.modes import MODES

@@ -17,14 +17,19 @@ import pickle
 import subprocess
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...quantities.progress import aside
+
+if TYPE_CHECKING:
+    from numba.core.codegen import CodeLibrary
+    from numba.core.types import Type
+    from numba.core.typing import Context, Signature
 
 __all__ = ["Cached"]
 
@@ -64,12 +69,12 @@ class Cached:
     def __init__(self, function: Any):
         self.function = function
         self._lock = threading.Lock()
-        self._prepared: set[Any] = set()
+        self._prepared: set[tuple[object, ...]] = set()
         with contextlib.suppress(AttributeError):  # numba's own; without it, its own stamp
             stored = function._cache._cache_file
             stored._source_stamp = stored._source_stamp, sources()
 
-    def __call__(self, *args: Any) -> Any:
+    def __call__(self, *args: object) -> Any:
         kinds = tuple(map(_kind, args))  # cheap, which the types of records are not
         if kinds not in self._prepared:
             with self._lock, aside():
@@ -77,7 +82,7 @@ class Cached:
             self._prepared.add(kinds)
         return self.function(*args)
 
-    def compile_whole(self, signature: tuple[Any, ...]) -> None:
+    def compile_whole(self, signature: tuple[Type, ...]) -> None:
         """Compile for these types, in a process of its own: functions that it calls with it.
 
         numba gathers what every function calls, optimises that and turns it into machine code,
@@ -91,7 +96,7 @@ class Cached:
             finalize, set_env = JITCodeLibrary.finalize, JITCPUCodegen.set_env
             pointer_to = JITCodeLibrary.get_pointer_to_function
 
-            def finalize_whole(library: Any) -> None:
+            def finalize_whole(library: CodeLibrary) -> None:
                 if library.name == name:
                     library._linking_libraries = _below(library)
                     finalize(library)
@@ -108,12 +113,12 @@ class Cached:
         self.function.compile(signature)
 
     @staticmethod
-    def _signature(args: tuple[Any, ...]) -> tuple[Any, ...]:
+    def _signature(args: tuple[object, ...]) -> tuple[Type, ...]:
         from numba import typeof
 
         return tuple(typeof(each) for each in args)
 
-    def is_cached(self, signature: tuple[Any, ...]) -> bool:
+    def is_cached(self, signature: tuple[Type, ...]) -> bool:
         """Whether code for these types lies ready; where numba does not tell, it does."""
         try:
             cache = self.function._cache
@@ -122,14 +127,14 @@ class Cached:
         except AttributeError:
             return True
 
-    def _prepare(self, signature: tuple[Any, ...]) -> None:
+    def _prepare(self, signature: tuple[Type, ...]) -> None:
         """See that the cache holds the function for these types, if a cache can be written."""
         if signature in self.function.overloads or self.is_cached(signature):
             return
         if sys.stderr.isatty():
             print("thirdbody: compiling the engine, once, some seconds", file=sys.stderr)
         types = base64.b64encode(pickle.dumps(signature)).decode()
-        python: Callable[..., Any] = self.function.py_func
+        python: Callable[..., object] = self.function.py_func
         command = [sys.executable, "-c", COMPILE, python.__module__, python.__name__, types]
         path = os.pathsep.join(each for each in sys.path if each)
         try:
@@ -157,7 +162,12 @@ def _remember_types() -> None:
         base: Any = functions.BaseFunction
         look_up, known = base.get_call_type, {}
 
-        def get_call_type(operator: Any, context: Any, args: Any, named: Any) -> Any:
+        def get_call_type(
+            operator: Any,
+            context: Context,
+            args: tuple[Type, ...],
+            named: Mapping[str, Type],
+        ) -> Signature | None:
             key = operator, args, tuple(named.items())
             if key not in known:
                 signature = look_up(operator, context, args, named)
@@ -171,9 +181,9 @@ def _remember_types() -> None:
         base.get_call_type = get_call_type
 
 
-def _below(library: Any) -> list[Any]:
+def _below(library: CodeLibrary) -> list[CodeLibrary]:
     """Code libraries that one needs, each once."""
-    found: dict[Any, None] = {}
+    found: dict[CodeLibrary, None] = {}
     rest = [library]
     while rest:
         for each in rest.pop()._linking_libraries:
@@ -183,7 +193,7 @@ def _below(library: Any) -> list[Any]:
     return list(found)
 
 
-def _kind(value: Any) -> Any:
+def _kind(value: object) -> object:
     """What tells arguments of different numba types apart."""
     if isinstance(value, np.ndarray):
         flags = value.flags

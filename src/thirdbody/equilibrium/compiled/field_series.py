@@ -6,8 +6,9 @@ the numbers are theirs.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,7 +32,7 @@ FARTHEST = 1.0
 """Width of a panel over σ where the field itself has none."""
 
 
-def asperity_numbers(skin: FieldSum) -> dict[str, Any]:
+def asperity_numbers(skin: FieldSum) -> dict[str, float]:
     """Fields of an `INTERFACE`: separations are those of the mean planes over σ."""
     d = np.array([skin.deepest])
     return {
@@ -76,7 +77,7 @@ def asperity_series(skin: FieldSum) -> PiecewiseChebyshev:
     )
 
 
-def _kinks(columns: Any, low: float, high: float) -> Array:
+def _kinks(columns: Callable[[Array], Array], low: float, high: float) -> Array:
     """Separations at which an area begins to be all of it, or nothing."""
 
     def formula(h: Array) -> NDArray[np.intp]:

@@ -7,8 +7,9 @@ of a part of the particles are in its size.
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -52,7 +53,7 @@ AT = 7
 of sizes has two rows, weights and sizes."""
 
 
-def _record(*fields: tuple[Any, ...]) -> np.dtype[np.void]:
+def _record(*fields: tuple[object, ...]) -> np.dtype[np.void]:
     return np.dtype([*fields], align=True)
 
 
@@ -135,20 +136,20 @@ class Panels:
     """Panels of piecewise Chebyshev functions one after another, each function kept once."""
 
     def __init__(self) -> None:
-        self._known: dict[Any, tuple[int, int]] = {}
+        self._known: dict[Hashable, tuple[int, int]] = {}
         self._panels: list[Records] = []
         self._inverses: list[Records] = []
         self._count = 0
 
     def add(
-        self, key: Any, function: PiecewiseChebyshev, load: Array, columns: int
+        self, key: Hashable, function: PiecewiseChebyshev, load: Array, columns: int
     ) -> tuple[int, int]:
         """Begin and end of a function: what the balance needs of it, and its first columns."""
         if key not in self._known:
             self._append(key, _laid(function, load, function.coefficients[:, :, :columns]))
         return self._known[key]
 
-    def _append(self, key: Any, panels: Records) -> None:
+    def _append(self, key: Hashable, panels: Records) -> None:
         self._known[key] = self._count, self._count + len(panels)
         self._count += len(panels)
         self._panels.append(panels)
@@ -218,13 +219,13 @@ class Rules:
     """Quadrature rules one after another, each kept once."""
 
     def __init__(self) -> None:
-        self._known: dict[Any, tuple[int, int]] = {}
+        self._known: dict[Hashable, tuple[int, int]] = {}
         self._rules: list[Array] = []
         self._count = 0
         self.own = 0
         """Numbers in the rules of single states."""
 
-    def add(self, key: Any, rows: Array) -> tuple[int, int]:
+    def add(self, key: Hashable, rows: Array) -> tuple[int, int]:
         """Begin and nodes of a rule (k, n): weighted columns, then increasing abscissae."""
         if key not in self._known:
             self._known[key] = self.add_each(rows[None])[0].item()

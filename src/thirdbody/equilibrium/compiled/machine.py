@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
 from numba import extending, types
 from numba import njit as _njit
 from numba.core import cgutils
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numba.core.typing import Context, Signature
+
+    Typed = tuple[Signature, Callable[..., ir.Value]]
 
 __all__ = [
     "ahead",
@@ -40,7 +47,7 @@ inlined = njit(fastmath=EXACT, inline="always", **INNER)
 
 
 @intrinsic
-def _bits(typingctx: Any, x: Any) -> Any:
+def _bits(typingctx: Context, x: types.Type) -> Typed:
     """The 64 bits of a float as an integer."""
 
     def codegen(context, builder, signature, args):
@@ -50,7 +57,7 @@ def _bits(typingctx: Any, x: Any) -> Any:
 
 
 @intrinsic
-def _float(typingctx: Any, n: Any) -> Any:
+def _float(typingctx: Context, n: types.Type) -> Typed:
     """The float with these 64 bits."""
 
     def codegen(context, builder, signature, args):
@@ -60,7 +67,7 @@ def _float(typingctx: Any, n: Any) -> Any:
 
 
 @intrinsic
-def pointer(typingctx: Any, array: Any) -> Any:
+def pointer(typingctx: Context, array: types.Array) -> Typed:
     """To the first number or record of a contiguous array, which the caller keeps alive."""
 
     def codegen(context, builder, signature, args):
@@ -70,7 +77,7 @@ def pointer(typingctx: Any, array: Any) -> Any:
 
 
 @intrinsic
-def ahead(typingctx: Any, pointer: Any, n: Any) -> Any:
+def ahead(typingctx: Context, pointer: types.CPointer, n: types.Type) -> Typed:
     """The pointer n numbers or records ahead."""
 
     def codegen(context, builder, signature, args):
@@ -80,7 +87,7 @@ def ahead(typingctx: Any, pointer: Any, n: Any) -> Any:
 
 
 @intrinsic
-def record(typingctx: Any, pointer: Any, n: Any) -> Any:
+def record(typingctx: Context, pointer: types.CPointer, n: types.Type) -> Typed:
     """The record n records ahead."""
 
     def codegen(context, builder, signature, args):
@@ -90,7 +97,7 @@ def record(typingctx: Any, pointer: Any, n: Any) -> Any:
 
 
 @extending.intrinsic(prefer_literal=True)
-def numbers(typingctx: Any, record: Any, name: Any) -> Any:
+def numbers(typingctx: Context, record: types.Record, name: types.StringLiteral) -> Typed:
     """To the first of the numbers in a field of a record, by its name."""
     field, number = record.fields[name.literal_value], types.float64
 
@@ -102,7 +109,7 @@ def numbers(typingctx: Any, record: Any, name: Any) -> Any:
 
 
 @intrinsic
-def apart(typingctx: Any) -> Any:
+def apart(typingctx: Context) -> Typed:
     """Keep the function that calls this one: optimised once, not again in each caller."""
 
     def codegen(context, builder, signature, args):

@@ -47,11 +47,12 @@ from .size_rules import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
     Index = NDArray[np.intp]
     Records = NDArray[np.void]
+    Fields = dict[str, ArrayLike]
 
 __all__ = ["InterfaceRows", "StateRows"]
 
@@ -103,7 +104,7 @@ class InterfaceRows(Rows):
                 self._add_particles(self.interfaces[m], self.parts[m], bound.particles)
         self._finish()
 
-    def _add_asperities(self, row: np.void, asperities: Any) -> None:
+    def _add_asperities(self, row: np.void, asperities: object) -> None:
         if isinstance(asperities, FieldSum):
             series = asperity_series(asperities)
             row["kind"] = layout.GAUSSIAN
@@ -193,7 +194,7 @@ class StateRows(Rows):
         _fill(self.interfaces, asperities | shared)
         self._finish()
 
-    def _add_asperities(self, contact: Contact, datum: float) -> dict[str, Any]:
+    def _add_asperities(self, contact: Contact, datum: float) -> Fields:
         """Lay out the panels, and say what that is in the fields of an `INTERFACE`."""
         rough, surfaces = self.varied.roughness, self.varied.surfaces
         if isinstance(contact.asperity_law, Field):
@@ -207,7 +208,7 @@ class StateRows(Rows):
         self.law, self.w = law, np.broadcast_to(w, len(self.interfaces))
         step, across = GaussianSums.place(self.w)
 
-        def family(step: int) -> tuple[Any, ...]:
+        def family(step: int) -> tuple[tuple[int, int], int]:
             sums = gaussian_sums(law, step)
             return self._panels.add_family(sums), self._panels.add_inverse(sums)
 
@@ -220,7 +221,7 @@ class StateRows(Rows):
             "lowest": SEARCHED,
         }
 
-    def _add_particles(self, contact: Contact, arrays: Mapping[str, Array]) -> dict[str, Any]:
+    def _add_particles(self, contact: Contact, arrays: Mapping[str, Array]) -> Fields:
         """Fill the parts, and say what they add to the fields of an `INTERFACE`."""
         law, particles = self.varied.particle_law, contact.particles
         if not (isinstance(law, ParticleSeries) and isinstance(particles, Particles)):
@@ -247,12 +248,12 @@ class StateRows(Rows):
         one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
         self.covered = one.breadth * coverage
         self.most = np.maximum(self.most, self.covered)
-        shared: dict[str, Any] = {"shadow": _column(law.shadow)}
+        shared: Fields = {"shadow": _column(law.shadow)}
         return shared | ({"coverage": self.covered} if law.shadow == "covered" else {})
 
     def _averaged(
         self, contact: Contact, arrays: Mapping[str, Array]
-    ) -> Iterator[tuple[Array | float, dict[str, Any]]]:
+    ) -> Iterator[tuple[Array | float, Fields]]:
         """Parts of one material and shape, by size averages that all states share.
 
         What each covers of the nominal area, and fields of a `PART`.
@@ -281,7 +282,7 @@ class StateRows(Rows):
                 self.steepest += 0.25 * math.pi * one.breadth * factor / size * densest(shape)
             if spreads:
                 self.most = self.most + factor * average.floor[-2:].max()
-            part = {
+            part: Fields = {
                 **{"inverse": self._panels.add_inverse(average), "size": size},
                 **{"factor": factor, "width": width},
                 **{"reach": average.top + layout.SEAT_REACH * width},
@@ -305,13 +306,13 @@ class StateRows(Rows):
                     part["lower"] = self._panels.add_average(average.lower, shadow)
             yield math.pi / 4 * factor * shape.moment(2), part
 
-    def _over_gaps(self, octave: Index, average: SizeAverage) -> dict[str, Any]:
+    def _over_gaps(self, octave: Index, average: SizeAverage) -> Fields:
         """Rules over gaps for seats whose widths lie in these octaves (N,), as fields of a `PART`.
 
         The fewer nodes are as good near a seat, or come close to a root.
         """
 
-        def place(rule: Callable[..., Any], octave: int) -> tuple[int, int]:
+        def place(rule: Callable[[SizeAverage, int], Any], octave: int) -> tuple[int, int]:
             return self._rules.add((rule, average, octave), rule(average, octave))
 
         def place_few(octave: int) -> tuple[int, int]:
@@ -329,7 +330,7 @@ class StateRows(Rows):
 
     def _sized(
         self, contact: Contact, arrays: Mapping[str, Array]
-    ) -> Iterator[tuple[Array | float, dict[str, Any]]]:
+    ) -> Iterator[tuple[Array | float, Fields]]:
         """One part whose shape of sizes varies, on a rough seat: nodes over sizes for each state.
 
         What it covers of the nominal area, and fields of a `PART`.
@@ -365,7 +366,7 @@ class StateRows(Rows):
         yield math.pi / 4 * factor * np.sum(weight * x**2, axis=-1), part
 
 
-def _fill(rows: Records, fields: Mapping[str, Any]) -> None:
+def _fill(rows: Records, fields: Mapping[str, ArrayLike]) -> None:
     """Records from their named fields: those alike for all at once, as one record."""
     own = {}
     one = np.zeros((), rows.dtype)
@@ -379,7 +380,9 @@ def _fill(rows: Records, fields: Mapping[str, Any]) -> None:
         rows[name] = values
 
 
-def _records_of(number: Index, place: Callable[[int], Any], dtype: np.dtype[Any]) -> Records:
+def _records_of(
+    number: Index, place: Callable[[int], object], dtype: np.dtype[np.generic]
+) -> Records:
     """Records (N,) of what belongs to each number, asked for each number once."""
     lowest = int(number.min())
     table = np.zeros(int(number.max()) - lowest + 1, dtype)

@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import special
@@ -29,11 +29,20 @@ from ...populations.materials import reduced_modulus
 from ...populations.shape import Sphere
 from . import fields as f
 from .grounds import Grounds, check_grounded
+from .sections import Power, Section
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...populations.distributions import Distribution
+    from ...populations.materials import Material
+    from ...populations.particles import Particles
+    from ...populations.shape import Angular
+    from ...populations.strength import WeibullStrength
+    from .sections import Sizes
+
     Array = NDArray[np.float64]
+    Number = float | Array
 
 __all__ = ["Numbers", "rules"]
 
@@ -97,7 +106,9 @@ def _add_series(rows: Array, terms: int) -> None:
     series[1] /= 2
 
 
-def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[Any], Any]:
+def _law(
+    kind: type, law: Any, R: Number, E: Number, H: Number, nu: Number
+) -> tuple[list[Number], Number]:
     """Code and numbers of a law at a contact, and ω_1."""
     a = asperity
     if kind is a.GW:
@@ -131,7 +142,9 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
     raise NotCompiled(f"the law {law.name} is known to the NumPy engine alone")
 
 
-def _law_with_length(kind: type, law: Any, R: Any, E: Any, H: Any) -> tuple[list[Any], Any]:
+def _law_with_length(
+    kind: type, law: Any, R: Number, E: Number, H: Number
+) -> tuple[list[Number], Number]:
     """As `_law`, of laws that have a length of their own and stay elastic."""
     unit = law.yield_interference(R=R, E_star=E, H=H)
     if kind is asperity.Coated:
@@ -161,14 +174,14 @@ def coating_of(layer: ElasticLayer) -> Array:
     return out
 
 
-def _filled(rows: Array, values: Mapping[int, Any]) -> None:
+def _filled(rows: Array, values: Mapping[int, Number | NDArray[np.bool_]]) -> None:
     for column, value in values.items():
         rows[:, column] = value
 
 
-def _heights(heights: Any) -> dict[int, Any]:
+def _heights(heights: Any) -> dict[int, Number]:
     """Numbers of the heights of asperities [σ_s]."""
-    kind: Any = type(heights)
+    kind = type(heights)
     if kind is GaussianHeights:
         last = DEEPEST + math.sqrt(DEEPEST**2 + 100.0)
         own = {f.HEIGHTS: f.GAUSSIAN_HEIGHTS, f.LAID_FROM: -math.inf}
@@ -199,55 +212,25 @@ def inside_of(nu: float, confines: bool) -> Array:
     return out
 
 
-def _softer(first: Any, second: Any) -> tuple[Any, Any]:
+def _softer(first: Material, second: Material) -> tuple[Any, Any]:
     """Hardness and Poisson ratio of the softer of two bodies."""
     takes = first.H <= second.H
     return np.where(takes, first.H, second.H), np.where(takes, first.nu, second.nu)
 
 
-class Power(NamedTuple):
-    """Sizes x^(−slope−1) from low to high [m]: a section of a `PowerLaw`."""
-
-    low: float
-    high: float
-    slope: float
-
-
-class Section(NamedTuple):
-    """Particles whose sizes the kernel knows: a population, or a part of one."""
-
-    one: Any
-    """The population."""
-    changed: Any
-    """The same, with arrays in it."""
-    law: Any
-    varied: Any
-    """Its law, as it is and with arrays in it."""
-    share: float
-    """Part of the population."""
-    part: float
-    """Part of the component of its sizes that it belongs to."""
-    component: int
-    """Number of that component, through all populations."""
-    sizes: tuple[Any, Any]
-    """As they are, and with arrays in them."""
-
-
-def _sections(one: Any, changed: Any) -> list[tuple[float, tuple[Any, Any]]]:
+def _sections(one: Any, changed: Distribution) -> list[tuple[float, tuple[Sizes, Sizes]]]:
     """Shares of particles, and sizes of each that the kernel knows: a population is their sum.
 
     Numbers of classes are no inputs that vary.
     """
     if type(one) not in (sizes.Histogram, sizes.PowerLaw):
         return [(1.0, (one, changed))]
-    out: list[tuple[float, tuple[Any, Any]]] = []
-    slopes: tuple[Any, ...] = getattr(one, "slopes", (None,) * len(one.counts))
+    out: list[tuple[float, tuple[Sizes, Sizes]]] = []
+    slopes: tuple[float | None, ...] = getattr(one, "slopes", (None,) * len(one.counts))
     classes = zip(itertools.pairwise(one.edges), one.counts, slopes, strict=True)
     for (low, high), count, slope in classes:
         if count > 0:
-            kind: Any = Power(low, high, slope)
-            if slope is None:
-                kind = sizes.Uniform(low=low, high=high)
+            kind = sizes.Uniform(low=low, high=high) if slope is None else Power(low, high, slope)
             out.append((count / math.fsum(one.counts), (kind, kind)))
     if len(out) > MOST_SECTIONS:
         raise NotCompiled("sizes in many classes")
@@ -283,7 +266,7 @@ class Numbers:
         self.skins = np.zeros((count, len(classes), f.OF_ASPERITIES))
         self.coating = NO_COATING
         """What asperities that are coated do, if they are."""
-        self.origin: Any = 0.0
+        self.origin: Number = 0.0
         """Where the separations of the kernel begin, over the datum of d [m]."""
         self.deepest = -DEEPEST
         """Lowest separation that may be given, in the unit of the kernel."""
@@ -308,7 +291,7 @@ class Numbers:
             self.origin = self.origin + self.centre if grounded else self.centre
         self.parts = np.zeros((count, len(found), f.OF_PARTICLES))
         self.bodies = np.zeros((count, 2 * len(found), f.OF_SIDE))
-        self.last: Any = None
+        self.last: Particles | None = None
         for p, each in enumerate(found):
             self._add_particles(p, each)
         self.ground: Grounds | None = None
@@ -423,7 +406,7 @@ class Numbers:
         self._add_sides(rows, p, changed, law, varied, grit)
 
     def _add_sides(
-        self, rows: Array, p: int, changed: Any, law: Any, varied: Any, grit: Any
+        self, rows: Array, p: int, changed: Particles, law: Any, varied: Any, grit: Any
     ) -> None:
         """Fill in both sides of part p: once for all classes of size of one population."""
         here, other = self.bodies[:, 2 * p], self.bodies[:, 2 * p + 1]
@@ -443,7 +426,7 @@ class Numbers:
         rows[:, f.STIFFEST], rows[:, f.SOFTEST] = np.minimum(E, E_2), np.minimum(H, H_2)
         rows[:, f.EQUAL] = np.all(here == other, axis=1)
 
-    def _add_strength(self, rows: Array, one: Any, changed: Any, size: Any) -> None:
+    def _add_strength(self, rows: Array, one: WeibullStrength, changed: Any, size: Sizes) -> None:
         """Fill in how particles break."""
         if type(size) is sizes.Monodisperse:
             raise NotCompiled("particles that break, of one size")
@@ -466,7 +449,9 @@ class Numbers:
             },
         )
 
-    def _add_printed(self, rows: Array, one: Any, changed: Any, law: Any) -> None:
+    def _add_printed(
+        self, rows: Array, one: Distribution, changed: Particles, law: particle.Horng2022
+    ) -> None:
         """Fill in the numbers of particles whose sum is printed."""
         if type(one) not in (sizes.TruncatedGaussian, sizes.LogNormal, sizes.Uniform):
             raise NotCompiled("printed integrals over sizes of other kinds")
@@ -492,8 +477,14 @@ class Numbers:
         )
 
     def _side(
-        self, rows: Array, surface: Any, body: Any, law: Any, varied: Any, grit: Any
-    ) -> tuple[Any, Any]:
+        self,
+        rows: Array,
+        surface: Material,
+        body: Material,
+        law: Any,
+        varied: Any,
+        grit: Any,
+    ) -> tuple[Number, Number]:
         """Fill in the rows of a side, of angular particles if ``grit`` is a shape; its E* and H."""
         R = varied.tip_radius if grit is None else 0.5 * grit.roundness
         E, (H, nu) = reduced_modulus(surface, body), _softer(surface, body)
@@ -526,7 +517,7 @@ class Numbers:
         )
         return E, H
 
-    def _add_grit(self, rows: Array, H: Any, delta_1: Any, R: Any, grit: Any) -> None:
+    def _add_grit(self, rows: Array, H: Number, delta_1: Number, R: Number, grit: Angular) -> None:
         """Fill in the rows of a side that is a tip, or a tip and faces."""
         edge = R * np.tan(grit.angle)
         faced = edge < 0.5 * grit.flatness * (1 - 1e-12)
@@ -541,8 +532,15 @@ class Numbers:
         )
 
     def _add_deep(
-        self, rows: Array, surface: Any, body: Any, E: Any, H: Any, delta_1: Any, varied: Any
-    ) -> tuple[Any, Any]:
+        self,
+        rows: Array,
+        surface: Number,
+        body: Number,
+        E: Number,
+        H: Number,
+        delta_1: Number,
+        varied: Any,
+    ) -> tuple[Number, Number]:
         """Fill in the rows of a side by the table of deep squeezes; its E* and H."""
         ratio, R = body / surface, 0.5
         given = (ratio, varied.friction_factor, E / H)
@@ -563,7 +561,7 @@ class Numbers:
         )
         return E, H
 
-    def _add_sizes(self, rows: Array, one: Any, changed: Any) -> Any:
+    def _add_sizes(self, rows: Array, one: Sizes, changed: Any) -> Number:
         """Fill in the sizes; ⟨x²⟩."""
         if type(one) is sizes.Monodisperse:
             x = changed.mean

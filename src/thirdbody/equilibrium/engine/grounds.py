@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -23,8 +24,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...laws.field.spectrum import Spectrum
+    from ...populations.distributions import Distribution
+    from ...populations.roughness import Roughness
+    from .sections import Section
 
     Array = NDArray[np.float64]
+    Index = NDArray[np.intp]
+    Number = float | Array
 
 __all__ = ["Grounds", "check_grounded"]
 
@@ -43,7 +49,7 @@ SHORT = "the ground of particles on a field of heights is a table of its own"
 """What is said where the kernel does not know it."""
 
 
-def check_grounded(contact: Any, found: list[Any]) -> None:
+def check_grounded(contact: Any, found: Sequence[Section]) -> None:
     """Refuse populations whose ground the kernel does not know."""
     if any(each.one.strength is not None or each.law.seat != "rough" for each in found):
         raise NotCompiled(SHORT)
@@ -51,7 +57,7 @@ def check_grounded(contact: Any, found: list[Any]) -> None:
         raise NotCompiled(SHORT)
 
 
-def mean_diameter(found: list[Any], rows: Array) -> Any:
+def mean_diameter(found: Sequence[Section], rows: Array) -> Number:
     """Mean diameter of all particles [m], a float or one of each state.
 
     Parameters
@@ -64,13 +70,14 @@ def mean_diameter(found: list[Any], rows: Array) -> Any:
         mean_of_sizes(each.one.diameter, each.changed.diameter, rows[:, s])
         for s, each in enumerate(found)
     ]
-    first, total = diameters[0], 0.0
+    first: Number = diameters[0]
+    total: Number = 0.0
     for s, diameter in enumerate(diameters):
         total = total + rows[:, s, f.DENSITY] * (diameter - first)
     return first + total / rows[:, :, f.DENSITY].sum(axis=1)
 
 
-def mean_of_sizes(one: Any, changed: Any, rows: Array) -> Any:
+def mean_of_sizes(one: Distribution, changed: Any, rows: Array) -> Number:
     """Mean diameter of each state [m], of sizes as they are and with arrays in them."""
     if changed is one:
         return one.mean_diameter
@@ -112,14 +119,16 @@ class Displacements:
         self.which, self.alone = np.zeros(len(known), np.int64), np.zeros((1, OF_STATE))
         self.known, self.tails = known, np.zeros(len(known))
 
-    def fill(self, states: Any, keys: list[tuple[Any, ...]], which: Any, basis: Array) -> None:
+    def fill(
+        self, states: Index, keys: list[tuple[float, int, int]], which: Index, basis: Array
+    ) -> None:
         """Take the series of these keys, of which each of these states has one."""
         self.series = np.array([_series(*key) for key in keys])
         self.which[states], self.basis[states] = which.ravel(), basis
         tails = np.array([_tail(one, basis.shape[1] > NODES) for one in self.series])
         self.tails[states] = tails[self.which[states]]
 
-    def fill_alone(self, states: Any, alpha: Array, apart: Array) -> None:
+    def fill_alone(self, states: Index, alpha: Array, apart: Array) -> None:
         """Take the numbers of each of these states by themselves."""
         self.alone = np.zeros((max(len(states), 1), OF_STATE))
         self.which[states] = -1 - np.arange(len(states))
@@ -158,7 +167,7 @@ def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
     return out
 
 
-def _places(apart: Array) -> tuple[Any, Array]:
+def _places(apart: Array) -> tuple[Index, Array]:
     """Cells over the distance, and the terms of series there: (N,), (N, NODES)."""
     place = (apart / WIDTH).astype(int)
     return place, _terms(2 * (apart / WIDTH - place) - 1, NODES)
@@ -246,7 +255,7 @@ class Grounds:
         With arrays in it.
     """
 
-    def __init__(self, skins: Array, parts: Array, found: list[Any], rough: Any):
+    def __init__(self, skins: Array, parts: Array, found: Sequence[Section], rough: Roughness):
         from . import ground as g
 
         skin, count, alpha = skins[:, 0], len(skins), np.clip(rough.alpha, *ALPHAS)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
+    Index = NDArray[np.int64]
 
 __all__ = ["DOUBTS", "own_columns"]
 
@@ -99,7 +100,7 @@ def own_columns(
 
 def solve(
     numbers: Numbers, target: Array | None, given: Array, threads: int = 1
-) -> tuple[Array, Any, Any, Array, Array]:
+) -> tuple[Array, Index, Index, Array, Array]:
     """Separations [σ_s], evaluations, fates, errors and columns of states."""
     count = numbers.count
     h = np.array(given)
@@ -138,7 +139,11 @@ def solve(
 
 
 def solve_on_ground(
-    numbers: Numbers, ground: Grounds, here: slice, rule: Array, found: tuple[Any, ...]
+    numbers: Numbers,
+    ground: Grounds,
+    here: slice,
+    rule: Array,
+    found: tuple[NDArray[np.generic], ...],
 ) -> None:
     """Solve states of particles on one field of heights, into what is to be found."""
     from .grounded import SPLINES, solve_grounded

@@ -439,7 +439,7 @@ MOST_ROWS = 200_000
 """Straight lines of a table."""
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: object) -> bool:
     return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
@@ -18,10 +18,10 @@ from .one_particle import Side
 from .squashed import FULL, GRADING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from ..base import AbstractAsperityLaw
     from .one_particle import Array
+
+    Fan = Callable[[Array], Array]
 
 __all__ = ["DeepSide", "DeepSqueeze", "SqueezeCurve", "curve_rows", "squeeze_curve"]
 
@@ -137,26 +137,26 @@ def place_of(eps: Any, low: float, high: float) -> Any:
     return (2 * np.log(eps / (1 - eps)) - first - last) / (last - first)
 
 
-def squeeze_at(place: Any) -> Any:
+def squeeze_at(place: Array) -> Array:
     """Squeeze ε at a place on [−1, 1] of the table."""
     first, last = (math.log(end / (1 - end)) for end in (LAW_ENDS, TABLE_ENDS))
     return 1 / (1 + np.exp(-(first + last + place * (last - first)) / 2))
 
 
-def _between(nodes: Any, values: Any) -> Any:
+def _between(nodes: Sequence[float], values: Sequence[Array]) -> Fan:
     """Function of x between the values (N, K) at nodes (N,): monotone, constant outside."""
     from scipy.interpolate import PchipInterpolator
 
     if len(nodes) == 1:
         return lambda x: values[0]
     order = np.argsort(nodes)
-    nodes = np.asarray(nodes)[order]
-    curve = PchipInterpolator(nodes, np.asarray(values)[order], axis=0)
-    return lambda x: curve(np.clip(x, nodes[0], nodes[-1]))
+    places = np.asarray(nodes)[order]
+    curve = PchipInterpolator(places, np.asarray(values)[order], axis=0)
+    return lambda x: curve(np.clip(x, places[0], places[-1]))
 
 
 @lru_cache(maxsize=1)
-def _fans() -> tuple[Any, list[Any], list[tuple[float, Any]]]:
+def _fans() -> tuple[Fan, list[Fan], list[tuple[float, Fan]]]:
     """Rows of both logarithms: welded ones over ln ρ, changes by friction and by H/E* with ρ.
 
     A row is the first value and the roots of the slope at places of the table, of the load and
@@ -264,11 +264,11 @@ def _logarithms(x: Array, friction: Array, softness: Array) -> Array:
 
 
 @lru_cache(maxsize=1)
-def _share_lines() -> tuple[Any, ...]:
+def _share_lines() -> tuple[Fan, ...]:
     """Sinks over the squeeze at `SINK_AT`, of ln ρ: one function a friction factor of the runs."""
     from scipy.interpolate import make_interp_spline
 
-    def line(m: float) -> Any:
+    def line(m: float) -> Fan:
         runs = _chosen(m)
         nodes = np.array([run.node for run in runs])
         # in straight lines: a cubic is half as steep again where a particle begins to embed
@@ -438,13 +438,13 @@ class DeepSide(Side):
         low, high = self._reduced(eps[[after - 1, after]])
         return [float(brentq(excess, low, high, xtol=1e-15 * high, rtol=1e-15))]
 
-    def _disc(self, t: object) -> tuple[Any, Any]:
+    def _disc(self, t: float | Array) -> tuple[Any, Any]:
         """Load over πR²H and area over πR² of a disc of the height t left, beyond the table."""
         load, area = self._at_top
         thick = self.thick
         wide = area * thick / t
 
-        def rise(area: Any, t: Any) -> Any:
+        def rise(area: float | Array, t: float | Array) -> float | Array:
             return 1 + self.hill * np.sqrt(area) / t
 
         return load * thick / t * rise(wide, t) / rise(area, thick), wide

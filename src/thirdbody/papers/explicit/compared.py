@@ -176,7 +176,7 @@ def box_of(contact: Contact, size: int, spacing: float) -> OwnSpectrum:
     return OwnSpectrum.of(surface_of(contact, size=size, spacing=spacing, seed=1), box=True)
 
 
-def by_field(model: Contact, loads: Sequence[float], own: OwnSpectrum | None) -> list[Any]:
+def by_field(model: Contact, loads: Sequence[float], own: OwnSpectrum | None) -> list[list[float]]:
     """Share, separation over σ and real area by the law of one field, for each F*: (N, 3)."""
     contact = model.replace(asperity_law=Field(spectrum=own))
     with ignore_ranges():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..ledger import Measurement
 from .measures import (
@@ -24,6 +24,9 @@ from .measures import (
     turning_load,
 )
 from .readings import SILICA, STEEL, Curve, Curves
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 Load = Callable[[Curve], float]
 
@@ -92,7 +95,11 @@ def _in_order(name: str, load: Load, *, largest: bool, why: str) -> None:
     pair = (SILICA, STEEL) if largest else (STEEL, SILICA)
 
     def ordered(
-        curves: Curves, sigma: Any, x_a: Any, materials: Any = None, material: Any = None
+        curves: Curves,
+        sigma: Any,
+        x_a: Any,
+        materials: Sequence[str] | None = None,
+        material: str | None = None,
     ) -> Measurement:
         if material is not None:
             rows = [[curves(material, s, x_a) for s in sigma]]

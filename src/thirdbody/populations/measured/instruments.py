@@ -29,7 +29,7 @@ class Raw(NamedTuple):
     """What a source says of itself, in SI."""
 
     name: str
-    heights: Any
+    heights: np.ndarray
     spacing: tuple[float, ...]
     periodic: bool | None = None
     limit: float | None = None
@@ -103,7 +103,7 @@ def _example() -> Raw:
         resources.files("thirdbody").joinpath("data/example_surface.npz").open("rb") as file,
         np.load(file) as data,
     ):
-        heights: Any = np.cumsum(data["steps"], axis=0, dtype=float)
+        heights = np.cumsum(data["steps"], axis=0, dtype=float)
         heights[tuple(data["missing"].T)] = np.nan
         return Raw("example", heights * float(data["unit"]), tuple(map(float, data["spacing"])))
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -500,8 +500,8 @@ def filled(h: Array) -> Array:
     rows, columns = [], []
     for axis in range(h.ndim):
         for here, there in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
-            a: Any = tuple(here if k == axis else slice(None) for k in range(h.ndim))
-            b: Any = tuple(there if k == axis else slice(None) for k in range(h.ndim))
+            a = tuple(here if k == axis else slice(None) for k in range(h.ndim))
+            b = tuple(there if k == axis else slice(None) for k in range(h.ndim))
             mine, other, value = number[a], number[b], h[b]
             inside = mine >= 0
             np.add.at(diagonal, mine[inside], 1.0)

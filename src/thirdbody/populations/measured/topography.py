@@ -134,7 +134,7 @@ def from_topography(
 
 
 def _options(
-    cutoff: Any, detrend: Any, unit: str | None, spacing: object, resolution: Any
+    cutoff: Any, detrend: object, unit: str | None, spacing: object, resolution: Any
 ) -> tuple[float | None, tuple[float, ...] | None]:
     """The unit [m] and the spacing [m] given, or None, when every option has a meaning."""
     problems: list[str] = []
@@ -225,7 +225,7 @@ def _check(heights: Array, name: str) -> None:
 def _without_form(h: Array, detrend: str) -> Array:
     """Heights less their mean, least-squares plane or paraboloid."""
     axes = np.meshgrid(*(np.linspace(-1, 1, n) for n in h.shape), indexing="ij", sparse=True)
-    terms: list[Any] = [np.ones((1,) * h.ndim)]
+    terms: list[Array] = [np.ones((1,) * h.ndim)]
     if detrend != "none":
         terms += axes
     if detrend == "curvature":

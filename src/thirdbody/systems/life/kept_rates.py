@@ -14,7 +14,7 @@ import json
 import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -45,7 +45,7 @@ class _Kept(NamedTuple):
         return zlib.crc32(np.append(self.value, self.warm).tobytes(), self.of)
 
 
-def plain_inputs(given: Mapping[str, Any]) -> dict[str, Any]:
+def plain_inputs(given: Mapping[str, object]) -> dict[str, object]:
     """Arguments as what tells one set of them from another.
 
     Parameters
@@ -74,7 +74,7 @@ class KeptRates:
         A file of something else, or of other inputs.
     """
 
-    def __init__(self, file: Path | None = None, inputs: Mapping[str, Any] | None = None):
+    def __init__(self, file: Path | None = None, inputs: Mapping[str, object] | None = None):
         self.file, self.next = file, 0
         self.known: list[_Kept] = []
         if file is None:

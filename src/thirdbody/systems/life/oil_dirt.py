@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Self
 
 from ...errors import Mistake, Problem
 from ...populations.distributions import Distribution
@@ -122,7 +122,7 @@ class OilDirt(Value):
         return self.number * self.material.density * math.pi / 6 * self.diameter.moment(3)
 
 
-def problems_of_kinds(value: Any) -> list[str]:
+def problems_of_kinds(value: object) -> list[str]:
     """Where material and diameter are not what they must be."""
     return [
         Problem(name, f"must be a {kind.__name__}", repr(getattr(value, name)), code=Mistake.KIND)

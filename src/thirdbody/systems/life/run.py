@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["life"]
 
-FILM: dict[str, Any] = {
+FILM: dict[str, object] = {
     "slide_roll": 0.0,
     "contacts": 1.0,
     "particle_friction": None,
@@ -37,7 +37,7 @@ FILM: dict[str, Any] = {
 }
 """Conditions of contacts in a film that may be left out."""
 OF_FILM = ("conjunction", "lubricant", "load", "speed", "entry_ratio")
-DRY: dict[str, Any] = {"arrivals": (), "classes": None}
+DRY: dict[str, object] = {"arrivals": (), "classes": None}
 """Conditions of a dry contact that may be left out."""
 OF_DRY = ("pressure", "sliding_speed", "length", "area", "loss", "moving")
 MEANINGS = {
@@ -240,12 +240,12 @@ def _check_parts(of_contact: Mapping[str, Any]) -> None:
         raise InvalidValue(*problems)
 
 
-def _positive(value: Any) -> bool:
+def _positive(value: object) -> bool:
     return isinstance(value, int | float) and math.isfinite(value) and value > 0
 
 
 def _whole(
-    conditions: Mapping[str, Any], needed: Sequence[str], usual: Mapping[str, Any]
+    conditions: Mapping[str, object], needed: Sequence[str], usual: Mapping[str, object]
 ) -> dict[str, Any]:
     """All conditions of a contact, those left out as usual."""
     problems = [

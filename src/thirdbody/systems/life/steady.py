@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -201,7 +200,7 @@ def find_steady_points(
         raise InvalidValue(Problem("low", rule, repr(low), code=Mistake.ORDER))
     x = np.linspace(low, high, nodes + 1)
     y = np.array([balance(float(each)) for each in x])
-    places: list[Any] = [float(x[i]) for i in np.flatnonzero(y == 0)]
+    places: list[float] = [float(x[i]) for i in np.flatnonzero(y == 0)]
     for i in np.flatnonzero(y[:-1] * y[1:] < 0):
         places.append(brentq(balance, x[i], x[i + 1], xtol=1e-15 * (high - low), rtol=1e-15))
     step = 1e-6 * (high - low)

@@ -13,8 +13,11 @@ from ...errors import InvalidValue, Mistake
 from .style import OKABE_ITO
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
     from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike, NDArray
 
     from ...systems.stribeck import RegimeSpeeds
 
@@ -22,7 +25,7 @@ __all__ = ["LINES", "OF_PARTICLES", "REGIME_FILLS", "bands_of", "stribeck"]
 
 REGIME_FILLS = {"boundary": "0.82", "mixed": "0.93", "full film": "1.0"}
 """Grey behind each regime."""
-LINES: dict[str, dict[str, tuple[str, str, Any]]] = {
+LINES: dict[str, dict[str, tuple[str, str, str]]] = {
     "friction": {
         "mu": ("sum", OKABE_ITO["black"], "-"),
         "mu_film": ("film", OKABE_ITO["blue"], "--"),
@@ -40,10 +43,12 @@ LINES: dict[str, dict[str, tuple[str, str, Any]]] = {
     },
 }
 """The curves of each panel: column, label, colour, dash."""
+Band = tuple[float, float, str]
+"""From, to and word of a regime."""
 OF_PARTICLES = ("mu_sa", "sa_share", "h_over_x")
 
 
-def bands_of(u: Any, changes: RegimeSpeeds | Mapping[str, float | None]) -> list[Any]:
+def bands_of(u: ArrayLike, changes: RegimeSpeeds | Mapping[str, float | None]) -> list[Band]:
     """Regimes over these speeds [m/s]: from, to and word of each."""
     told = changes if isinstance(changes, Mapping) else changes._asdict()
     low, high = float(np.min(u)), float(np.max(u))
@@ -115,7 +120,13 @@ def stribeck(
     return figure
 
 
-def _draw(ax: Axes, panel: str, u: Any, columns: dict[str, Any], bands: list[Any]) -> None:
+def _draw(
+    ax: Axes,
+    panel: str,
+    u: NDArray[np.float64],
+    columns: Mapping[str, NDArray[np.float64]],
+    bands: Sequence[Band],
+) -> None:
     particles = np.isfinite(columns["h_over_x"]).any()
     for low, high, word in bands:
         ax.axvspan(low, high, color=REGIME_FILLS[word], linewidth=0, zorder=0)
@@ -136,7 +147,7 @@ def _draw(ax: Axes, panel: str, u: Any, columns: dict[str, Any], bands: list[Any
     ax.legend(frameon=False, fontsize="small")
 
 
-def _name_regimes(ax: Axes, bands: list[Any]) -> None:
+def _name_regimes(ax: Axes, bands: Sequence[Band]) -> None:
     """Write each regime above its band; a narrow one goes to the end of the axis."""
     width = np.log(bands[-1][1] / bands[0][0])
     for low, high, word in bands:

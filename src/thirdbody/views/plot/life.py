@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -16,6 +16,7 @@ from .style import OKABE_ITO
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
+    from numpy.typing import NDArray
 
     from ...systems.life.contact_history import DryHistory
 
@@ -104,7 +105,7 @@ def _mark_events(axes: Axes, history: Histories) -> list[Line2D]:
     ]  # fmt: skip
 
 
-def _hours(history: Histories) -> Any:
+def _hours(history: Histories) -> NDArray[np.float64]:
     """Times [h]; the first, which no logarithm has, where the second one is in the logarithm."""
     hours = history.times / HOUR
     if len(hours) > 2 and hours[0] == 0:
