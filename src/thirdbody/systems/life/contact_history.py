@@ -315,7 +315,7 @@ class ContactHistory(_Breeding, LifeHistory):
         along, _ = loop.bodies.conjunction.semi_axes(
             float(loop.bodies.w[0]), E=2 * loop.bodies.contact.E_ss
         )
-        out = {"passage of a contact": 2 * float(along) / loop.speed}
+        out = {"passage of a contact": 2 * float(along) / loop.film.speed}
         out |= LifeHistory.time_scales.fget(self)  # type: ignore[attr-defined]
         return out | wear_times(loop, self.last_state, self.more)
 

@@ -11,11 +11,10 @@ import numpy as np
 from ...contact.contact import Contact
 from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.say import number
-from ..conjunctions import Line, Oil, Point
-from ..film_formulas import AbstractFilm
 from ..mixed_film import FEW, MOST, lubricated
 from .breeding import births_and_losses
 from .circuit import OilCircuit
+from .conditions import ContactInUse, DryConditions, FilmConditions
 from .contact_course import DRAINED, ContactCourse, Visited
 from .contact_history import (
     COLUMNS,
@@ -23,7 +22,7 @@ from .contact_history import (
     DryHistory,
     contact_columns,
 )
-from .contact_tables import Kind, contact_tables
+from .contact_tables import ContactTables, Kind, contact_tables
 from .debris import Debris, wears
 from .dry_loop import ARRIVED, LEFT, DryLoop
 from .film_loop import FRESH, INGRESS, FilmLoop
@@ -52,7 +51,8 @@ CROWDED = 0.3
 
 
 # ------------------------------------------------------------------ what is common
-def _check(contact: Contact, debris: Debris | None, running_in: RunningIn | None) -> None:
+def _check(use: ContactInUse) -> None:
+    contact, debris, running_in = use.contact, use.debris, use.running_in
     problems: list[Problem] = []
     if not isinstance(contact, Contact):
         raise InvalidValue(
@@ -83,44 +83,36 @@ def _check(contact: Contact, debris: Debris | None, running_in: RunningIn | None
         raise InvalidValue(*problems)
 
 
-def _debris_materials(contact: Contact, debris: Debris | None) -> dict[str, Material]:
-    if debris is None:
+def _debris_materials(use: ContactInUse) -> dict[str, Material]:
+    if (debris := use.debris) is None:
         return {}
-    pair = contact.surfaces
+    pair = use.contact.surfaces
     return {
         "debris 1": debris.material(pair.first, name="debris 1"),
         "debris 2": debris.material(pair.second, name="debris 2"),
     }
 
 
-def _span(contact: Contact, running_in: RunningIn | None) -> tuple[float, float] | None:
-    """Roughness from and to [m]; without an end it may fall to a fifth."""
-    if running_in is None:
-        return None
-    sigma = contact.roughness.sigma
-    return sigma, max(running_in.sigma_end, 0.2 * sigma)
+def _tables(use: ContactInUse, classes: SizeClasses, kinds: Sequence[Kind]) -> ContactTables:
+    """Tables of the contact alone; where it runs in, σ may fall to a fifth."""
+    sigma, span = use.contact.roughness.sigma, None
+    if use.running_in is not None:
+        span = sigma, max(use.running_in.sigma_end, 0.2 * sigma)
+    return contact_tables(use.contact.replace(particles=None), classes, tuple(kinds), span)
 
 
 def _setting(
-    contact: Contact,
-    debris: Debris | None,
-    classes: SizeClasses,
-    *,
-    names: Sequence[str],
-    sliding_speed: float,
-    area: float,
-    worn_area: tuple[float, float] | None,
-    stays: float,
-    running_in: RunningIn | None,
+    use: ContactInUse, tables: ContactTables, *, sliding_speed: float, area: float
 ) -> Setting:
+    names, debris = [kind.name for kind in tables.kinds], use.debris
     return Setting(
         sliding_speed=sliding_speed,
         area=area,
-        worn_area=(area, area) if worn_area is None else worn_area,
-        shares=np.zeros(classes.count) if debris is None else debris.shares(classes),
+        worn_area=(area, area) if use.worn_area is None else use.worn_area,
+        shares=np.zeros(tables.classes.count) if debris is None else debris.shares(tables.classes),
         debris=(-1, -1) if debris is None else (names.index("debris 1"), names.index("debris 2")),
-        stays=stays,
-        running_in=running_in,
+        stays=use.stays,
+        running_in=use.running_in,
     )
 
 
@@ -160,14 +152,9 @@ def _ledger(loop: Loop, seen: Visited, came: Sequence[str], went: Sequence[str])
 
 
 def _notes(
-    loop: Loop,
-    more: dict[str, Array],
-    debris: Debris | None,
-    *,
-    worn_area: object,
-    entry_ratio: float | None,
+    loop: Loop, more: dict[str, Array], use: ContactInUse, *, entry_ratio: float | None = None
 ) -> list[Note]:
-    out = [] if debris is None else debris.notes(loop.tables.classes)
+    out = [] if use.debris is None else use.debris.notes(loop.tables.classes)
     fewest = float(np.min(more["present"]))
     if fewest < 1:
         what = (
@@ -179,7 +166,7 @@ def _notes(
         what = "the entry ratio is assumed to be 1: surfaces that lasted show far fewer dents"
         action = "count dents, and take entry_ratio_from_dents"
         out.append(Note(what, code="life.entry", action=action))
-    if worn_area is None:
+    if use.worn_area is None:
         what = "wear depths are as if the same place of each surface were always in contact"
         action = "give worn_area, the area of each surface that is worn in turn"
         out.append(Note(what, code="life.worn_area", action=action))
@@ -214,62 +201,40 @@ def _by_class(loop: Loop, matrix: Array) -> Array:
 
 # ------------------------------------------------------------------ in a film
 def run_film_history(
-    contact: Contact,
+    use: ContactInUse,
+    film: FilmConditions,
     *,
     oil: OilCircuit,
-    conjunction: Point | Line,
-    lubricant: Oil,
-    load: float,
-    speed: float,
-    slide_roll: float,
-    contacts: float,
-    entry_ratio: float,
-    debris: Debris | None,
-    running_in: RunningIn | None,
-    stays: float,
-    worn_area: tuple[float, float] | None,
-    particle_friction: float | None,
-    entry_height: str,
-    strengths: dict[Material, WeibullStrength],
-    film: AbstractFilm | None,
-    hertz: str,
     duration: float,
     until: Sequence[Until],
     times: ArrayLike | None,
     kept: KeptRates,
 ) -> LifeHistory:
     """The history of an oil and of alike contacts in it; arguments as in `thirdbody.life`."""
-    _check(contact, debris, running_in)
+    _check(use)
     need_oil_left(oil, duration)
+    contact, debris = use.contact, use.debris
     if contact.populations:
         rule = "are those of the oil: remove them from the contact"
         raise InvalidValue(Problem("contact.particles", rule, code=Mistake.CLASH))
-    more_materials = _debris_materials(contact, debris)
+    more_materials = _debris_materials(use)
     others = () if debris is None else (debris.diameter,)
     classes = oil.size_classes(*others)
     terms = oil.terms(classes=classes, materials=more_materials)
     bodies = lubricated(
-        contact, conjunction, lubricant, np.array([load]), film, slide_roll, hertz, (FEW, MOST)
-    )
-    names = list(terms.materials)
+        contact, film.conjunction, film.lubricant, np.array([film.load]), film.film,
+        film.slide_roll, film.hertz, (FEW, MOST),
+    )  # fmt: skip
     kinds = [
-        Kind(name=name, material=each, strength=strengths.get(each))
+        Kind(name=name, material=each, strength=film.strengths.get(each))
         for name, each in terms.materials.items()
     ]
-    tables = contact_tables(
-        contact.replace(particles=None), classes, tuple(kinds), _span(contact, running_in)
-    )
-    area = contacts * float(conjunction.hertz(load, E=2 * contact.E_ss).area)
-    setting = _setting(
-        contact, debris, classes, names=names, sliding_speed=slide_roll * speed, area=area,
-        worn_area=worn_area, stays=stays, running_in=running_in,
-    )  # fmt: skip
-    loop = FilmLoop(
-        tables, setting, bodies=bodies, speed=speed, contacts=contacts, entry_ratio=entry_ratio,
-        friction=particle_friction, height=entry_height, terms=terms, volume=oil.volume,
-    )  # fmt: skip
+    tables = _tables(use, classes, kinds)
+    area = film.contacts * float(film.conjunction.hertz(film.load, E=2 * contact.E_ss).area)
+    setting = _setting(use, tables, sliding_speed=film.slide_roll * film.speed, area=area)
+    loop = FilmLoop(tables, setting, film, bodies=bodies, terms=terms, volume=oil.volume)
     alone = None
-    if debris is None and stays == 0 and not strengths:
+    if debris is None and use.stays == 0 and not film.strengths:
         # nothing comes from the contact: the oil runs as it does alone, exactly
         alone = run_oil_history(oil, duration=duration, until=_of_oil(until), times=times)
         times = alone.times
@@ -285,7 +250,7 @@ def run_film_history(
     )  # fmt: skip
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
-    notes = _notes(loop, columns, debris, worn_area=worn_area, entry_ratio=entry_ratio)
+    notes = _notes(loop, columns, use, entry_ratio=film.entry_ratio)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
     moments = np.array(seen.times)
     numbers = np.array([loop.shaped(y[loop.layout["oil"]]).T for y in seen.states])
@@ -321,27 +286,17 @@ def _of_oil(until: Sequence[Until]) -> tuple[Until, ...]:
 
 # ------------------------------------------------------------------ dry
 def run_dry_history(
-    contact: Contact,
+    use: ContactInUse,
+    dry: DryConditions,
     *,
-    pressure: float,
-    sliding_speed: float,
-    length: float,
-    area: float,
-    arrivals: Sequence[Ingress],
-    loss: float,
-    moving: int,
-    debris: Debris | None,
-    running_in: RunningIn | None,
-    stays: float,
-    worn_area: tuple[float, float] | None,
-    classes: SizeClasses | None,
     duration: float,
     until: Sequence[Until],
     times: ArrayLike | None,
     kept: KeptRates,
 ) -> DryHistory:
     """The history of a dry or greased contact; arguments as in `thirdbody.life`."""
-    _check(contact, debris, running_in)
+    _check(use)
+    contact, arrivals = use.contact, dry.arrivals
     if wrong := [each for each in arrivals if not isinstance(each, Ingress) or each.rate is None]:
         rule = "must be Ingress with a rate [1/s], particles into the whole contact"
         raise InvalidValue(Problem("arrivals", rule, repr(wrong[0]), code=Mistake.KIND))
@@ -355,24 +310,18 @@ def run_dry_history(
              material=each, strength=strength)
         for i, (each, strength) in enumerate(dirt.items())
     ]  # fmt: skip
-    kinds += [Kind(name=n, material=m) for n, m in _debris_materials(contact, debris).items()]
-    names = [kind.name for kind in kinds]
+    kinds += [Kind(name=n, material=m) for n, m in _debris_materials(use).items()]
     diameters = [each.diameter for each in contact.populations]
     diameters += [each.diameter for each in arrivals]
-    if debris is not None:
-        diameters.append(debris.diameter)
-    if classes is None:
+    if use.debris is not None:
+        diameters.append(use.debris.diameter)
+    if (classes := dry.classes) is None:
         ends = [sizes_of(each) for each in diameters] or [(0.25e-6, 64e-6)]
         classes = SizeClasses.covering(
             smallest=min(a for a, _ in ends), largest=max(b for _, b in ends)
         )
-    tables = contact_tables(
-        contact.replace(particles=None), classes, tuple(kinds), _span(contact, running_in)
-    )
-    setting = _setting(
-        contact, debris, classes, names=names, sliding_speed=sliding_speed, area=area,
-        worn_area=worn_area, stays=stays, running_in=running_in,
-    )  # fmt: skip
+    tables = _tables(use, classes, kinds)
+    setting = _setting(use, tables, sliding_speed=dry.sliding_speed, area=dry.area)
     place = {material: i for i, material in enumerate(dirt)}
     coming = np.zeros((len(kinds), classes.count))
     for each in arrivals:
@@ -382,14 +331,14 @@ def run_dry_history(
     present = np.zeros((len(kinds), classes.count))
     for population in contact.populations:
         present[place[population.material]] += classes.numbers_of(
-            population.areal_density * area, population.diameter
+            population.areal_density * dry.area, population.diameter
         )
     loop = DryLoop(
-        tables, setting, pressure=pressure, length=length, arrivals=coming.ravel(), loss=loss,
-        moving=moving,
+        tables, setting, pressure=dry.pressure, length=dry.length, arrivals=coming.ravel(),
+        loss=dry.loss, moving=dry.moving,
     )  # fmt: skip
     if times is None:
-        times = usual_times(duration, shortest=0.1 * length / sliding_speed)
+        times = usual_times(duration, shortest=0.1 * dry.length / dry.sliding_speed)
     course = ContactCourse(
         loop, _start(loop, present.ravel()), duration=duration,
         times=kept_times(times, duration=duration), until=until, kept=kept,
@@ -397,18 +346,18 @@ def run_dry_history(
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
-    numbers = np.array([loop.shaped(y[loop.layout["contact"]]).T for y in seen.states]) / area
+    numbers = np.array([loop.shaped(y[loop.layout["contact"]]).T for y in seen.states]) / dry.area
     absent = ("film_share", *(f"{name}_{side}" for name in ("dents", "thrown") for side in (1, 2)))
     return DryHistory(
         loop=loop,
         last_state=seen.states[-1],
         times=np.array(seen.times),
         numbers=numbers,
-        materials=tuple(names),
+        materials=tuple(kind.name for kind in kinds),
         ledger=_ledger(loop, seen, (ARRIVED,), (LEFT,)),
         births=births,
         losses=losses,
         events=tuple(course.events),
-        warnings=tuple(_notes(loop, columns, debris, worn_area=worn_area, entry_ratio=None)),
+        warnings=tuple(_notes(loop, columns, use)),
         more=_more(columns, absent),
     )

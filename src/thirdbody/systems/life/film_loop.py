@@ -27,6 +27,7 @@ from ...errors import NoEquilibrium
 from ...numerics.chebyshev import PiecewiseChebyshev
 from ..mixed_film import Lubricated, height_of_one, mean_gap
 from .circuit import OilTerms
+from .conditions import FilmConditions
 from .contact_tables import ContactTables, Pressed
 from .entry import oil_layer
 from .loop import Gap, Loop, Rates, Setting
@@ -53,18 +54,9 @@ class FilmLoop(Loop):
     tables : ContactTables
     setting : Setting
         Its area is that of all contacts together.
+    film : FilmConditions
     bodies : Lubricated
         Bodies, oil, film formula and the load of one contact.
-    speed : float
-        Mean entrainment speed u [m/s].
-    contacts : float
-        How many contacts there are.
-    entry_ratio : float
-        ε [1].
-    friction : float or None
-        μ of a particle on the surfaces, which bounds the sizes dragged in [1]; None for no bound.
-    height : {"size", "film"}
-        As in `oil_layer`.
     terms : OilTerms
         What comes into the oil and goes out, for the kinds of the tables.
     volume : float
@@ -77,26 +69,21 @@ class FilmLoop(Loop):
         self,
         tables: ContactTables,
         setting: Setting,
+        film: FilmConditions,
         *,
         bodies: Lubricated,
-        speed: float,
-        contacts: float,
-        entry_ratio: float,
-        friction: float | None,
-        height: str,
         terms: OilTerms,
         volume: float,
     ):
         self.removals = tuple(terms.removal)
         super().__init__(tables, setting, (INGRESS, FRESH, *self.removals))
-        self.bodies, self.speed, self.contacts = bodies, speed, contacts
-        self.entry_ratio, self.friction, self.height = entry_ratio, friction, height
+        self.film, self.bodies = film, bodies
         self.terms, self.volume, self.growth = terms, volume, terms.growth
         self.pressure = float(bodies.p[0])
         _, across = bodies.conjunction.semi_axes(float(bodies.w[0]), E=2 * bodies.contact.E_ss)
         self.width = 2 * float(across)
         """Of one contact across the motion [m]."""
-        u = np.array([speed])
+        u = np.array([film.speed])
         self.log_film = PiecewiseChebyshev(
             lambda x: np.log([float(bodies.thickness(u, np.exp(each))[0]) for each in x])[:, None],
             np.array([0.0, 1.0, 4.0, 12.0, 30.0, LONGEST]),
@@ -118,7 +105,7 @@ class FilmLoop(Loop):
 
     @property
     def one_area(self) -> float:
-        return self.setting.area / self.contacts
+        return self.setting.area / self.film.contacts
 
     # ------------------------------------------------------------------ film
     def volume_at(self, time: float) -> float:
@@ -205,8 +192,8 @@ class FilmLoop(Loop):
         while f(high) > 0:
             if high >= LONGEST:
                 raise NoEquilibrium(
-                    f"no equilibrium at speed = {self.speed:g} m/s: at every gap that this film "
-                    "leaves, asperities and particles carry more than the load"
+                    f"no equilibrium at speed = {self.film.speed:g} m/s: at every gap that this "
+                    "film leaves, asperities and particles carry more than the load"
                 )
             low, high = high, min(2 * high, LONGEST)
         return float(brentq(f, low, high, xtol=1e-13, rtol=1e-13))
@@ -218,10 +205,12 @@ class FilmLoop(Loop):
         if self._layers[0] == film:
             return self._layers[1]
         largest = math.inf
-        if self.friction is not None:
-            largest = film + 2 * self.friction**2 * self.bodies.conjunction.R
-        layer = oil_layer(self.tables.classes, film=film, largest=largest, height=self.height)
-        self._layers = film, self.entry_ratio * np.tile(layer, self.kinds)
+        if self.film.particle_friction is not None:
+            largest = film + 2 * self.film.particle_friction**2 * self.bodies.conjunction.R
+        layer = oil_layer(
+            self.tables.classes, film=film, largest=largest, height=self.film.entry_height
+        )
+        self._layers = film, self.film.entry_ratio * np.tile(layer, self.kinds)
         return self._layers[1]
 
     def standing(self, y: Array, d: float) -> Array:
@@ -235,7 +224,7 @@ class FilmLoop(Loop):
         return y[self.layout[self.pool]] * (layers / self.volume_at(self.now))
 
     def passes(self, side: int) -> float:
-        return self.contacts * self.speed * self.width / self.setting.worn_area[side - 1]
+        return self.film.contacts * self.film.speed * self.width / self.setting.worn_area[side - 1]
 
     def add_exchange(self, out: Rates, y: Array, state: Pressed) -> None:
         pool, terms = self.layout[self.pool], self.terms
@@ -247,7 +236,7 @@ class FilmLoop(Loop):
             rate = terms.removal[name].T.ravel() / volume
             out.matrix[mine, mine] -= rate
             self.add_flow(out, name, pool, rate)
-        swept = self.contacts * self.speed * self.width
+        swept = self.film.contacts * self.film.speed * self.width
         passing = swept * self.layers(state.d, state.sigma) / volume
         self.add_retention(out, passing, state)
         self.add_passage(out, passing, pieces=self.pieces(state.d, state.sigma))

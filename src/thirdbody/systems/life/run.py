@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
@@ -11,11 +10,17 @@ from ...contact.contact import Contact
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.carried import takes_units
 from .circuit import OilCircuit
+from .conditions import (
+    ContactInUse,
+    DryConditions,
+    FilmConditions,
+    is_positive,
+    read_conditions,
+)
 from .contact_history import DryHistory
 from .contact_life import run_dry_history, run_film_history
 from .debris import Debris
 from .history import LifeHistory
-from .ingress import Ingress
 from .kept_rates import KeptRates, plain_inputs
 from .oil_history import need_duration, run_oil_history
 from .surfaces import RunningIn
@@ -25,37 +30,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 __all__ = ["life"]
-
-FILM: dict[str, object] = {
-    "slide_roll": 0.0,
-    "contacts": 1.0,
-    "particle_friction": None,
-    "entry_height": "size",
-    "film": None,
-    "hertz": "mean",
-    "strengths": {},
-}
-"""Conditions of contacts in a film that may be left out."""
-OF_FILM = ("conjunction", "lubricant", "load", "speed", "entry_ratio")
-DRY: dict[str, object] = {"arrivals": (), "classes": None}
-"""Conditions of a dry contact that may be left out."""
-OF_DRY = ("pressure", "sliding_speed", "length", "area", "loss", "moving")
-MEANINGS = {
-    "conjunction": "the bodies, e.g. films.Point(R=10e-3)",
-    "lubricant": "the oil in the film, e.g. films.Oil(eta=0.04, alpha=2e-8)",
-    "load": "of one contact [N]",
-    "speed": "of entrainment [m/s]",
-    "entry_ratio": "particles that enter over those in the oil that passes [1]; nobody can predict "
-    "it: count dents (entry_ratio_from_dents), or try it from 1e-3 to 1",
-    "pressure": "[Pa]",
-    "sliding_speed": "[m/s]",
-    "length": "of the contact along the motion [m]",
-    "area": "of the contact [m^2]",
-    "loss": "part of what leaves the contact that does not come round again, 0 to 1 [1]",
-    "moving": "the surface, 1 or 2, that carries what it holds out of the contact",
-}
-POSITIVE = ("load", "speed", "contacts", "pressure", "sliding_speed", "length", "area")
-PARTS = ("loss",)
 
 
 @overload
@@ -198,86 +172,40 @@ def life(
             raise InvalidValue(Problem("until", "needs a contact", idle[0].name, code=Mistake.IDLE))
         found = run_oil_history(oil, **shared)
     else:
-        _check_parts(of_contact)
+        use = ContactInUse(contact=contact, **of_contact)
+        _check_parts(use)
         need_duration(duration)
         asked = {"contact": contact, "oil": oil} | conditions | of_contact | shared
         file = None if keep is None else Path(keep)
         if oil is not None:
-            whole = _whole(conditions, OF_FILM, FILM)
-            shared["kept"] = KeptRates(file, plain_inputs(asked))
-            found = run_film_history(contact, oil=oil, **whole, **of_contact, **shared)
+            film = read_conditions(FilmConditions, conditions)
+            kept = KeptRates(file, plain_inputs(asked))
+            found = run_film_history(use, film, oil=oil, kept=kept, **shared)
         else:
             of_oil = [each for each in waits if not isinstance(each, ContactUntil)]
             if of_oil:
                 raise InvalidValue(
                     Problem("until", "needs an oil", of_oil[0].name, code=Mistake.IDLE)
                 )
-            whole = _whole(conditions, OF_DRY, DRY)
-            arriving = whole["arrivals"]
-            whole["arrivals"] = (arriving,) if isinstance(arriving, Ingress) else tuple(arriving)
-            shared["kept"] = KeptRates(file, plain_inputs(asked))
-            found = run_dry_history(contact, **whole, **of_contact, **shared)
+            dry = read_conditions(DryConditions, conditions)
+            kept = KeptRates(file, plain_inputs(asked))
+            found = run_dry_history(use, dry, kept=kept, **shared)
     for note in found.warnings:
         tell_of_range(note)
     return found
 
 
-def _check_parts(of_contact: Mapping[str, Any]) -> None:
+def _check_parts(use: ContactInUse) -> None:
     """Refuse a share that is none, and areas that are none."""
     problems = []
-    if not 0 <= of_contact["stays"] <= 1:
+    if not 0 <= use.stays <= 1:
         problems.append(
-            Problem(
-                "stays", "must be from 0 to 1 [1]", repr(of_contact["stays"]), code=Mistake.RANGE
-            )
+            Problem("stays", "must be from 0 to 1 [1]", repr(use.stays), code=Mistake.RANGE)
         )
-    area = of_contact["worn_area"]
-    if area is not None and not (len(area) == 2 and all(_positive(each) for each in area)):
+    area = use.worn_area
+    if area is not None and not (len(area) == 2 and all(is_positive(each) for each in area)):
         problems.append(
             Problem("worn_area", "must be two areas above 0 [m^2]", repr(area), code=Mistake.RANGE)
         )
     if problems:
         raise InvalidValue(*problems)
-
-
-def _positive(value: object) -> bool:
-    return isinstance(value, int | float) and math.isfinite(value) and value > 0
-
-
-def _whole(
-    conditions: Mapping[str, object], needed: Sequence[str], usual: Mapping[str, object]
-) -> dict[str, Any]:
-    """All conditions of a contact, those left out as usual."""
-    problems = [
-        Problem(
-            name,
-            f"is no condition of this contact; they are {', '.join((*needed, *usual))}",
-            code=Mistake.UNKNOWN,
-        )
-        for name in conditions
-        if name not in needed and name not in usual
-    ]
-    problems += [
-        Problem(name, f"is missing: {MEANINGS[name]}", code=Mistake.MISSING)
-        for name in needed
-        if name not in conditions
-    ]
-    whole = {**usual, **conditions}
-    checks: list[tuple[tuple[str, ...], Callable[[Any], bool], str]] = [
-        (POSITIVE, _positive, "must be finite and > 0"),
-        (PARTS, lambda value: isinstance(value, int | float) and 0 <= value <= 1, "must be 0 to 1"),
-        (("entry_ratio",), _positive, "must be finite and > 0 [1]"),
-        (("moving",), lambda value: value in (1, 2), "must be 1 or 2"),
-        (("entry_height",), lambda value: value in ("size", "film"), "must be 'size' or 'film'"),
-        (("slide_roll",), lambda v: v == 0 or _positive(v), "must be finite and >= 0 [1]"),
-        (("particle_friction",), lambda v: v is None or _positive(v), "must be > 0, or None"),
-    ]
-    for names, holds, rule in checks:
-        problems += [
-            Problem(name, rule, repr(whole[name]), code=Mistake.RANGE)
-            for name in names
-            if name in conditions and not holds(whole[name])
-        ]
-    if problems:
-        raise InvalidValue(*problems)
-    return whole
