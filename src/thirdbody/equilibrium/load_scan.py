@@ -181,7 +181,7 @@ class LoadScan:
     # ------------------------------------------------------------------ roots
     def polish(
         self, target: Array, cells: Index, *, falling: bool = True
-    ) -> tuple[Array, Array, dict[int, str]]:
+    ) -> tuple[Array, Index, dict[int, str]]:
         """Roots inside their cells, to rounding; evaluations; and where the load jumps, how.
 
         At a jump the separation is the next one that carries the load and more.
@@ -233,13 +233,13 @@ class LoadScan:
         }
         return np.where(closer, less, carries), jumps
 
-    def solve(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
+    def solve(self, target: Array, branch: str) -> tuple[Array, Index, Statuses]:
         """Separation, number of evaluations and status of every load."""
         d, iterations, status = self.solve_across_jumps(target, branch)
         d[~status.solved] = np.nan
         return d, iterations, status
 
-    def solve_across_jumps(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
+    def solve_across_jumps(self, target: Array, branch: str) -> tuple[Array, Index, Statuses]:
         """Separations as of `solve`; at a jump over a load, the separation of the jump."""
         d = np.full(len(target), np.nan)
         iterations = np.zeros(len(target), dtype=int)

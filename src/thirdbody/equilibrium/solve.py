@@ -9,7 +9,7 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,6 +39,34 @@ Index = NDArray[np.intp]
 
 LoadBranch = Literal["loading", "unloading"]
 """Where several separations carry a load: that of loading, or of unloading."""
+
+
+class _Loads(NamedTuple):
+    """What the states of one call are asked for."""
+
+    target: Array | None
+    """Pressures (N,) [Pa]; None where separations are given."""
+    F_star: Array | None
+    """As they are given (N,) [1]; None where something else is."""
+    scalar: bool
+    """Whether it was one number; so are then the columns."""
+    branch: str = ""
+    """That of the states; without it they are on all of them."""
+    told: bool = True
+    """Whether they come with the notes on the model's validity."""
+
+
+class _Separations(NamedTuple):
+    """Where the loads of one call are carried, (N,)."""
+
+    d: Array
+    """[m]; NaN where none carries the load."""
+    iterations: Index
+    status: Statuses
+    raw: dict[str, Array] | None = None
+    """Columns of those that are finite; None where they are not evaluated yet."""
+    path: str = "numpy"
+    """The engine, and why it was this one."""
 
 
 def given_load(
@@ -225,36 +253,24 @@ def _result(
 ) -> Equilibrium:
     """States at the given pressures [Pa] or separations [m], as `given_load` gives them."""
     bound = interface(contact)
-    raw, path = None, "compiled"
-    target = None if name == "d" else values
-    if target is None:
+    loads = _Loads(None if name == "d" else values, F_star, scalar, branch, told)
+    if loads.target is None:
         deep = values < bound.asperities.deepest
         if scalar and deep.any():
             rule = f"is refused: {why_deep(contact)}"
             raise InvalidValue(Problem("d", rule, f"{values[0]:g} m", code=Mistake.RANGE))
-        separation = np.where(deep, np.nan, values)
-        status = Statuses.from_codes(np.where(deep, Status.TOO_DEEP, Status.OK))
-        iterations, path = np.where(deep, 0, 1), "numpy: the separations are given"
+        places = _Separations(
+            np.where(deep, np.nan, values),
+            np.where(deep, 0, 1),
+            Statuses.from_codes(np.where(deep, Status.TOO_DEEP, Status.OK)),
+            path="numpy: the separations are given",
+        )
     else:
         try:
-            separation, iterations, status, raw = _compiled(bound, target)
+            places = _compiled(bound, values)
         except NotCompiled as why:
-            path = f"numpy: {why}"
-            separation, iterations, status = load_scan(bound).solve(target, branch)
-    return _state(
-        contact,
-        bound,
-        separation,
-        status,
-        iterations,
-        target,
-        scalar,
-        F_star,
-        raw=raw,
-        path=path,
-        branch=branch,
-        told=told,
-    )
+            places = _Separations(*load_scan(bound).solve(values, branch), path=f"numpy: {why}")
+    return _state(contact, bound, loads, places)
 
 
 def deepest(contact: Contact) -> float:
@@ -338,9 +354,9 @@ def roots(
     if not found:
         raise NoEquilibrium(passed[0], Status.JUMP)
     found.sort(key=lambda item: -item[0])
-    ok = Statuses.ok(1)
+    one, ok = _Loads(values[:1], None, True), Statuses.ok(1)
     return [
-        (_state(contact, bound, np.array([x]), ok, np.array([n]), values[:1], True), stable)
+        (_state(contact, bound, one, _Separations(np.array([x]), np.array([n]), ok)), stable)
         for x, n, stable in found
     ]
 
@@ -394,7 +410,7 @@ def pull_off(contact: Contact) -> tuple[float, float]:
     return -float(found.fun), float(found.x)
 
 
-def _compiled(bound: Interface, target: Array) -> tuple[Array, Index, Statuses, dict[str, Array]]:
+def _compiled(bound: Interface, target: Array) -> _Separations:
     """Separations, evaluations, status and columns by the compiled engine, where it pays."""
     if len(target) < engine.FEWEST:
         raise NotCompiled(f"fewer than {engine.FEWEST} loads of one contact")
@@ -407,34 +423,21 @@ def _compiled(bound: Interface, target: Array) -> tuple[Array, Index, Statuses, 
     residual = np.abs((columns["F_ss"] + columns["F_sa"]) / target - 1)
     rest = np.flatnonzero((fate != 0) | ~(residual <= RESIDUAL))
     if not len(rest):
-        return d, iterations, status, columns
+        return _Separations(d, iterations, status, columns, "compiled")
     # the other engine says why, or what the load does there
     d[rest], iterations[rest], other = load_scan(bound).solve(target[rest], "loading")
     status.take(other, rest)
     solved = np.isfinite(d)
     for name, values in bound.fields(d[more := rest[solved[rest]]]).items():
         columns[name][more] = values
-    return d, iterations, status, {name: values[solved] for name, values in columns.items()}
+    raw = {name: values[solved] for name, values in columns.items()}
+    return _Separations(d, iterations, status, raw, "compiled")
 
 
-def _state(
-    contact: Contact,
-    bound: Interface,
-    d: Array,
-    status: Statuses,
-    iterations: Array,
-    target: Array | None,
-    scalar: bool,
-    F_star: Array | None = None,
-    raw: dict[str, Array] | None = None,
-    path: str = "numpy",
-    branch: str = "",
-    told: bool = True,
-) -> Equilibrium:
-    """Every column at given separations, where ``raw`` does not bring them."""
-    if raw is None:
-        raw = bound.fields(d[np.isfinite(d)])
-    d, status, raw = _only_carried(bound, d, status, target, raw)
+def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separations) -> Equilibrium:
+    """Every column at these separations."""
+    target, scalar = loads.target, loads.scalar
+    d, status, raw = _only_carried(bound, target, places)
     solved = np.isfinite(d)
     full = dict(raw)
     if not solved.all():
@@ -443,10 +446,10 @@ def _state(
             full[name][solved] = values
     rough = contact.roughness
     columns = as_columns(
-        full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=F_star
+        full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=loads.F_star
     )
     codes: Any = status.codes
-    columns |= {"status": status.words.astype(str), "iterations": iterations}
+    columns |= {"status": status.words.astype(str), "iterations": places.iterations}
     parts: list[dict[str, Array]] = [{} for _ in contact.populations]
     outputs, more = ({}, [])  # type: tuple[dict[str, Any], list[str]]
     if contact.outputs:
@@ -463,27 +466,30 @@ def _state(
         codes = int(codes[0])
         outputs = {name: values[0].item() for name, values in outputs.items()}
     notes: tuple[str, ...] = ()
-    if told:
-        notes = (*_warnings(contact, bound, full, d), *_branches(bound, target, d, branch), *more)
+    if loads.told:
+        branches = _branches(bound, target, d, loads.branch)
+        notes = (*_warnings(contact, bound, full, d), *branches, *more)
     return Equilibrium(
         contact=contact,
         warnings=notes,
         populations=shares,
         outputs=outputs,
-        engine=path,
+        engine=places.path,
         status_code=codes,
         **columns,
     )
 
 
 def _only_carried(
-    bound: Interface, d: Array, status: Statuses, target: Array | None, raw: dict[str, Array]
+    bound: Interface, target: Array | None, places: _Separations
 ) -> tuple[Array, Statuses, dict[str, Array]]:
     """Columns with NaN where the load is not carried: no state is "ok" without a balance.
 
     One whose contacts would have grown together keeps its numbers, and is not "ok".
     """
+    d, status = places.d, places.status
     where = np.flatnonzero(np.isfinite(d))
+    raw = bound.fields(d[where]) if places.raw is None else places.raw
     F, at = raw["F_ss"] + raw["F_sa"], d[where]
     known = np.isfinite(F + raw["A_t"])
     good, close = known.copy(), crowded(bound.contact, raw["A_t"])

@@ -27,7 +27,7 @@ def halley_root(
     falling: bool = True,
     xtol: float = 1e-15,
     max_iterations: int = 80,
-) -> tuple[Array, Array, Array]:
+) -> tuple[Array, Array, NDArray[np.intp]]:
     """Roots of many scalar functions at once by Halley's method inside a bracket.
 
     Parameters
