@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..quantities.tables import Table
+from ..quantities.tables import Table, WordTable
 from ..version import __version__
 from .show import ALL, MOST_ROWS, some, some_times, terminal
 from .streams import (
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 __all__ = ["give_answer", "read_question"]
 
 Asked = TypeVar("Asked")
-More = tuple[str, Sequence[str], Sequence[Sequence[str]], Mapping[str, str]]
-"""A table: the sentence above it, heads, rows, and what the heads mean."""
 
 
 def read_question(
@@ -61,11 +59,9 @@ def give_answer(
     files: TableFiles,
     *,
     answer: Sequence[str],
-    heads: Sequence[str],
-    rows: Sequence[Sequence[str]],
-    means: Mapping[str, str],
+    table: WordTable,
     last: Sequence[str],
-    more: Sequence[More] = (),
+    more: Sequence[WordTable] = (),
     times: Sequence[float] | None = None,
     draw: Callable[[], Figure] | None = None,
     figure: Path | None = None,
@@ -73,7 +69,7 @@ def give_answer(
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end.
 
-    ``more`` are tables that follow the first one, each with the sentence above it. With the times
+    ``more`` are tables that follow the first one. With the times
     of its rows, the first table shows more of the beginning. What ``draw`` makes goes into the
     workbook, and into the file ``figure`` where there is one. The heading tells the keys that
     ``settings`` set over the file.
@@ -83,7 +79,7 @@ def give_answer(
     title = heading_of(found.title, map(setting_in_words, settings or ()))
     files.write(
         *found.table(),
-        sheets=partial(_sheets, found, title, answer, (heads, rows), last, more, draw),
+        sheets=partial(_sheets, found, title, answer, table, last, more, draw),
         data=found.to_dict,
     )
     tell_written(*files.paths)
@@ -94,17 +90,19 @@ def give_answer(
         console.print(f"{title} (thirdbody {__version__})\n")
         for sentence in answer:
             console.print(sentence)
-        table = Table(heads, right=True, more=ALL, legend=means)
-        shown = some(len(rows)) if times is None else some_times(times)
+        first = Table(table.heads, right=True, more=ALL, legend=table.means)
+        count = len(table.rows)
+        shown = some(count) if times is None else some_times(times)
         for i in shown:
-            table.add_row(*rows[i])
-        console.print(table)
-        if len(rows) > MOST_ROWS:
-            console.print(f"{len(shown)} of {len(rows)} rows shown; --csv FILE writes all")
-        for sentence, own_heads, own_rows, own_means in more:
-            console.print(sentence)
-            another = Table(own_heads, words=own_heads[:1], right=True, more=ALL, legend=own_means)
-            for row in own_rows:
+            first.add_row(*table.rows[i])
+        console.print(first)
+        if count > MOST_ROWS:
+            console.print(f"{len(shown)} of {count} rows shown; --csv FILE writes all")
+        for each in more:
+            console.print(each.above)
+            words = each.heads[:1]
+            another = Table(each.heads, words=words, right=True, more=ALL, legend=each.means)
+            for row in each.rows:
                 another.add_row(*row)
             console.print(another)
         for sentence in last:
@@ -119,9 +117,9 @@ def _sheets(
     found: Any,
     title: str,
     answer: Sequence[str],
-    table: tuple[Sequence[str], Sequence[Sequence[str]]],
+    table: WordTable,
     last: Sequence[str],
-    more: Sequence[More],
+    more: Sequence[WordTable],
     draw: Callable[[], Figure] | None,
 ) -> list[Sheet]:
     from ..views.figure_files import png_of
@@ -130,12 +128,12 @@ def _sheets(
 
     given = found.asked.described
     below: list[str | Grid | bytes] = []
-    for sentence, heads, rows, _ in more:
-        below += [sentence, grid_of_words(heads, rows)]
+    for each in more:
+        below += [each.above, grid_of_words(each.heads, each.rows)]
     return question_sheets(
         title,
         answer,
-        table,
+        (table.heads, table.rows),
         [*below, *last, *([] if draw is None else [png_of(draw())])],
         states=found.table(),
         meanings=found.meanings,

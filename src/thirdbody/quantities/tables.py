@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from .say import join_words
 
-__all__ = ["WIDER", "Table"]
+__all__ = ["WIDER", "Table", "WordTable"]
 
 WIDER = "a wider window shows more"
 COMFORT = 12
 """Characters that a column of words keeps, be its words shorter."""
+
+
+class WordTable(NamedTuple):
+    """A table as it is read, wherever it is shown: on a screen, in a workbook, on a page."""
+
+    heads: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    means: Mapping[str, str]
+    """What heads mean, of those that do not say it."""
+    above: str = ""
+    """The sentence that it follows."""
 
 
 class Table:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..quantities.say import join_words, number, value_of
+from ..quantities.tables import WordTable
 from .life_amounts import duration_of
 
 if TYPE_CHECKING:
@@ -92,10 +92,8 @@ def _count(value: float) -> str:
     return number(float(np.format_float_scientific(value, 1)), 6 if 1 <= value < 1e6 else 2)
 
 
-def tables_of_dents(
-    found: LifeDents | None,
-) -> list[tuple[str, Sequence[str], list[list[str]], Mapping[str, str]]]:
-    """The table with its heading; none where nothing is dented."""
+def tables_of_dents(found: LifeDents | None) -> list[WordTable]:
+    """The table below its heading; none where nothing is dented."""
     if found is None or not found.oils:
         return []
-    return [(_heading(found), HEADS, _rows(found), MEANS)]
+    return [WordTable(HEADS, _rows(found), MEANS, _heading(found))]

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...errors import InvalidValue, Mistake
+from ...quantities.tables import WordTable
 from ..options import AsJson, Force, KeepFile, Settings, argument, option, read_study
 from ..show import terminal
 from ..streams import STDOUT, TableFiles, print_json, tell_written, warn
@@ -87,8 +88,6 @@ def _assess_life(options: Options) -> None:
         files,
         settings=options.settings,
         answer=words.answer(found),
-        heads=words.HEADS,
-        rows=words.rows(found),
-        means=words.MEANS,
+        table=WordTable(words.HEADS, words.rows(found), words.MEANS),
         last=words.last_words(found),
     )

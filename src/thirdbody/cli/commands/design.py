@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ...errors import InvalidValue, Mistake
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, join_words, number, percent, value_of
-from ...quantities.tables import Table
+from ...quantities.tables import Table, WordTable
 from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, argument, option, read_study
 from ..show import MOST_ROWS, some, terminal
 from ..streams import STDOUT, TableFiles, figure_format, tell_written, warn_of, write_figure
@@ -102,9 +102,7 @@ def _choose_for_oil(options: Options) -> None:
         files,
         settings=options.settings,
         answer=words.answer(found),
-        heads=words.heads(found),
-        rows=words.rows(found),
-        means=words.MEANS,
+        table=WordTable(words.heads(found), words.rows(found), words.MEANS),
         last=words.last_words(found),
     )
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...quantities.progress import heartbeat
+from ...quantities.tables import WordTable
 from ..answers import give_answer, read_question
 from ..interrupt import resumable
 from ..options import (
@@ -140,9 +141,7 @@ def _tell_history(options: Options) -> None:
         files,
         settings=options.settings,
         answer=[*words.answer(found), *sized],
-        heads=words.HEADS,
-        rows=words.rows(found),
-        means=words.MEANS,
+        table=WordTable(words.HEADS, words.rows(found), words.MEANS),
         last=words.last_words(found),
         times=found.history.times.tolist(),
         more=tables_of_dents(found.dents) if isinstance(found, LifeResult) else (),
@@ -184,8 +183,6 @@ def _tell_reports(options: Options, reports: Path) -> None:
         files,
         settings=options.settings,
         answer=report_answer(found.reports),
-        heads=REPORT_HEADS,
-        rows=report_rows(found.reports),
-        means=REPORT_MEANS,
+        table=WordTable(REPORT_HEADS, report_rows(found.reports), REPORT_MEANS),
         last=[],
     )

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...quantities.progress import heartbeat
+from ...quantities.tables import WordTable
 from ..answers import give_answer, read_question
 from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile
 from ..streams import TableFiles, warn_of
@@ -66,9 +67,7 @@ def command(
         files,
         settings=settings,
         answer=answer(found),
-        heads=heads(found),
-        rows=rows(found),
-        means=MEANS,
+        table=WordTable(heads(found), rows(found), MEANS),
         last=uncertainty(found),
         draw=partial(_draw, found),
         figure=figure,

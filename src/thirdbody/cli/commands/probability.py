@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...quantities.progress import heartbeat
+from ...quantities.tables import WordTable
 from ..answers import give_answer, read_question
 from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile
 from ..streams import TableFiles, warn_of
@@ -61,9 +62,7 @@ def command(
         files,
         settings=settings,
         answer=answer(found),
-        heads=HEADS,
-        rows=rows(found),
-        means=MEANS,
+        table=WordTable(HEADS, rows(found), MEANS),
         last=uncertainty(found),
         draw=partial(_draw, found),
         figure=figure,

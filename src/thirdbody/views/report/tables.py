@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection
 from html import escape
 from typing import Any
 
@@ -18,6 +18,7 @@ from ...equilibrium.words import (
     is_rare,
 )
 from ...quantities.say import NOT_KNOWN, percent, plural, unit_of, value_of
+from ...quantities.tables import WordTable
 from ..explicit_words import comparison_table, headline
 from ..html import figure, section, svg_of, symbols, table, text_table, words
 from .found import Found, some_of
@@ -36,15 +37,11 @@ SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
 """Columns of the table of states, and those that particles add."""
 
 
-def _with_legend(
-    heads: Sequence[str],
-    rows: list[list[str]],
-    means: Mapping[str, str],
-    reads: Collection[str] = (),
-) -> list[str]:
+def _with_legend(shown: WordTable, reads: Collection[str] = ()) -> list[str]:
     """A table with the meaning of its heads below (HTML); columns ``reads`` are of words."""
-    told = "; ".join(f"{head}: {means[head]}" for head in heads if head in means)
-    return [text_table(heads, rows, reads), f"<p class=soft>{words(told)}.</p>"]
+    means = shown.means
+    told = "; ".join(f"{head}: {means[head]}" for head in shown.heads if head in means)
+    return [text_table(shown.heads, shown.rows, reads), f"<p class=soft>{words(told)}.</p>"]
 
 
 def states_table(report: Found) -> list[str]:
@@ -132,12 +129,11 @@ def question_sections(report: Found) -> list[str]:
     out = []
     if (plug := report.connector) is not None:
         rows, means = connector_words.rows(plug), connector_words.MEANS
-        table_of = _with_legend(connector_words.HEADS, rows, means)
+        table_of = _with_legend(WordTable(connector_words.HEADS, rows, means))
         out.append(section("How often dust keeps it open", table_of, name="connector"))
     if (plate := report.plate) is not None:
-        table_of = _with_legend(
-            plate_words.heads(plate), plate_words.rows(plate), plate_words.MEANS
-        )
+        heads, rows = plate_words.heads(plate), plate_words.rows(plate)
+        table_of = _with_legend(WordTable(heads, rows, plate_words.MEANS))
         out.append(section("How high the plate stands", table_of, name="plate"))
     return out
 
@@ -151,12 +147,13 @@ def oil_section(report: Found) -> list[str]:
         rows = oil_words.filter_rows(report.oil, report.oil_filtered)
         out.append(text_table(("", "before", "after the filter"), rows))
     elif report.oil is not None:
-        out += _with_legend(oil_words.HEADS, oil_words.rows(report.oil), oil_words.MEANS)
+        rows = oil_words.rows(report.oil)
+        out += _with_legend(WordTable(oil_words.HEADS, rows, oil_words.MEANS))
     if report.oil_what_ifs:
         rows = oil_words.what_if_rows(report.oil_what_ifs)
         out.append(f"<h3>{escape(oil_words.HANGS_ON)}</h3>")
         heads = oil_words.WHAT_IF_HEADS
-        out += _with_legend(heads, rows, oil_words.WHAT_IF_MEANS, heads[1:2])
+        out += _with_legend(WordTable(heads, rows, oil_words.WHAT_IF_MEANS), heads[1:2])
     return [section("What the oil carries", out, name="oil")] if out else []
 
 
@@ -168,7 +165,7 @@ def bearing_section(report: Found) -> list[str]:
     if not bearing_words.shares_load(study):
         return []
     rows = bearing_words.rows(study)
-    table_of = _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
+    table_of = _with_legend(WordTable(bearing_words.HEADS, rows, bearing_words.MEANS))
     lead = f"<p>{words(bearing_words.sharing(study))}</p>"
     where = (
         '<p class=soft>Its dimensions and its load are <a href="#inputs">with the inputs</a>.</p>'
@@ -195,11 +192,11 @@ def life_section(report: Found) -> list[str]:
     caption = f"{shown} over time, masses since the beginning, and where the dirt went."
     out = [
         *(f"<p>{words(sentence)}</p>" for sentence in said),
-        *_with_legend(told.HEADS, rows, told.MEANS),
+        *_with_legend(WordTable(told.HEADS, rows, told.MEANS)),
     ]
     by_oil = None if isinstance(found, DryResult) else found.dents
-    for sentence, heads, dents, means in tables_of_dents(by_oil):
-        out += [f"<p>{words(sentence)}</p>", *_with_legend(heads, dents, means)]
+    for each in tables_of_dents(by_oil):
+        out += [f"<p>{words(each.above)}</p>", *_with_legend(each)]
     out.append(f"<div class=figures>{figure(svg_of(life(found.history)), caption)}</div>")
     return [section(f"The {of} over time", out, name="life")]
 
