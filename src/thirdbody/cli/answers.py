@@ -69,10 +69,9 @@ def give_answer(
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end.
 
-    ``more`` are tables that follow the first one. With the times
-    of its rows, the first table shows more of the beginning. What ``draw`` makes goes into the
-    workbook, and into the file ``figure`` where there is one. The heading tells the keys that
-    ``settings`` set over the file.
+    ``more`` are tables that follow the first one. With the times of its rows, the first table shows
+    more of the beginning. What ``draw`` makes goes into the workbook, and into the file ``figure``
+    where there is one. The heading tells the keys that ``settings`` set over the file.
     """
     from ..study.toml import heading_of, setting_in_words
 

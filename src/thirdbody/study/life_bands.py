@@ -207,6 +207,26 @@ def _check(
         raise InvalidValue(*problems)
 
 
+class _Drawing(NamedTuple):
+    """Sets of inputs: those drawn, and each input alone at its ends."""
+
+    vary: Mapping[str, Uncertain]
+    samples: int
+    seed: int
+    probabilities: tuple[float, ...]
+    """Of the quantiles [1]; the outer two are the ends."""
+
+    def sets(self) -> list[dict[str, float]]:
+        """The numbers of each set: first those drawn."""
+        names, ends = list(self.vary), (min(self.probabilities), max(self.probabilities))
+        points = sobol(self.samples, len(names), self.seed, 0, self.samples)
+        sets = [
+            {n: float(self.vary[n].quantile(float(u))) for n, u in zip(names, point, strict=True)}
+            for point in points
+        ]
+        return sets + [{name: float(self.vary[name].quantile(p))} for name in names for p in ends]
+
+
 def check_oil(
     circuit: OilCircuit,
     *,
@@ -235,7 +255,7 @@ def check_oil(
         return
     sets = [
         {name: value for name, value in each.items() if name in own}
-        for each in _sets(vary, count, seed, probabilities)
+        for each in _Drawing(vary, count, seed, tuple(probabilities)).sets()
     ]
     wrong: dict[str, tuple[int, Problem]] = {}
     for values in filter(None, sets):
@@ -465,8 +485,8 @@ def propagate_life(
         return _end_of(life(**given, oil=with_numbers(circuit, rest), **shared))
 
     return _bands(
-        end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
-        samples=count, swings_of=COUNT, progress=progress, keep=keep,
+        end, _Drawing(vary, count, seed, tuple(probabilities)), waits, duration=duration,
+        swings_of=COUNT, progress=progress, keep=keep,
         inputs={"oil": circuit.to_dict(), "contact": plain_inputs(contact or {})},
     )  # fmt: skip
 
@@ -556,42 +576,28 @@ def propagate_dry(
         shared: dict[str, Any] = {"duration": duration, "until": waits, "times": [0.0, duration]}
         return _end_of(life(changed, **given, **shared))
 
+    count = samples or SAMPLES_OF_CONTACT
     return _bands(
-        end, vary, waits, duration=duration, seed=seed, probabilities=tuple(probabilities),
-        samples=samples or SAMPLES_OF_CONTACT, swings_of=WEAR, progress=progress, keep=keep,
+        end, _Drawing(vary, count, seed, tuple(probabilities)), waits, duration=duration,
+        swings_of=WEAR, progress=progress, keep=keep,
         inputs={"contact": contact.to_dict(), "conditions": plain_inputs(conditions)},
     )  # fmt: skip
 
 
-def _sets(
-    vary: Mapping[str, Uncertain], samples: int, seed: int, probabilities: Sequence[float]
-) -> list[dict[str, float]]:
-    """All sets of inputs: those drawn, and each input alone at its ends."""
-    names, ends = list(vary), (min(probabilities), max(probabilities))
-    points = sobol(samples, len(names), seed, 0, samples)
-    sets = [
-        {name: float(vary[name].quantile(float(u))) for name, u in zip(names, point, strict=True)}
-        for point in points
-    ]
-    return sets + [{name: float(vary[name].quantile(p))} for name in names for p in ends]
-
-
 def _bands(
     end: Callable[[Mapping[str, float]], End],
-    vary: Mapping[str, Uncertain],
+    drawing: _Drawing,
     waits: Sequence[Until],
     *,
     duration: float,
-    samples: int,
-    seed: int,
-    probabilities: tuple[float, ...],
     swings_of: str,
     progress: bool | Report,
     keep: Path | str | None,
     inputs: Mapping[str, object],
 ) -> LifeBands:
     """Ends of all sets of inputs, and of each input alone at its ends."""
-    names, sets = list(vary), _sets(vary, samples, seed, probabilities)
+    vary, samples, seed, probabilities = drawing
+    sets = drawing.sets()
     asked = dict(inputs) | {
         "vary": {name: repr(each) for name, each in vary.items()},
         "until": [each.to_dict() for each in waits],
@@ -611,7 +617,7 @@ def _bands(
             report(i + 1)
     drawn = ends[:samples]
     swung = [_measured(each, swings_of) for each in ends[samples:]]
-    swings = [Swing(name, *swung[2 * i : 2 * i + 2]) for i, name in enumerate(names)]
+    swings = [Swing(name, *swung[2 * i : 2 * i + 2]) for i, name in enumerate(vary)]
     counts = np.quantile(
         np.array([each.counts for each in drawn]).reshape(samples, -1), probabilities, axis=0,
         method="hazen",

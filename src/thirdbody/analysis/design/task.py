@@ -30,12 +30,12 @@ CASES = 32
 
 
 def _load_cases(
-    contact: Contact, F_star: Any, pressure: Any, weights: ArrayLike | None
+    contact: Contact, asked: Mapping[str, Any], weights: ArrayLike | None
 ) -> tuple[str, Array, Array]:
     """Name of the load, its values, and their weights."""
     cases = {
         name: np.geomspace(v.low, v.high, CASES) if isinstance(v, Span) else v
-        for name, v in (("F_star", F_star), ("pressure", pressure))
+        for name, v in asked.items()
     }
     load, _, _ = given_load(contact, cases["pressure"], cases["F_star"], None)
     loads = np.atleast_1d(np.asarray(cases[load], float))
@@ -53,8 +53,7 @@ def design_task(
     vary: Mapping[str, object],
     objectives: list[Objective],
     limits: list[Limit],
-    F_star: object,
-    pressure: object,
+    loads: Mapping[str, object],
     weights: ArrayLike | None,
     scatter: Mapping[str, object] | None,
     samples: int,
@@ -63,9 +62,9 @@ def design_task(
 ) -> Task:
     """Task of `design`; all mistakes in it are raised together."""
     problems: list[str] = []
-    load, loads, share = "F_star", np.ones(1), np.ones(1)
+    load, cases, share = "F_star", np.ones(1), np.ones(1)
     try:
-        load, loads, share = _load_cases(contact, F_star, pressure, weights)
+        load, cases, share = _load_cases(contact, loads, weights)
     except InvalidValue as error:
         problems += error.problems
     variables, materials, wrong = _choices(contact, vary)
@@ -75,7 +74,7 @@ def design_task(
     drawn = None
     if scatter and not problems:
         try:
-            moved = drawn_inputs(contact, scatter, load, loads, "scatter[{!r}]")
+            moved = drawn_inputs(contact, scatter, load, cases, "scatter[{!r}]")
             drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
         except InvalidValue as error:
             problems += error.problems
@@ -88,7 +87,7 @@ def design_task(
         objectives=objectives,
         limits=limits,
         load=load,
-        loads=loads,
+        loads=cases,
         weights=share,
         scatter=drawn,
         suspension=suspension,
