@@ -10,7 +10,7 @@ pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent / "src" / "thirdbody"
 MOST = {
     "__init__": 1,
-    "analysis": 78,
+    "analysis": 77,
     "app": 23,
     "cli": 20,
     "contact": 19,
@@ -24,7 +24,7 @@ MOST = {
     "populations": 35,
     "quantities": 51,
     "study": 134,
-    "systems": 66,
+    "systems": 65,
     "views": 24,
 }
 """How often `Any` stands in annotations, by room or module; these numbers only fall."""

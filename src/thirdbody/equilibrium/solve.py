@@ -448,7 +448,7 @@ def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separatio
     columns = as_columns(
         full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=loads.F_star
     )
-    codes: Any = status.codes
+    codes: int | NDArray[np.int8] = status.codes
     columns |= {"status": status.words.astype(str), "iterations": places.iterations}
     parts: list[dict[str, Array]] = [{} for _ in contact.populations]
     outputs, more = ({}, [])  # type: tuple[dict[str, Any], list[str]]
@@ -463,7 +463,7 @@ def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separatio
     shares = _population_shares(contact, bound, d, columns, scalar, parts)
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
-        codes = int(codes[0])
+        codes = int(status.codes[0])
         outputs = {name: values[0].item() for name, values in outputs.items()}
     notes: tuple[str, ...] = ()
     if loads.told:
