@@ -167,7 +167,7 @@ def errors(got, want, sigma):
 def test_states_hold_to_tables_of_each(name, seed):
     several = name in SEVERAL
     case, more = SEVERAL[name] if several else CASES[name]
-    vary, loads = drawn(more, 12 if several else 40, seed, ROUGH if several else USUAL)
+    vary, loads = drawn(more, 6 if several else 20, seed, ROUGH if several else USUAL)
     got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
     known = got["doubt"] == ""
     assert known.mean() > (0.5 if several else 0.7)

@@ -516,7 +516,7 @@ def test_a_pair_of_folds_within_twenty_kelvin():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_folds_of_contacts_at_random_by_a_dense_scan(seed):
     """Every turn of the speed over the temperature is a fold of the branch, and no other is.
 

@@ -98,7 +98,7 @@ def _conversion() -> tuple[np.ndarray, np.ndarray]:
 
 
 CONVERT, LEAVES = _conversion()
-SETTLED, THINNEST = 1e-10, 1e-6
+SETTLED, THINNEST = 2e-11, 1e-6
 """Last terms of a series over its largest value, at most; width of a cell over the largest size
 below which it is not halved."""
 CLOSEST, TRIES = 1e-13, 12

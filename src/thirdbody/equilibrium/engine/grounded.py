@@ -67,14 +67,14 @@ if TYPE_CHECKING:
 
 __all__ = ["SPLINES", "solve_grounded"]
 
-BESIDE = 22
-"""Rows beside a cell that decide what the spline is there: others change it by 1e-5 of what cells
-of the table leave out."""
+BESIDE, NEAREST = 30, 22
+"""Rows beside a cell that decide what the spline is there: others change it by 1e-11 of what they
+are themselves. And so many at least, 1e-8, where asperities leave their table below."""
 MOST_ROWS = 16_384
 NEGLIGIBLE, LONG, CLOSE, ABOVE = 1e-8, 128, 0.1, 48
 """Part of the load from where on rows are solved; where that is more than so many rows up, part of
 it from which on, and rows above these."""
-LOOSE, SURE, LOOSEST = 1e-5, 3e-12, 1e-6
+LOOSE, SURE, LOOSEST = 1e-5, 1e-13, 1e-9
 """Accuracy of u [σ] coming down, of rows beside the
 root, and of any that the spline needs."""
 AFTERWARDS = 30.0
@@ -90,8 +90,9 @@ SAFE, FADES = 20.0, 0.43
 FEWER, PART = 3, 1.0
 """So many rows less on either side say how much the others leave out: this part of the difference,
 at most, where each row fades to 0.43 (0.43³ is 0.08)."""
-SETTLED = 2e-10
-"""What the ground of tables is iterated to."""
+SETTLED = 4e-11
+"""What the ground of tables, which is iterated to 1e-12, may be off: some ten times that where
+particles press down each other's."""
 DONE, GUESSED, NONE = 2, 1, 0
 """Of a row: solved, guessed roughly, or neither."""
 
@@ -452,13 +453,18 @@ def _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out
 
 
 @scalar
+def _leaves_table(own, lifts, i):
+    """Whether asperities on the lifted ground of row i are beyond their table."""
+    return lifts[i] < 0 and i * own[STEP] + lifts[i] <= 1e-9
+
+
+@scalar
 def _error_of(field, k, low, high, rows):
     """What the rows of a window miss in cell k; infinite where asperities leave their table."""
     apart()
     own, lifts, misses, error = field[0], rows[1], rows[3], 0.0
     for i in range(low, high + 1):
-        at = own[LOWEST] + i * own[STEP]
-        if lifts[i] < 0 and at + lifts[i] <= own[LOWEST] + 1e-9:
+        if _leaves_table(own, lifts, i):
             return math.inf
         error += SAFE * misses[i] * FADES ** max(k - i, i - k - 1)
     return error
@@ -501,6 +507,9 @@ def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, last
         if n < 0:
             break
         rounds += n
+        for i in range(low, k - NEAREST):
+            if _leaves_table(own, rows[1], i):
+                low = i + 1
         for s in range(len(seats)):
             lasts[s] = low - 1
             while lasts[s] < high and columns[lasts[s] + 1, s, 0] > TINIEST * own[SIGMA] ** 2:
