@@ -364,11 +364,11 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
 
     solver = Solver()
     solver.starts += [(10.0, 12.0), (11.0, 14.0), (1.0, 2.0)]
-    assert solver.prepared(0.0) == 0.0  # nobody waited for any of them
+    assert solver.starting_seconds(0.0) == 0.0  # nobody waited for any of them
 
     def prepared(since, *waits):
         note_waits(deque(waits))
-        return solver.prepared(since)
+        return solver.starting_seconds(since)
 
     for since, told in ((11.5, 2.5), (0.0, 4.0), (20.0, 0.0)):
         here = copy_context()
@@ -381,7 +381,7 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
     solver.close()
 
     class Ready:
-        def prepared(self, since):
+        def starting_seconds(self, since):
             return 18.0
 
     monkeypatch.setattr(page, "solver", Ready)

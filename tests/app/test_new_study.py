@@ -18,7 +18,7 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.new_study import FILED, KINDS, OILS, answer_so_far, begun, oil_of, with_oil
-from thirdbody.app.sliders import shifted
+from thirdbody.app.sliders import shift_code
 from thirdbody.app.state import Answer, State
 from thirdbody.app.tabs import before_after, error_bars, film, mode_map
 from thirdbody.app.verdict import badge_of
@@ -90,7 +90,7 @@ def test_a_start_has_fewer_particles(name):
 
 
 def test_a_code_shifted_there_and_back_is_the_same():
-    assert shifted(shifted("18/16/13", 4), -4) == "18/16/13"
+    assert shift_code(shift_code("18/16/13", 4), -4) == "18/16/13"
 
 
 def test_a_badge_says_the_largest_effect():
@@ -112,9 +112,11 @@ def test_a_map_in_nm_and_MPa_is_that_of_its_states():
 
 def test_what_is_assumed_to_be_uncertain_is_ten_percent_of_what_stands_there(tmp_path):
     state = State(example(), tmp_path)
-    ranges = error_bars.assumed(state)
+    ranges = error_bars.assumed_ranges(state)
     assert ranges["roughness.sigma"] == {"low": "90 nm", "high": "110 nm"}
-    assert not error_bars.assumed(State(example() | {"uncertainty": {"inputs": ranges}}, tmp_path))
+    assert not error_bars.assumed_ranges(
+        State(example() | {"uncertainty": {"inputs": ranges}}, tmp_path)
+    )
     check(example() | {"uncertainty": {"inputs": ranges}})
 
 

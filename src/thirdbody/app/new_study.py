@@ -174,7 +174,9 @@ class NewStudy:
             self.rest = ui.column().classes("w-full gap-0")
             with ui.row().classes("w-full items-center justify-between gap-3 new-end"):
                 self.said = ui.label().classes("so-far").props('role=status data-fact="so far"')
-                self.go = ui.button("Open this study", icon="arrow_forward", on_click=self._opened)
+                self.go = ui.button(
+                    "Open this study", icon="arrow_forward", on_click=self._open_study
+                )
                 set_attributes(self.go.props("no-caps"), {"data-path": "new.open"})
         self.dialog.open()
         self.soon()
@@ -211,7 +213,7 @@ class NewStudy:
         if self.kind == "ball-bearing":
             size = ui.input("designation", value=self.which).classes("w-full")
             size.props('dense data-path="new.which" hint="6205, 6305-2RS/C3, or 25x52x15 mm"')
-            size.on("change", lambda: self._sized(str(size.value or ""), size))
+            size.on("change", lambda: self._set_size(str(size.value or ""), size))
         if self.draft.get("load", "force") is not None:
             inputs.field(("load",), number_field("force", FORCE))
         else:
@@ -240,7 +242,7 @@ class NewStudy:
 
     def _oil(self) -> None:
         inputs, word = self.inputs, oil_of(self.draft.study)
-        menu = inputs.select(None, OILS, word, "what is there", self._oiled)
+        menu = inputs.select(None, OILS, word, "what is there", self._set_oil)
         set_attributes(menu, {"data-path": "new.oil"})
         if word == "code":
             self._code()
@@ -303,7 +305,7 @@ class NewStudy:
         self._again()
         self.soon()
 
-    def _sized(self, which: str, entry: ui.input) -> None:
+    def _set_size(self, which: str, entry: ui.input) -> None:
         try:
             begun(self.kind, which)
         except InvalidValue as error:
@@ -315,7 +317,7 @@ class NewStudy:
         self._again()
         self.soon()
 
-    def _oiled(self, word: str) -> None:
+    def _set_oil(self, word: str) -> None:
         self.draft.replace(with_oil(self.draft.study, word))
         self._again()
 
@@ -338,7 +340,7 @@ class NewStudy:
         self.go.set_enabled(not draft.problems)
         self.said.set_text(with_micro(said))
 
-    def _opened(self) -> None:
+    def _open_study(self) -> None:
         self.dialog.close()
         self.state.open(self.draft.study)
         self.opened("film" if self.draft.get("film") is not None else "interface")

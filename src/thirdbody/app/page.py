@@ -133,7 +133,7 @@ def _plain_names(study: object) -> Any:
 
 def _took(seconds: float, since: float) -> str:
     """How long the answer took, and how long before it a process was being started."""
-    starting = solver().prepared(since)
+    starting = solver().starting_seconds(since)
     text = f"answered in {_time(max(seconds - starting, 0.0))}"
     if starting < LEAST:
         return text
@@ -154,11 +154,11 @@ def _time(seconds: float) -> str:
 def page(state: State, told: str, start: Start) -> None:
     """Put everything on the page of one visitor; what is computed follows."""
 
-    def closed() -> None:
+    def close_state() -> None:
         state.close()
         shutil.rmtree(state.folder, ignore_errors=True)
 
-    ui.context.client.on_delete(closed)
+    ui.context.client.on_delete(close_state)
     when_left(state.close)
     ui.add_css(LOOK)
     ui.add_body_html(RESIZE + FOLLOW)
@@ -201,7 +201,7 @@ class Page:
         self.new = NewStudy(state, self._begun)
         self.soon = Soon(self._refresh)
         state.changed.append(self.soon)
-        self.tabs.on_value_change(self._turned)
+        self.tabs.on_value_change(self._show_tab)
         ui.on(TRAVELLED, self._travelled)
         self.soon()
 
@@ -223,7 +223,9 @@ class Page:
             self.undo = ui.button(icon="undo", on_click=self._undone)
             self.undo.props('flat dense color=white aria-label="undo" data-path="undo"')
             self.names = ui.select(
-                list(EXAMPLES), label="open an example", on_change=lambda e: self._opened(e.value)
+                list(EXAMPLES),
+                label="open an example",
+                on_change=lambda e: self._open_example(e.value),
             )
             self.names.props('dense dark options-dense standout data-path="example"')
             self.names.classes("w-56 examples")
@@ -363,7 +365,7 @@ class Page:
             self.places[name].set_visibility(True)
 
     # ------------------------------------------------------------------ what happens
-    def _opened(self, name: str | None) -> None:
+    def _open_example(self, name: str | None) -> None:
         if name:
             self.names.set_value(None)
             self.state.open(example(name))
@@ -394,11 +396,11 @@ class Page:
         if (study, at, state.tab) == now and state.read is not None:
             return
         state.travel(study, at)
-        self.address.travelled()
+        self.address.follow_browser()
         self.tabs.set_value(state.tab)
         self.side.again()
 
-    def _turned(self) -> None:
+    def _show_tab(self) -> None:
         self.state.tab = str(self.tabs.value or TABS[0])
         self.verdict.turn()
         self.verdict.clock.set_text("")

@@ -14,7 +14,7 @@ from nicegui import background_tasks, ui
 from ..errors import InvalidValue
 from .jobs import MOST, RUNNING, Job, Stopped
 from .solver import apart, note_waits, solver
-from .state import State, measured
+from .state import State, surface_key
 from .text import as_shown
 from .widgets import set_attributes
 from .worker import in_little
@@ -118,14 +118,14 @@ class Work(Generic[Found]):
 
     async def update_preview(self, state: State) -> None:
         """Show a preview of the study as it is, then all of it; or say that it does not fit."""
-        if self._wanted(state) and not self.trying and not self._fits(self.tried):
+        if self._is_wanted(state) and not self.trying and not self._fits(self.tried):
             self.tried, self.trying = (self.key(),), True
             background_tasks.create(self._try(state))  # the page does not wait for it
         self._fit()
 
-    def _wanted(self, state: State) -> bool:
+    def _is_wanted(self, state: State) -> bool:
         """Whether another answer begins of itself."""
-        if self.little is None or state.problems or measured(state.study, state.folder):
+        if self.little is None or state.problems or surface_key(state.study, state.folder):
             return False
         return self.done is None or not (self.slow or self._fits(self.done))
 
@@ -135,7 +135,7 @@ class Work(Generic[Found]):
         began, asked_for = time.perf_counter(), self.tried
         try:
             shown = await self._by_itself(self.little)
-            self.slow = time.perf_counter() - began - solver().prepared(began) > SLOW
+            self.slow = time.perf_counter() - began - solver().starting_seconds(began) > SLOW
         finally:
             self.trying = False
         if self.said.client._deleted:

@@ -17,9 +17,9 @@ from ...views.film_words import point as film_point
 from ..examples import EXAMPLES, example
 from ..fields import engineering, number_of, text_of
 from ..figures import AXES, GREY, SCALES, Figure, figure, fix, line
-from ..sliders import CODES, shifted
+from ..sliders import CODES, shift_code
 from ..solver import apart
-from ..state import Answer, State, look, measured
+from ..state import Answer, State, look, surface_key
 from ..text import as_shown
 from ..widgets import Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
@@ -97,7 +97,7 @@ def cleaner(study: dict[str, object]) -> dict[str, object] | None:
             return None
         many = number_of(each.get("areal_density"), about)
         if CODES.fullmatch(str(each.get("iso4406"))):
-            new.append(each | {"iso4406": shifted(each["iso4406"], CLASSES)})
+            new.append(each | {"iso4406": shift_code(each["iso4406"], CLASSES)})
         elif many > 0:
             new.append(each | {"areal_density": engineering(FEWER * many, "1/m^2", 3)})
         else:
@@ -108,7 +108,7 @@ def cleaner(study: dict[str, object]) -> dict[str, object] | None:
 def beside(before: Answer, after: Answer, at: float) -> Beside:
     """Two answers under the operating load of the second; each under its own mean pressure where
     forces press."""
-    forced = before.forced or after.forced
+    forced = before.has_one_force or after.has_one_force
     same = before.load == after.load and not forced
     points = (before.solve(at if same else _load_before(before, after, at)), after.solve(at))
     told = [
@@ -126,7 +126,7 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
 
 def _load_before(before: Answer, after: Answer, at: float) -> float:
     """The load of the study before that is compared: its own, or the same load in its words."""
-    if before.forced or after.forced:
+    if before.has_one_force or after.has_one_force:
         return before.default_at()
     F_star = float(after.solve(at).F_star)
     loads = {"F_star": F_star, "pressure": F_star * before.contact.E_ss}
@@ -227,7 +227,7 @@ class BeforeAfter:
     def _options(self) -> list[str]:
         return [OPENED, *([KEPT] if self.state.kept is not None else []), *EXAMPLES]
 
-    def _before(self) -> dict[str, object]:
+    def _study_before(self) -> dict[str, object]:
         """The study that stands on the left."""
         name = str(self.which.value)
         if name == KEPT and self.state.kept is not None:
@@ -245,12 +245,12 @@ class BeforeAfter:
         self._chosen()
 
     def _back(self) -> None:
-        self.state.replace(self._before())
+        self.state.replace(self._study_before())
         self.again()
 
     async def draw(self) -> None:
         """Both studies as they are now."""
-        state, before = self.state, self._before()
+        state, before = self.state, self._study_before()
         answer = state.answer
         assert answer is not None
         self._show_changes(before)
@@ -281,7 +281,7 @@ class BeforeAfter:
     async def _answer(self, before: dict[str, object]) -> Answer | None:
         """The answer of the study before, None with a mistake."""
         if self.read is None or self.read[0] != before:
-            state, key = self.state, measured(before, self.state.folder)
+            state, key = self.state, surface_key(before, self.state.folder)
             surface = state.surfaces.get(key)
             found, problems, _ = await apart(look, before, state.folder, surface)
             self.wrong.set_text(as_shown("; ".join(problems)))

@@ -15,14 +15,14 @@ from ...quantities.say import percent, value_of
 from ..bounds import LARGEST_TABLE, MOST_NUMBERS
 from ..entries import about_of
 from ..fields import text_of
-from ..figures import Figure, figure, line, plain
+from ..figures import Figure, escape_tags, figure, line
 from ..inputs import Inputs
 from ..solver import apart
 from ..state import Answer, State
 from ..text import as_shown, without_paths
 from ..uploads import take
 from ..widgets import facts, plot_place, upload
-from ..worker import counted
+from ..worker import counter_bins
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
 
@@ -57,7 +57,7 @@ def size_figure(contact: tb.Contact) -> Figure:
             low, high = 0.9 * low, 1.1 * high
         x = np.geomspace(max(low, 1e-3 * high), high, 240)
         density = np.asarray(sizes.pdf(x)) * x
-        name = plain(dust.name or dust.material.name or f"population {number + 1}")
+        name = escape_tags(dust.name or dust.material.name or f"population {number + 1}")
         for k, (values, how) in enumerate(((density, "number"), (density * x**3, "volume"))):
             top = values.max() if np.isfinite(values).all() and values.max() > 0 else 1.0
             traces.append(line(1e6 * x, values / top, f"{name}, by {how}", 2 * number + k))
@@ -135,7 +135,7 @@ class Dust:
         self.chooser.reset()
         try:
             name = await take(self.state, event)
-            found = await apart(counted, str(self.state.folder / name))
+            found = await apart(counter_bins, str(self.state.folder / name))
         except InvalidValue as error:
             self.wrong.set_text(as_shown(without_paths("; ".join(error.problems))))
             return

@@ -217,7 +217,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         only.set_text(about_map(shown["mode"]))
         await plot.show(map_figure(shown, place))
 
-    def clicked(event: GenericEventArguments) -> None:
+    def go_to_point(event: GenericEventArguments) -> None:
         points = (event.args or {}).get("points") or []
         if not points or state.answer is None:
             return
@@ -227,7 +227,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         at = {"F_star": F_star, "pressure": F_star * contact.E_ss}.get(state.answer.load)
         state.replace(with_size(state.study, size), at=at)
 
-    plot.widget.on("plotly_click", clicked)
+    plot.widget.on("plotly_click", go_to_point)
     return draw_tab
 
 

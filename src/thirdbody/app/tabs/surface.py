@@ -142,15 +142,17 @@ class Surface:
                 self.plots[name] = plot_place(f"surface-{name}")
 
     # ------------------------------------------------------------------ what happens
-    def _written(self) -> dict[str, str]:
+    def _texts_written(self) -> dict[str, str]:
         return {name: str(w.value or "") for name, w in self.texts.items()}
 
     def _key(self) -> object:
-        return self.file, self._written()
+        return self.file, self._texts_written()
 
     def _reading(self) -> dict[str, str]:
         """The file and how it is read, for the address."""
-        return {"file": Path(self.file).name} | {k: v for k, v in self._written().items() if v}
+        return {"file": Path(self.file).name} | {
+            k: v for k, v in self._texts_written().items() if v
+        }
 
     def _choose_file(self, name: str) -> None:
         """Another file is the one to read."""
@@ -209,12 +211,12 @@ class Surface:
 
     def _ask(self) -> Asked | None:
         try:
-            options = options_from(self._written())
+            options = options_from(self._texts_written())
         except InvalidValue as error:
             self.work.said.set_text("; ".join(error.problems))
             return None
         self._hide()
-        self.asked = self._written()
+        self.asked = self._texts_written()
         self.state.surface = self.followed = self._reading()
         self.state.announce_change()
         return {"file": self.file, "options": options}
