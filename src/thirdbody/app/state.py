@@ -24,7 +24,7 @@ from ..equilibrium.load import as_load
 from ..errors import InvalidValue, Mistake, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
 from ..study.life_contact import BOUNDARY
-from ..study.load import pressed
+from ..study.load import press_forces
 from ..systems.bodies import Pressed
 from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
 from .folders import Shelf
@@ -117,7 +117,7 @@ class Answer:
         """What forces do to their bodies, integrated over the contact as `run_study` does it."""
         if self.study.body is None or self.study.forces is None:
             return []
-        return pressed(self.study.body, self.study.forces, self.contact)
+        return press_forces(self.study.body, self.study.forces, self.contact)
 
     @property
     def particles_held(self) -> float:

@@ -128,7 +128,7 @@ def _sheets(
     from ..views.printed_tables import grid_of_words
     from ..views.question_sheets import inputs_of, question_sheets
 
-    given = found.asked.described
+    given = found.asked.described_inputs
     below: list[str | Grid | bytes] = []
     for sentence, heads, rows, _ in more:
         below += [sentence, grid_of_words(heads, rows)]

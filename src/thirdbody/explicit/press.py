@@ -186,7 +186,7 @@ def _press(
         if certificate < tol or iterations >= max_iterations:
             if judged or iterations == 0:
                 break
-            judged, x.u = True, programme.displaced(x.p, x.phi)  # the answer has a u of its own
+            judged, x.u = True, programme.displacement(x.p, x.phi)  # the answer has a u of its own
             continue
         judged = False
 
@@ -202,7 +202,7 @@ def _press(
         a *= float(np.clip(free, 0.3, 3) if s.clipped else np.clip(free, 0.1, 10))
         last = s
         if iterations % AFRESH == 0:
-            x.u = programme.displaced(x.p, x.phi)
+            x.u = programme.displacement(x.p, x.phi)
 
     return Pressed(
         p=x.p, f=x.phi * programme.area, squeeze=A.available, u=x.u, h=-x.level,
@@ -316,7 +316,7 @@ class _Programme:
             p, phi = np.clip(start[0], 0, self.c), np.clip(start[1] / self.area, 0, self.most)
         if self.total is not None:
             p, phi = rescale(p, phi, self.c, self.most, self.total)
-        u = self.displaced(p, phi)
+        u = self.displacement(p, phi)
         level = -self.h if self.h is not None else _first_level(p, self.c, u - self.z)
         return _Iterate(p, phi, u, level)
 
@@ -351,7 +351,7 @@ class _Programme:
         """p + Dφ [Pa]."""
         return self.placed.spread(phi, p) if len(self.bodies) else p
 
-    def displaced(self, p: Array, phi: Array) -> Array:
+    def displacement(self, p: Array, phi: Array) -> Array:
         """u = K(p + Dφ) [m], in float64."""
         return self.exact.displacement(self._with_particles(p, phi))
 

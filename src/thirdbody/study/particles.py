@@ -253,7 +253,7 @@ def _population(reader: Reader, path: str, data: object) -> object:
             diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
             found = _laden(reader, path, own, diameter)
         else:
-            found = _counted(reader, path, kind, values)
+            found = _counted_particles(reader, path, kind, values)
         return with_strength(found, f"{path}.strength", strength)
 
     if kind == "distribution":
@@ -413,7 +413,7 @@ def _laden(reader: Reader, path: str, values: dict[str, Any], diameter: Distribu
         raise error.under(path) from None
 
 
-def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Particles:
+def _counted_particles(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Particles:
     """Particles from a code, a test dust or a measured histogram."""
     found = values.pop(kind)
     options = {name: values.pop(name) for name in COUNTED[kind] if name in values}
@@ -424,7 +424,7 @@ def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Pa
             source = found.fit(options["fit"]) if "fit" in options else found
             return _laden(reader, path, values, source.by_number(options.get("smallest")))
         if kind == SETTLED:
-            return _settled(reader, path, found, options, values)
+            return _settled_particles(reader, path, found, options, values)
         gap = values.pop("gap", values.pop("film", None))
         if part := options.pop("share", None):
             gap *= part
@@ -439,7 +439,7 @@ def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Pa
         raise error.under(path) from None
 
 
-def _settled(
+def _settled_particles(
     reader: Reader,
     path: str,
     iso_class: float,

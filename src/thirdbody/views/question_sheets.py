@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ..errors import ranked
+from ..errors import rank_notes
 from ..populations.materials import NUMBERS
 from ..quantities.say import unit_of
 from ..version import __version__
@@ -58,7 +58,7 @@ def question_sheets(
     if table is not None:
         found.append(grid_of_words(*table))
     told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
-    notes = [note_line(each) for each in ranked(warnings)] or [("none", None, "")]
+    notes = [note_line(each) for each in rank_notes(warnings)] or [("none", None, "")]
     cited = [(line, None, "") for line in (*citations, f"thirdbody {__version__}")]
     return [
         Sheet("Answer", (*found, *last), title=f"{title} (thirdbody {__version__})"),

@@ -15,7 +15,7 @@ from ..equilibrium.words import (
     critical_name,
     happens,
 )
-from ..errors import Note, RangeWarning, ranked
+from ..errors import Note, RangeWarning, rank_notes
 from ..populations.materials import NUMBERS
 from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
 from ..version import __version__
@@ -274,7 +274,7 @@ def _notes(
     meanings: Mapping[str, str],
 ) -> tuple[Grid, ...]:
     """Warnings with what to do, the columns of the states, and what is to be cited."""
-    notes = [note_line(each) for each in ranked(result.warnings)] or [("none", None, "")]
+    notes = [note_line(each) for each in rank_notes(result.warnings)] or [("none", None, "")]
     told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
     cited = [(line, None, "") for line in (*result.citations, f"thirdbody {__version__}")]
     return (
