@@ -221,7 +221,7 @@ class Entries:
         library = self.state.library
         options = {OWN: OWN, **{name: name for name in library}}
 
-        def then(value: object) -> None:
+        def set_material(value: object) -> None:
             if value != OWN:
                 self.change(*place, value)
                 return
@@ -229,7 +229,7 @@ class Entries:
             given = {"E": known.E, "nu": known.nu, "H": known.H} if known else {}
             self.change(*place, given or {"E": "205 GPa", "nu": 0.29, "H": "5 GPa"})
 
-        self.select(place, options, OWN if own else now, label, then)
+        self.select(place, options, OWN if own else now, label, set_material)
         if own:
             for each in fields_of(tb.Material):
                 self.field(place, each)
@@ -257,11 +257,11 @@ class Entries:
         if blank is not None:
             words = {"": blank, **words}
 
-        def then(value: object) -> None:
+        def set_variant(value: object) -> None:
             self.change(*place, {tag: value} if value else None)
 
         chosen = word or ("" if blank is not None else default)
-        self.select((*place, tag), words, chosen, label, then)
+        self.select((*place, tag), words, chosen, label, set_variant)
         kind = registry.get(chosen)
         if kind is None:
             return

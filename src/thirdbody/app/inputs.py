@@ -127,7 +127,7 @@ class Inputs(ParticleInputs):
         for side in ("first", "second"):
             self.material(("surfaces", side), f"{side} surface")
 
-        async def uploaded(event: events.UploadEventArguments) -> None:
+        async def take_table(event: events.UploadEventArguments) -> None:
             try:
                 self.change("materials", await take(self.state, event))
             except InvalidValue as error:
@@ -135,7 +135,7 @@ class Inputs(ParticleInputs):
 
         about = "a file, dropped below"
         self.field((), Field(name="materials", kind="string", label="own materials", about=about))
-        made = upload("materials", "Own materials", LARGEST_TABLE, uploaded, most=None)
+        made = upload("materials", "Own materials", LARGEST_TABLE, take_table, most=None)
         made.props('accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:

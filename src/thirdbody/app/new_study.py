@@ -27,7 +27,7 @@ from .text import with_micro
 from .verdict import sentence_of
 from .widgets import set_attributes
 
-__all__ = ["KINDS", "OILS", "NewStudy", "begun", "with_oil"]
+__all__ = ["KINDS", "OILS", "NewStudy", "first_study", "with_oil"]
 
 KINDS = {
     "ball-bearing": "ball bearing",
@@ -87,7 +87,7 @@ FIRST = ("shaft_speed", "ring")
 NUMBERED = ("Bodies and load", "Surfaces", "What is in the oil")
 
 
-def begun(kind: str, which: str = "") -> dict[str, object]:
+def first_study(kind: str, which: str = "") -> dict[str, object]:
     """The study that a form begins with, for a kind of bodies and, of a ball bearing, which one.
 
     Raises
@@ -97,7 +97,7 @@ def begun(kind: str, which: str = "") -> dict[str, object]:
 
     Examples
     --------
-    >>> begun("ball-bearing", "6305")["body"]["bore"], begun("gear")["body"]["kind"]
+    >>> first_study("ball-bearing", "6305")["body"]["bore"], first_study("gear")["body"]["kind"]
     ('25 mm', 'gear')
     """
     if kind in FILED:
@@ -130,7 +130,7 @@ def oil_of(study: dict[str, object]) -> str:
 def with_oil(study: dict[str, object], word: str) -> dict[str, object]:
     """The study with something else in its oil.
 
-    >>> sorted(with_oil(begun("flat"), "clean").keys() & {"particles", "particle_law"})
+    >>> sorted(with_oil(first_study("flat"), "clean").keys() & {"particles", "particle_law"})
     []
     """
     rest = {k: v for k, v in study.items() if k not in ("particles", "particle_law")}
@@ -184,12 +184,12 @@ class NewStudy:
     def _begin(self) -> None:
         """A draft of its own; the study of the page stays until the form is done."""
         which = self.which if self.kind == "ball-bearing" else ""
-        self.draft = State(begun(self.kind, which), self.state.folder, later=True)
+        self.draft = State(first_study(self.kind, which), self.state.folder, later=True)
         self.draft.shelf = self.state.shelf
         self.draft.changed.append(self.soon)
-        self.inputs = Inputs(self.draft, self._again)
+        self.inputs = Inputs(self.draft, self._refresh_form)
 
-    def _again(self) -> None:
+    def _refresh_form(self) -> None:
         self._form.refresh()
 
     @ui.refreshable_method
@@ -208,7 +208,7 @@ class NewStudy:
     # ------------------------------------------------------------------ three steps
     def _bodies(self) -> None:
         inputs = self.inputs
-        menu = inputs.select(None, KINDS, self.kind, "what the drawing shows", self._chosen)
+        menu = inputs.select(None, KINDS, self.kind, "what the drawing shows", self._set_kind)
         set_attributes(menu, {"data-path": "new.kind"})
         if self.kind == "ball-bearing":
             size = ui.input("designation", value=self.which).classes("w-full")
@@ -280,7 +280,7 @@ class NewStudy:
         several = self.draft.get("particles")
         entry = ui.input("ISO 4406 code", value=several[0]["iso4406"]).classes("w-full")
         entry.props('dense data-path="new.code" hint="of the oil, e.g. 18/16/13"')
-        entry.on("change", lambda: self._everywhere("iso4406", str(entry.value or "")))
+        entry.on("change", lambda: self._set_in_all("iso4406", str(entry.value or "")))
         for i, each in enumerate(several):
             share = Field(
                 name="share",
@@ -293,33 +293,33 @@ class NewStudy:
         self.inputs.field(("particles", 0), number_field("gap", AMOUNT["gap"], needed=False))
 
     # ------------------------------------------------------------------ what happens
-    def _everywhere(self, key: str, value: object) -> None:
+    def _set_in_all(self, key: str, value: object) -> None:
         """The same entry in every population."""
         several = self.draft.get("particles")
         if isinstance(several, list):
             self.draft.set("particles", [each | {key: value} for each in several])
 
-    def _chosen(self, kind: str) -> None:
+    def _set_kind(self, kind: str) -> None:
         self.kind = kind
         self._begin()
-        self._again()
+        self._refresh_form()
         self.soon()
 
     def _set_size(self, which: str, entry: ui.input) -> None:
         try:
-            begun(self.kind, which)
+            first_study(self.kind, which)
         except InvalidValue as error:
             entry.error = with_micro("; ".join(error.problems))
             return
         entry.error = None
         self.which = which
         self._begin()
-        self._again()
+        self._refresh_form()
         self.soon()
 
     def _set_oil(self, word: str) -> None:
         self.draft.replace(with_oil(self.draft.study, word))
-        self._again()
+        self._refresh_form()
 
     async def _show_answer(self) -> None:
         """The mistakes of the draft, each beside its entry, or its answer so far."""

@@ -97,7 +97,7 @@ class QuestionTab:
             if not isinstance(self.state.get(name), dict):
                 values = ", ".join(f"{key} {value}" for key, value in question.start.items())
                 ui.label(as_shown(f"Shown for {values}.")).classes("hint")
-                change = ui.button("Change these", icon="edit", on_click=self._begun)
+                change = ui.button("Change these", icon="edit", on_click=self._start_question)
                 set_attributes(change.props("no-caps"), {"data-path": f"{name}.add"})
                 return
             for field in (*question.own, *fields_of(question.kind)):
@@ -107,7 +107,7 @@ class QuestionTab:
             set_attributes(remove.props("flat dense no-caps"), {"data-path": f"{name}.remove"})
             self.inputs.rest = ui.column().classes("w-full")
 
-    def _begun(self) -> None:
+    def _start_question(self) -> None:
         self.inputs.change(self.question.table, self.question.start)
 
     def _remove_question(self) -> None:

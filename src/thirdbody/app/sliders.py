@@ -201,9 +201,9 @@ class Sliders:
                 self.load.props('aria-label="load" data-slider="load"')
                 self.load.on_value_change(self._load_moved)
             with ui.row().classes("knobs"):
-                self.knobs = [self._knob(knob) for knob in self._all()]
+                self.knobs = [self._knob(knob) for knob in self._knobs()]
 
-    def _all(self) -> list[Knob]:
+    def _knobs(self) -> list[Knob]:
         sizes = Knob(
             "mean size",
             "particles.size",

@@ -35,7 +35,7 @@ __all__ = [
     "TRIES",
     "Died",
     "Solver",
-    "apart",
+    "ask_for_page",
     "ended_by",
     "ended_message",
     "note_waits",
@@ -375,7 +375,7 @@ def solver(warm: Callable[[], None] | None = None) -> Solver:
     return _solver
 
 
-async def apart(call: Callable[[*Args], Found], *args: *Args) -> Found:
+async def ask_for_page(call: Callable[[*Args], Found], *args: *Args) -> Found:
     """`Solver.ask` for the page at hand; nothing comes back to one that was closed."""
     client = ui.context.client
     found = await solver().ask(call, *args, wanted=lambda: not client._deleted)

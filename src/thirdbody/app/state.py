@@ -29,7 +29,7 @@ from ..systems.bodies import Pressed
 from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
 from .folders import Shelf
 from .jobs import Job, Stopped
-from .solver import Died, apart
+from .solver import Died, ask_for_page
 from .text import without_paths
 
 __all__ = [
@@ -411,7 +411,7 @@ class State:
             refuse_foreign_files(study, self.folder)
             if self._unread():
                 await self._measure()
-            found = await apart(look, study, self.folder, self._surface())
+            found = await ask_for_page(look, study, self.folder, self._surface())
         except Died:
             raise  # which says nothing of the study: it is read when it is asked for again
         except InvalidValue as error:
@@ -429,12 +429,12 @@ class State:
         """What a function of the answer and more arguments gives, computed beside the server."""
         answer = self.answer
         assert answer is not None
-        found, more = await apart(_call_and_learn, call, answer, args)
+        found, more = await ask_for_page(_call_and_learn, call, answer, args)
         answer.__dict__.update(more)
         return found
 
     # ------------------------------------------------------------------ files
-    def took(self, name: str, key: str | None) -> None:
+    def note_file(self, name: str, key: str | None) -> None:
         """A file was given to the page; a study that names it is read anew."""
         if key is not None:
             self.files[name] = key

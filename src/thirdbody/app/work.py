@@ -13,7 +13,7 @@ from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue
 from .jobs import MOST, RUNNING, Job, Stopped
-from .solver import apart, note_waits, solver
+from .solver import ask_for_page, note_waits, solver
 from .state import State, surface_key
 from .text import as_shown
 from .widgets import set_attributes
@@ -37,12 +37,12 @@ def when_left(call: Callable[[], None]) -> None:
     """Call when the page at hand is closed, not when its connection breaks for a moment."""
     client = ui.context.client
 
-    async def later() -> None:
+    async def call_when_gone() -> None:
         await asyncio.sleep(LEFT)
         if not client.has_socket_connection:
             call()
 
-    client.on_disconnect(lambda: background_tasks.create(later()))
+    client.on_disconnect(lambda: background_tasks.create(call_when_gone()))
     client.on_delete(call)
 
 
@@ -202,7 +202,9 @@ class Work(Generic[Found]):
                     asked = await asked
                 if asked is None:
                     return False
-                result = await apart(in_little, self.task, little(asked) if little else asked)
+                result = await ask_for_page(
+                    in_little, self.task, little(asked) if little else asked
+                )
             except InvalidValue as error:
                 if self.tried is asked_for and self.done is before:
                     self.fail("; ".join(error.problems), asked_for[0])
@@ -211,11 +213,11 @@ class Work(Generic[Found]):
                 return False  # asked anew or done by the button meanwhile, or nobody looks
             self.preview, self.done, self.failed = little is not None, asked_for, None
             self.said.set_text("")
-            await self._shown(result)
+            await self._show_result(result)
             self._fit()
             return True
 
-    async def _shown(self, result: object) -> None:
+    async def _show_result(self, result: object) -> None:
         shown = self.show(cast(Found, result))
         if shown is not None:
             await shown
@@ -257,7 +259,7 @@ class Work(Generic[Found]):
             current = self.same(key, self.key())
             self.stale.set_text("" if current else STALE)
             self.stale.set_visibility(not current)
-            await self._shown(result)
+            await self._show_result(result)
         finally:
             self.job = None
             self._idle()

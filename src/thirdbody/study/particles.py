@@ -251,7 +251,7 @@ def _population(reader: Reader, path: str, data: object) -> object:
             if OF_SIZES in own:
                 values["shape"] = own.pop(OF_SIZES)
             diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
-            found = _laden(reader, path, own, diameter)
+            found = _particles_of_sizes(reader, path, own, diameter)
         else:
             found = _counted_particles(reader, path, kind, values)
         return with_strength(found, f"{path}.strength", strength)
@@ -399,7 +399,9 @@ def _sizes_of_file(reader: Reader, value: object, weighting: str) -> MeasuredSiz
 
 
 # -------------------------------------------------------------------------- particles
-def _laden(reader: Reader, path: str, values: dict[str, Any], diameter: Distribution) -> Particles:
+def _particles_of_sizes(
+    reader: Reader, path: str, values: dict[str, Any], diameter: Distribution
+) -> Particles:
     """Particles with these sizes, and the density or the concentration of the file."""
     if "concentration" not in values:
         return reader.make(Particles, path, values | {"diameter": diameter})
@@ -422,7 +424,9 @@ def _counted_particles(reader: Reader, path: str, kind: str, values: dict[str, A
             if isinstance(found, Histogram):
                 found = MeasuredSizes(sizes=found, weighting=options.get("weighting", "number"))
             source = found.fit(options["fit"]) if "fit" in options else found
-            return _laden(reader, path, values, source.by_number(options.get("smallest")))
+            return _particles_of_sizes(
+                reader, path, values, source.by_number(options.get("smallest"))
+            )
         if kind == SETTLED:
             return _settled_particles(reader, path, found, options, values)
         gap = values.pop("gap", values.pop("film", None))

@@ -10,7 +10,7 @@ from ..populations.materials import NUMBERS
 from ..quantities.say import unit_of
 from ..version import __version__
 from .printed_tables import grid_of_words
-from .report.sources import Row, alike, as_stated, value_rows
+from .report.sources import Row, as_stated, bodies_by_label, value_rows
 from .study_sheets import amount_cells, note_line
 from .workbook import Grid, Sheet, sheet_of_table
 
@@ -97,7 +97,7 @@ def inputs_of(
          row.name)
         for row in rows
     ]  # fmt: skip
-    for label, body in alike(dict(bodies)):
+    for label, body in bodies_by_label(dict(bodies)):
         for key, about in NUMBERS.items():
             if (value := getattr(body, key)) is not None:
                 row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])

@@ -28,8 +28,8 @@ from .report.found import Found, some_of
 from .report.make import USUAL, curve_over
 from .report.sources import (
     Row,
-    alike,
     as_stated,
+    bodies_by_label,
     film_rows,
     laws_of,
     load_rows,
@@ -231,7 +231,7 @@ def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
         )
         for row in rows
     ]
-    for label, body in alike(bodies_of(contact)):
+    for label, body in bodies_by_label(bodies_of(contact)):
         for key, about in NUMBERS.items():
             if (value := getattr(body, key)) is not None:
                 row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])
@@ -243,7 +243,7 @@ def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
 def _source_grid(contact: Contact, stated: Collection[str]) -> Grid:
     """Where laws and the numbers of materials come from."""
     rows = [(f"material of {label}", body.name, "", "", "; ".join(filter(None, (*texts, standing))))
-            for label, body in alike(bodies_of(contact))
+            for label, body in bodies_by_label(bodies_of(contact))
             for texts, standing in [sources_of(body)]]  # fmt: skip
     rows += [
         (

@@ -94,7 +94,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             return
         plot.set_visibility(True)
         plot.update_figure(law_figure(shown, str(what.value)))
-        _table(await state.ask(_here, state.operating_load), table)
+        _table(await state.ask(_laws_at, state.operating_load), table)
 
     async def draw_tab() -> None:
         await work.update_preview(state)
@@ -105,7 +105,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     return draw_tab
 
 
-def _here(answer: Answer, at: float) -> Laws:
+def _laws_at(answer: Answer, at: float) -> Laws:
     """Every law under the operating load."""
     return compare_laws(answer.contact, "F_star", [float(answer.solve(at).F_star)])
 

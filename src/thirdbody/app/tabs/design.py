@@ -137,7 +137,7 @@ class Search:
             "The search runs over the loads of the study. Limits hold at every load; besides, "
             "always: A_t < 0.2, and particles cover less than 0.3."
         ).classes("hint")
-        self.which.on_value_change(self._changed)
+        self.which.on_value_change(self._update_range)
         for entry in (self.of, self.aim, self.over, self.limit):
             entry.on_value_change(lambda: self.work.update_preview(state))
         for text in (self.low, self.high, self.most, self.least):
@@ -169,7 +169,7 @@ class Search:
         asked = [str(each.value) for each in (*form, self.limit, self.most, self.least)]
         return self.state.answer, self.state.get("design"), asked
 
-    async def _changed(self) -> None:
+    async def _update_range(self) -> None:
         self._set_range()
         await self.work.update_preview(self.state)
 

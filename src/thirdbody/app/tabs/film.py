@@ -24,7 +24,7 @@ from ..fields import Field, engineering, fields_of, number_field
 from ..figures import GREY, Figure, band, figure, line, log_title, mark
 from ..inputs import Inputs
 from ..sliders import Slider
-from ..solver import apart
+from ..solver import ask_for_page
 from ..soon import Soon
 from ..state import Answer, State, look, surface_key
 from ..text import as_shown
@@ -174,7 +174,7 @@ class Film:
             self.oil_rows = ui.column().classes("w-full scroll-x")
             self.fine = ui.input("a filter: its β ratio at sizes").classes("w-full narrow")
             set_attributes(self.fine, {"data-path": "film.filter", "hint": FILTER})
-            self.fine.props("dense debounce=400").on_value_change(self._filtered)
+            self.fine.props("dense debounce=400").on_value_change(self._show_filter)
         with ui.element("div").classes("figures w-full") as self.grid:
             with ui.column().classes("w-full gap-1") as self.beside:
                 self._results()
@@ -239,7 +239,7 @@ class Film:
         if answer is None or answer is self.answer:
             return
         before = self.found
-        found, middle = await apart(_solve_film_curve, answer)
+        found, middle = await ask_for_page(_solve_film_curve, answer)
         kept = before is not None and np.array_equal(before.states["speed"], found.states["speed"])
         self.answer, self.found = answer, found
         self.i = self.i if kept else middle
@@ -263,7 +263,7 @@ class Film:
         if self.start is None or self.start[0] is not answer:
             study, surface = state.study | {"film": START}, state.surfaces
             known = surface.get(surface_key(study, state.folder))
-            found, problems, _ = await apart(look, study, state.folder, known)
+            found, problems, _ = await ask_for_page(look, study, state.folder, known)
             self.start = (answer, found)
             self.wrong.set_text(as_shown("; ".join(problems)))
         return self.start[1]
@@ -272,7 +272,7 @@ class Film:
         """The answer in sentences: what the particles of the oil do, then the film."""
         wrong = ""
         try:
-            oil = await apart(oil_of, answer, str(self.fine.value or ""))
+            oil = await ask_for_page(oil_of, answer, str(self.fine.value or ""))
         except ThirdBodyError as error:
             oil, wrong = None, "; ".join(getattr(error, "problems", None) or [str(error)])
             self.wrong.set_text(wrong)
@@ -311,7 +311,7 @@ class Film:
             for text in more:
                 ui.label(as_shown(text)).classes("hint")
 
-    async def _filtered(self) -> None:
+    async def _show_filter(self) -> None:
         if self.answer is not None and self.found is not None:
             self.wrong.set_text("")
             await self._show_answer(self.answer, self.found)

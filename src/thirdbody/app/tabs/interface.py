@@ -131,7 +131,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     )
     with ui.row().classes("w-full gap-4 items-center justify-between"):
         legend = ui.row().classes("gap-4")
-        ui.button("Another place", icon="casino", on_click=lambda: another()).props(
+        ui.button("Another place", icon="casino", on_click=lambda: draw_another()).props(
             "flat dense no-caps"
         )
     means = abouts()
@@ -172,7 +172,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
                 _legend(names)
         numbers.show(pairs)
 
-    def another() -> None:
+    def draw_another() -> None:
         seed["now"] += 1
         state.announce_change()  # which is answered as every other change is
 

@@ -81,12 +81,12 @@ def output_figures(answer: Answer, at: float) -> dict[str, Figure]:
             what = quantity_of(columns, unit)
             title = str(output.title) if len(units) == 1 else f"{output.title}: {what}"
             made = _figure(answer, columns, unit, what, wrap_text(title, WIDE))
-            made["layout"]["shapes"] = [mark(_here(answer, at), "", dash="solid")[0]]
+            made["layout"]["shapes"] = [mark(_value_on_axis(answer, at), "", dash="solid")[0]]
             out[f"{output.name} [{unit}]"] = made
     return out
 
 
-def _here(answer: Answer, at: float) -> float:
+def _value_on_axis(answer: Answer, at: float) -> float:
     """Where the operating load is on the axis of the figures: a separation, or a pressure."""
     if answer.load == "d":
         return at
@@ -228,7 +228,7 @@ class Outputs:
 
 def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], list[dict[str, str]]]:
     """The figures, and the rows of the table; of some outputs where the study asks for none."""
-    answer = answer if answer.contact.outputs else _begun(answer)
+    answer = answer if answer.contact.outputs else _with_first_outputs(answer)
     rows = [
         {
             "meaning": about(name).meaning,
@@ -241,7 +241,7 @@ def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], lis
     return output_figures(answer, at), rows
 
 
-def _begun(answer: Answer) -> Answer:
+def _with_first_outputs(answer: Answer) -> Answer:
     """The answer with outputs that need no number of their own."""
     contact = answer.contact
     fitting = tuple(each for each in BEGUN if not each.problems(contact))

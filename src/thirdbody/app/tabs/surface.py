@@ -16,7 +16,7 @@ from ...quantities.units import to_si
 from ..fields import value_from
 from ..figures import Figure, Part, figure, line, mark
 from ..guard import LARGEST_UPLOAD
-from ..solver import apart
+from ..solver import ask_for_page
 from ..state import State, missing
 from ..text import as_shown
 from ..uploads import take
@@ -115,7 +115,7 @@ class Surface:
                 "surface",
                 "Drop a file",
                 LARGEST_UPLOAD,
-                self._uploaded,
+                self._take_file,
                 refused=lambda: self.work.said.set_text(
                     f"the file is larger than {LARGEST_UPLOAD // 2**20} MB, or not one file"
                 ),
@@ -190,7 +190,7 @@ class Surface:
         """The example of the library, until a file is dropped."""
         with self.box, contextlib.suppress(InvalidValue):
             example: dict[str, object] = {"file": "example", "options": {}}
-            found = await apart(in_little, "surface", example)
+            found = await ask_for_page(in_little, "surface", example)
             if self.result is None and self.file == "example" and not self.box.is_deleted:
                 self._show(cast(Found, found))
 
@@ -198,7 +198,7 @@ class Surface:
         with self.box:
             await self.work.run()
 
-    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+    async def _take_file(self, event: events.UploadEventArguments) -> None:
         try:
             name = await take(self.state, event)
         except InvalidValue as error:

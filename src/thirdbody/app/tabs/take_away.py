@@ -96,7 +96,7 @@ class TakeAway:
                 "study",
                 "Open a study file",
                 LONGEST_STUDY,
-                self._uploaded,
+                self._take_study,
                 refused=lambda: self.said.set_text("the file is too large for a study"),
             ).props('accept=".toml,text/plain"')
         self.problems = ui.column().classes("w-full")
@@ -106,7 +106,7 @@ class TakeAway:
         self.state.replace(study)
         self.again()
 
-    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+    async def _take_study(self, event: events.UploadEventArguments) -> None:
         self.said.set_text("")
         self.chooser.reset()
         try:

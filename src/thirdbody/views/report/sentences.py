@@ -170,13 +170,13 @@ def _first_input(report: Found) -> str:
     assert report.slopes is not None
     slope = float(report.slopes.elasticity["A_t"][order[0]])
     return (
-        f"{_when(report)}{words_of(report.contact, order[0])} moves the real contact area most: "
-        "1 % more of it makes "
+        f"{_inputs_clause(report)}{words_of(report.contact, order[0])} moves the real contact area "
+        "most: 1 % more of it makes "
         f"{signed(slope, 2, '%')} of area."
     )
 
 
-def _when(report: Found) -> str:
+def _inputs_clause(report: Found) -> str:
     """Clause on the inputs, and on which of several loads they matter."""
     at = f", at {report.load(report.at)}" if len(report.result.solved_states) > 1 else ""
     return f"Of the inputs{at}, "
