@@ -61,7 +61,7 @@ def interface(contact: tb.Contact) -> Figure:
     drawn = next(
         found
         for found in (section(contact, state, seed=seed) for seed in range(1000))
-        if (found.z > found.h).any() and 6 <= sum(grain.loaded for grain in found.grains) <= 9
+        if (found.z > found.h).any() and 6 <= sum(grain.is_loaded for grain in found.grains) <= 9
     )
     x, z, h = 1e6 * drawn.x, 1e9 * drawn.z, 1e9 * drawn.h
     made = Figure(figsize=(9, 1.75), layout="constrained")
@@ -73,13 +73,13 @@ def interface(contact: tb.Contact) -> Figure:
     ax.axhline(h, color="#333333", lw=1.2)
     ax.plot(x, np.where(z > h, h, np.nan), color=OKABE_ITO["vermilion"], lw=5, zorder=4)
     for grain in drawn.grains:
-        middle = grain.seat + 0.5 * (grain.gap if grain.loaded else grain.diameter)
-        edge = (OKABE_ITO["vermilion"], 2.0, "-") if grain.loaded else ("#333333", 1.0, "--")
+        middle = grain.seat + 0.5 * (grain.gap if grain.is_loaded else grain.diameter)
+        edge = (OKABE_ITO["vermilion"], 2.0, "-") if grain.is_loaded else ("#333333", 1.0, "--")
         size = (1e6 * grain.diameter, 1e9 * grain.diameter)
         ax.add_patch(
             Ellipse(
                 (1e6 * grain.place, 1e9 * middle), *size, zorder=3, fc=OKABE_ITO["orange"],
-                ec=edge[0], lw=edge[1], ls=edge[2], alpha=1.0 if grain.loaded else 0.5,
+                ec=edge[0], lw=edge[1], ls=edge[2], alpha=1.0 if grain.is_loaded else 0.5,
             )
         )  # fmt: skip
     ax.set(xlim=(x[0], x[-1]), ylim=(bottom, top), aspect=1e-3)

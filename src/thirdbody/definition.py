@@ -89,13 +89,13 @@ def asperities(contact: Any, d: float) -> Array:
         law = contact.asperity_law if ratio is None else contact.asperity_law.replace(ratio=ratio)
         tip = Tip(law, radius * rough.R, pair.E_star, pair.H, pair.softer.nu)
 
-        def pressed(z: Array, tip: Tip = tip) -> Array:
+        def weighted_tip(z: Array, tip: Tip = tip) -> Array:
             return heights.pdf(z) * tip(rough.sigma_s * (z - h))
 
         starts, end = h + tip.kinks / rough.sigma_s, heights.pieces[-1]
-        z = between(starts[0], end, [*starts, *heights.pieces])
+        z = points_between(starts[0], end, [*starts, *heights.pieces])
         if len(z):  # else the surfaces are too far apart
-            total += share * rough.density * integral(pressed, z)
+            total += share * rough.density * integral(weighted_tip, z)
     return total
 
 
@@ -136,7 +136,8 @@ def particles(contact: Any, some: Particles, d: float) -> Array:
         z = (gap - x * (1 - e)) / width
         return x**3 * np.exp(-0.5 * z**2) / (np.sqrt(2 * np.pi) * width) * sides_at(e)
 
-    def embedded(x: Array) -> Array:  # what a particle carries no longer changes beyond eps[-1]
+    # what a particle carries no longer changes beyond eps[-1]
+    def embedded_rows(x: Array) -> Array:
         z = (x * (1 - eps[-1]) - gap) / width
         return x**2 * ndtr(z) * squeezed(one, two, 2 * eps[-1:] * np.ones_like(x))
 
@@ -144,9 +145,9 @@ def particles(contact: Any, some: Particles, d: float) -> Array:
     cascade = None if some.strength is None else Cascade(some, one, two)
     for share, sizes in some.diameter.components:
         if cascade:
-            found = cascade.over(sizes, gap, width)
+            found = cascade.sum_over_sizes(sizes, gap, width)
         elif width:
-            found = over_sizes(sizes, on_seats, eps.tolist()) + over_sizes(sizes, embedded)
+            found = over_sizes(sizes, on_seats, eps.tolist()) + over_sizes(sizes, embedded_rows)
         else:
             found = over_sizes(sizes, on_plane, splits=gap / (1 - eps[eps != 1]))
         total += share * some.areal_density * found
@@ -415,7 +416,7 @@ def own_part(ratio: float, m: float) -> float:
     for f in factors:
         x, found = zip(*sorted((r["x"], r["sink"]) for r in rigid if r["m"] == f), strict=True)
         rows.append(np.array([np.interp(np.log(ratio), x, at) for at in zip(*found, strict=True)]))
-    sinks = across(m, factors, rows)
+    sinks = interpolate_rows(m, factors, rows)
     for i in range(1, 19):
         sinks[i] = min(max(sinks[i], sinks[i - 1]), sinks[i - 1] + 0.05)
     part = 1 - sinks[-1] / 0.95
@@ -440,7 +441,7 @@ def runs_of_the_table() -> list[dict[str, Any]]:
     return runs
 
 
-def across(at: float, nodes: Iterable[float], rows: Iterable[Array]) -> Array:
+def interpolate_rows(at: float, nodes: Iterable[float], rows: Iterable[Array]) -> Array:
     """Rows between nodes, by a monotone cubic."""
     x, y = np.array(list(nodes)), np.array(list(rows))
     x, y = x[order := np.argsort(x)], y[order]
@@ -471,13 +472,13 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Chebyshev:
         return (row(run, eps) - row(twin, eps)) * np.append(1.0, eps <= shorter)
 
     def over_hardness(some: list[dict[str, Any]], of: Callable[[dict[str, Any]], Array]) -> Array:
-        return across(x, [run["x"] for run in some], [of(run) for run in some])
+        return interpolate_rows(x, [run["x"] for run in some], [of(run) for run in some])
 
     def values(s: Array) -> Array:
         eps = 1 / (1 + np.exp(-np.log(19.0) * s))
         out = over_hardness([run for run in rigid if run["m"] == 1], lambda run: row(run, eps))
         factors = sorted({run["m"] for run in rigid})
-        out = out + across(m, factors, [
+        out = out + interpolate_rows(m, factors, [
             over_hardness([run for run in rigid if run["m"] == f], lambda run: change(run, eps))
             for f in factors
         ])  # fmt: skip
@@ -485,10 +486,12 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Chebyshev:
         nodes = sorted({run["x"] for run in elastic})
         some = [[run for run in elastic if run["x"] == node] for node in nodes]
         slopes = [
-            across(soft, [it["soft"] for it in here], [change(it, eps) / it["soft"] for it in here])
+            interpolate_rows(
+                soft, [it["soft"] for it in here], [change(it, eps) / it["soft"] for it in here]
+            )
             for here in some
         ]
-        return out + soft * across(x, nodes, slopes)
+        return out + soft * interpolate_rows(x, nodes, slopes)
 
     root = Chebyshev.interpolate(lambda s: values(s)[1:], 9)
     return (root * root).integ(lbnd=-1) + values(np.zeros(1))[0]
@@ -582,7 +585,7 @@ class Cascade:
             number, x = np.where(x > gap, number, 0.0), x * self.strength.ratio
         return total
 
-    def over(self, sizes: Distribution, gap: float, width: float) -> Array:
+    def sum_over_sizes(self, sizes: Distribution, gap: float, width: float) -> Array:
         """Over the sizes, and over seats of a width where there is one."""
         k = self.strength.ratio ** np.arange(12)
         ends = np.array([1.0, *(1 - self.tops)])
@@ -592,7 +595,7 @@ class Cascade:
         x = np.array([sizes.support[1], *sizes.support])[:, None, None]
         z = ((x * np.outer(ends, k) - gap) / width).ravel()
         weigh = lambda z: np.exp(-0.5 * z**2) / np.sqrt(2 * np.pi)  # noqa: E731
-        seats = between(-9.0, 9.0, z)
+        seats = points_between(-9.0, 9.0, z)
         return over_sizes(sizes, lambda x, z: weigh(z) * self(x, gap + width * z), seats)
 
 
@@ -607,7 +610,7 @@ def over_sizes(
     if isinstance(sizes, Monodisperse):
         return integral(lambda *others: f(np.array([sizes.mean]), *others), *edges)
     low, high = sizes.support
-    x = between(low, high, [*sizes.pieces, *splits])
+    x = points_between(low, high, [*sizes.pieces, *splits])
     return integral(lambda x, *others: sizes.pdf(x) * f(x, *others), x, *edges)
 
 
@@ -648,6 +651,6 @@ def at_distinct(f: Formula) -> Formula:
     return values_at
 
 
-def between(low: float, high: float, points: Iterable[float]) -> Sequence[float]:
+def points_between(low: float, high: float, points: Iterable[float]) -> Sequence[float]:
     """The distinct points from low to high, both ends among them; none where low is above high."""
     return sorted({low, *(p for p in points if low < p < high), high}) if low < high else []

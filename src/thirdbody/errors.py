@@ -304,10 +304,10 @@ def note_of(message: Warning | str) -> str:
     return next(iter(message.args), str(message))
 
 
-def ranked(notes: Iterable[str]) -> list[str]:
+def rank_notes(notes: Iterable[str]) -> list[str]:
     """Notes by their effect on the answer, the largest first; of each code the worst alone.
 
-    >>> ranked(["b", Note("a", code="area", effect=0.1), Note("c", code="area", effect=0.3)])
+    >>> rank_notes(["b", Note("a", code="area", effect=0.1), Note("c", code="area", effect=0.3)])
     ['c', 'b']
     """
 

@@ -650,13 +650,15 @@ def test_the_figure_of_bands_ends_where_an_end_of_a_band_would_be_crowded():
         warnings.simplefilter("ignore")
         curve = tb.propagate(bare, vary=page.propagation.inputs, samples=64, outputs=["A_t"],
                              pressure=np.geomspace(1e7, 9e9, 25))  # fmt: skip
-    shown = assess_page._uncrowded(curve, "A_t", 3e8)
+    shown = assess_page._drop_crowded_loads(curve, "A_t", 3e8)
     end = len(shown.loads)
     assert np.all(curve.crowded[:end] <= 0.05)
     assert curve.crowded[end] > 0.05
     assert np.all(shown.bands["A_t"] == curve.bands["A_t"][:end])
     assert plot.bands(shown, "A_t").get_xlim()[1] == curve.loads[end - 1]
-    assert assess_page._uncrowded(curve, "A_t", 9e9) is curve  # the page warns of that load itself
+    assert (
+        assess_page._drop_crowded_loads(curve, "A_t", 9e9) is curve
+    )  # the page warns of that load itself
 
 
 def test_what_inputs_are_ranked_by_is_called_in_words():

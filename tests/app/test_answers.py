@@ -24,7 +24,7 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 from thirdbody.app import figures
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.jobs import Job
-from thirdbody.app.page import Page, _took
+from thirdbody.app.page import Page, _time_words
 from thirdbody.app.python_text import to_python
 from thirdbody.app.solver import TRIES, Died, Solver, ended_by, note_waits
 from thirdbody.app.state import State
@@ -164,8 +164,8 @@ def test_a_map_contains_its_study(study, tmp_path):
     sigma, E_ss = contact.roughness.sigma, contact.E_ss
     found = {"sizes": sizes.tolist(), "loads": loads.tolist(), "sigma": sigma, "E_ss": E_ss}
     point = here[0] * sigma, here[1] * E_ss  # a size [m] and a pressure [Pa]
-    assert mode_map.inside(found, point)
-    assert not mode_map.inside(found, (point[0], 1.01 * loads[-1] * E_ss))
+    assert mode_map.lies_inside(found, point)
+    assert not mode_map.lies_inside(found, (point[0], 1.01 * loads[-1] * E_ss))
     assert sizes[0] * 2 < here[0] < sizes[-1] / 2
     assert loads[0] * 2 < here[1] < loads[-1] / 2
 
@@ -326,11 +326,11 @@ def test_a_study_is_read_again_after_nobody_could(tmp_path, monkeypatch):
         return call(*args)
 
     state = State(example(), tmp_path, later=True)
-    monkeypatch.setattr(states, "apart", dead)
+    monkeypatch.setattr(states, "ask_for_page", dead)
     with pytest.raises(Died):
         asyncio.run(state.settle())
     assert state.problems == []
-    monkeypatch.setattr(states, "apart", alive)
+    monkeypatch.setattr(states, "ask_for_page", alive)
     asyncio.run(state.settle())
     assert state.answer is not None
 
@@ -364,11 +364,11 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
 
     solver = Solver()
     solver.starts += [(10.0, 12.0), (11.0, 14.0), (1.0, 2.0)]
-    assert solver.prepared(0.0) == 0.0  # nobody waited for any of them
+    assert solver.starting_seconds(0.0) == 0.0  # nobody waited for any of them
 
     def prepared(since, *waits):
         note_waits(deque(waits))
-        return solver.prepared(since)
+        return solver.starting_seconds(since)
 
     for since, told in ((11.5, 2.5), (0.0, 4.0), (20.0, 0.0)):
         here = copy_context()
@@ -381,12 +381,12 @@ def test_time_of_getting_ready_is_no_time_of_an_answer(monkeypatch):
     solver.close()
 
     class Ready:
-        def prepared(self, since):
+        def starting_seconds(self, since):
             return 18.0
 
     monkeypatch.setattr(page, "solver", Ready)
-    assert _took(17.9, 0.0).startswith("answered in 1 ms, ")
-    said = _took(18.4, 0.0)
+    assert _time_words(17.9, 0.0).startswith("answered in 1 ms, ")
+    said = _time_words(18.4, 0.0)
     assert said == "answered in 400 ms, after 18 s in which the page was getting ready"
 
 

@@ -380,7 +380,7 @@ def test_particles_of_the_section_are_loaded_as_often_as_in_the_model(state):
     grains = [g for s in range(80) for g in section(contact, point, seed=s).grains]
     counted = tb.solve(contact.replace(outputs=(tb.outputs.Counts(),)), d=point.d).outputs
     share = counted["n_sa"] / contact.particles.areal_density
-    drawn = np.mean([grain.loaded for grain in grains])
+    drawn = np.mean([grain.is_loaded for grain in grains])
     # 80 profiles hold some 3 independent seats each
     assert drawn == pytest.approx(share, abs=3 * np.sqrt(share * (1 - share) / 240))
 
@@ -438,7 +438,7 @@ def test_a_population_that_carries_has_a_loaded_particle(name, tmp_path):
         shares = [part.load_share for part in point.populations] or [point.particle_load_share]
         for seed in range(3):
             drawn = section(made, point, seed=seed)
-            loaded = {grain.population for grain in drawn.grains if grain.loaded}
+            loaded = {grain.population for grain in drawn.grains if grain.is_loaded}
             carrying = {i for i, share in enumerate(shares) if share > CARRIES}
             assert carrying <= loaded, (load, seed, shares)
             met.append(drawn.met)

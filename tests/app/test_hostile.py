@@ -28,7 +28,7 @@ from hostile import PAYLOADS, hostile, wrong
 
 from thirdbody.app import bounds, exports, text, work
 from thirdbody.app.examples import example
-from thirdbody.app.figures import plain
+from thirdbody.app.figures import escape_tags
 from thirdbody.app.folders import Folders, Shelf, remove_left
 from thirdbody.app.inputs import FORMED, Inputs
 from thirdbody.app.jobs import RUNNING, Job
@@ -90,7 +90,7 @@ def test_fields_take_any_text_as_text(payload, tmp_path):
 
 
 def test_names_in_figures_are_no_markup():
-    assert plain("<a href='x'>y</a> %{meta}") == "&lt;a href='x'&gt;y&lt;/a&gt; %&#123;meta}"
+    assert escape_tags("<a href='x'>y</a> %{meta}") == "&lt;a href='x'&gt;y&lt;/a&gt; %&#123;meta}"
 
 
 @pytest.mark.parametrize("value", [5, -1.5, True, "x", [1, [2]], {"a": {"b": 1}}, [{}], [], {}])

@@ -17,8 +17,8 @@ from thirdbody.views import oil_words
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app.examples import EXAMPLES, example
-from thirdbody.app.new_study import FILED, KINDS, OILS, answer_so_far, begun, oil_of, with_oil
-from thirdbody.app.sliders import shifted
+from thirdbody.app.new_study import FILED, KINDS, OILS, answer_so_far, first_study, oil_of, with_oil
+from thirdbody.app.sliders import shift_code
 from thirdbody.app.state import Answer, State
 from thirdbody.app.tabs import before_after, error_bars, film, mode_map
 from thirdbody.app.verdict import badge_of
@@ -29,7 +29,7 @@ from thirdbody.app.worker import mode_map as solved_map
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("oil", OILS)
 def test_what_the_form_begins_runs(kind, oil):
-    study = with_oil(begun(kind), oil)
+    study = with_oil(first_study(kind), oil)
     assert oil_of(study) == oil
     answer = Answer(check(study))
     assert answer_so_far(answer).endswith(".")
@@ -40,18 +40,18 @@ def test_what_the_form_begins_runs(kind, oil):
 def test_the_form_begins_with_the_study_file_of_the_command_line(kind):
     folder = resources.files("thirdbody").joinpath("data/studies")
     file = tomllib.loads(folder.joinpath(f"{kind}.toml").read_text("utf-8"))
-    made = begun(kind)
+    made = first_study(kind)
     assert {**made, "title": ""} == {**file, "title": ""}
 
 
 def test_a_designation_brings_its_dimensions_and_an_unknown_one_is_refused():
-    assert begun("ball-bearing", "6305")["body"]["outer_diameter"] == "62 mm"
+    assert first_study("ball-bearing", "6305")["body"]["outer_diameter"] == "62 mm"
     with refuses(Mistake.KIND, "", says='"9999"'):
-        begun("ball-bearing", "9999")
+        first_study("ball-bearing", "9999")
 
 
 def test_the_oil_of_the_film_is_told_as_the_command_tells_it():
-    study = begun("ball-bearing", "6205")
+    study = first_study("ball-bearing", "6205")
     oil = dirty_oil(check(study))
     answer = Answer(check(study))
     assert answer_so_far(answer) == oil_words.answer(oil)[0]
@@ -66,7 +66,7 @@ def test_two_studies_stand_side_by_side_with_the_numbers_of_both():
     new["roughness"] = new["roughness"] | {"sigma": "200 nm"}
     assert before_after.changes(old, new) == ["roughness.sigma: 100 nm → 200 nm"]
     before, after = Answer(check(old)), Answer(check(new))
-    found = before_after.beside(before, after, 1e-5)
+    found = before_after.compare_answers(before, after, 1e-5)
     shares = [float(tb.solve(a.contact, F_star=1e-5).A_t) for a in (before, after)]
     row = next(row for row in found.rows if row["name"] == "real contact area")
     assert row["before"] != row["after"]
@@ -90,7 +90,7 @@ def test_a_start_has_fewer_particles(name):
 
 
 def test_a_code_shifted_there_and_back_is_the_same():
-    assert shifted(shifted("18/16/13", 4), -4) == "18/16/13"
+    assert shift_code(shift_code("18/16/13", 4), -4) == "18/16/13"
 
 
 def test_a_badge_says_the_largest_effect():
@@ -112,9 +112,11 @@ def test_a_map_in_nm_and_MPa_is_that_of_its_states():
 
 def test_what_is_assumed_to_be_uncertain_is_ten_percent_of_what_stands_there(tmp_path):
     state = State(example(), tmp_path)
-    ranges = error_bars.assumed(state)
+    ranges = error_bars.assumed_ranges(state)
     assert ranges["roughness.sigma"] == {"low": "90 nm", "high": "110 nm"}
-    assert not error_bars.assumed(State(example() | {"uncertainty": {"inputs": ranges}}, tmp_path))
+    assert not error_bars.assumed_ranges(
+        State(example() | {"uncertainty": {"inputs": ranges}}, tmp_path)
+    )
     check(example() | {"uncertainty": {"inputs": ranges}})
 
 

@@ -95,7 +95,7 @@ POINT = Point(
 
 
 def test_reasons_stand_in_the_order_of_their_size():
-    assert POINT.off
+    assert POINT.is_off
     assert POINT.errors == pytest.approx(6)
     assert re.findall(r"\d+ %", POINT.why) == ["80 %", "97 %"]
 
@@ -103,9 +103,9 @@ def test_reasons_stand_in_the_order_of_their_size():
 def test_the_fewer_surfaces_the_wider_what_counts_as_luck():
     """Within 6 errors of three surfaces lies what 95 of 100 draws do not reach at 2.3 of eight."""
     at = dataclasses.replace(POINT, statistical=0.53)
-    assert at.off
-    assert not dataclasses.replace(at, surfaces=3).off
-    assert not dataclasses.replace(at, statistical=0.52).off
+    assert at.is_off
+    assert not dataclasses.replace(at, surfaces=3).is_off
+    assert not dataclasses.replace(at, statistical=0.52).is_off
     assert dataclasses.replace(at, statistical=0.52).why == ""
 
 
@@ -113,10 +113,10 @@ def test_where_too_little_was_drawn_the_bounds_are_shown():
     """Neither "100" without an error nor a number of 0/0; off is what lies outside."""
     nothing = (math.nan, math.nan)
     point = dataclasses.replace(POINT, share=nothing, bounds=(0.9761, 1.0), statistical=0.983)
-    assert not point.off
-    assert dataclasses.replace(point, statistical=0.97).off
-    assert math.isnan(point.apart)
-    record = {**page._columns(point), "off": point.off}
+    assert not point.is_off
+    assert dataclasses.replace(point, statistical=0.97).is_off
+    assert math.isnan(point.difference)
+    record = {**page._columns(point), "off": point.is_off}
     cells = {name: None if v != v else v for name, v in record.items()}
     assert page._cell(cells) == "≥ 97.6, 98.3"
     assert page._cell(cells | {"share_least": 0.0, "share_most": 0.0123}) == "≤ 1.3, 98.3"

@@ -149,8 +149,8 @@ def test_separations_share_one_datum_within_a_reading():
 
 def test_the_scale_of_loads_is_converted_at_the_door():
     one, two = READINGS["series-rough"], replace(READINGS["series-rough"], F_star_scale=2.0)
-    a = Curves(one).under(np.array([2e-5]), "SiO2", 100, 300)
-    b = Curves(two).under(np.array([1e-5]), "SiO2", 100, 300)
+    a = Curves(one).curve_under(np.array([2e-5]), "SiO2", 100, 300)
+    b = Curves(two).curve_under(np.array([1e-5]), "SiO2", 100, 300)
     np.testing.assert_allclose(a.A_t, b.A_t, rtol=1e-12)
 
 

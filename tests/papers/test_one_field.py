@@ -31,7 +31,7 @@ def test_where_one_field_is_behind():
     """Two shares of the 118, as the book says, beyond the error bars of 8 surfaces."""
     behind = []
     for state in against_stored():
-        new, old = (abs(state.off(field=field)[0]) for field in (True, False))
+        new, old = (abs(state.differences(field=field)[0]) for field in (True, False))
         bar = 2.36 * state.share_error / state.share[0]
         if state.case not in OPEN and new > old and new > bar:
             behind.append((state.case, state.F_star))

@@ -47,7 +47,9 @@ def test_where_the_sign_changes(ledger):
     """The same density from both readings, and friction is that of bare surfaces there."""
     few, many = (ledger[name]["flip"].measured.values[0] for name in ("few", "many"))
     assert few == pytest.approx(many, rel=1e-6)
-    trend = study.slid(study.READINGS["few"], np.array([5e6]), size=5 / 3, density=few / study.FEW)
+    trend = study.friction_trend(
+        study.READINGS["few"], np.array([5e6]), size=5 / 3, density=few / study.FEW
+    )
     assert trend.mu[0] == pytest.approx(trend.bare_mu[0], rel=1e-6)
     assert not ledger["smooth"]["flip"].measured.exists
 

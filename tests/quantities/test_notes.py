@@ -11,7 +11,7 @@ import pytest
 
 import thirdbody as tb
 from thirdbody.cli import streams
-from thirdbody.errors import Note, code_of, note_of, ranked
+from thirdbody.errors import Note, code_of, note_of, rank_notes
 
 STUDY = tb.load_study(Path(tb.__file__).parent / "data" / "studies" / "ball-screw.toml")
 
@@ -32,7 +32,7 @@ def test_the_worst_comes_first_and_once():
         Note("area 0.1", code="area", effect=0.1),
         Note("area 0.4", code="area", effect=0.4),
     ]
-    assert ranked(notes) == ["unit", "area 0.4", "nobody knows of 0.5", "small"]
+    assert rank_notes(notes) == ["unit", "area 0.4", "nobody knows of 0.5", "small"]
 
 
 def test_warnings_carry_the_notes_of_the_state():

@@ -164,7 +164,7 @@ class Address:
     def _too_long(self) -> bool:
         return len(to_link(self.state.study)) > LONGEST_LINK
 
-    def travelled(self) -> None:
+    def follow_browser(self) -> None:
         """The browser is there already."""
         if self.later is not None:
             self.later.cancel()

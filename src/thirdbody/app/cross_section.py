@@ -55,7 +55,7 @@ class Grain:
     gap: float
 
     @property
-    def loaded(self) -> bool:
+    def is_loaded(self) -> bool:
         return self.diameter > self.gap
 
 
@@ -138,9 +138,9 @@ def section(
             place, seat = _seat(contact, dust, float(place), x, z, rng)
             # particles of the slab lie before or behind the cut where they would leave the picture
             grains.append(Grain(number, float(diameter), place, seat, h - seat))
-        if number in chances and not any(grain.loaded for grain in grains[-count:]):
+        if number in chances and not any(grain.is_loaded for grain in grains[-count:]):
             met = True
-            grains[-1 - int(rng.integers(count))] = _loaded(
+            grains[-1 - int(rng.integers(count))] = _draw_loaded_grain(
                 number, dust, x, *chances[number], h, rng
             )
     pair = contact.surfaces
@@ -179,7 +179,7 @@ def _chances(contact: tb.Contact, dust: tb.Particles, z: Array, h: float) -> tup
     return seats, np.append(1 - TAIL, 0.0)[larger]
 
 
-def _loaded(
+def _draw_loaded_grain(
     number: int,
     dust: tb.Particles,
     x: Array,
@@ -274,25 +274,25 @@ def _grain(drawn: Section, grain: Grain, X: Scale, Y: Scale, scale: float) -> st
     radius = 0.5 * grain.diameter
     middle = grain.seat + radius
     rx = ry = radius
-    if grain.loaded:
+    if grain.is_loaded:
         middle = grain.seat + 0.5 * grain.gap
         if drawn.soft[grain.population]:
             ry = max(0.5 * grain.gap, 0.1 * radius)
             rx = min(radius * math.sqrt(radius / ry), 2.5 * radius)
     colour = COLOURS[grain.population % len(COLOURS)]
-    kind = "loaded" if grain.loaded else "free"
+    kind = "loaded" if grain.is_loaded else "free"
     place = X(grain.place), Y(middle) - scale * ry - 6
     # one that is squashed to a line has a mark over it
     pointer = f'<path class="ink" d="M{place[0]:.1f} {place[1]:.1f}l-6 -11h12z"/>'
     stroke = (
         f'stroke="{OKABE_ITO["vermilion"]}" stroke-width="3"'
-        if grain.loaded
+        if grain.is_loaded
         else 'stroke="currentColor" stroke-width="1.2" stroke-dasharray="4 3"'
     )
     return (
         f'<ellipse class="grain {kind}" cx="{X(grain.place):.1f}" cy="{Y(middle):.1f}" '
         f'rx="{scale * rx:.1f}" ry="{scale * ry:.1f}" fill="{colour}" '
-        f'fill-opacity="{0.95 if grain.loaded else 0.45}" {stroke}/>'
+        f'fill-opacity="{0.95 if grain.is_loaded else 0.45}" {stroke}/>'
     ) + pointer * (scale * ry < LEAST)
 
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from nicegui.events import ValueChangeEventArguments
 
-__all__ = ["Entries", "Place", "about_of", "dotted"]
+__all__ = ["Entries", "Place", "about_of", "dotted_name"]
 
 Place = tuple[str | int, ...]
 OWN = "own values"
@@ -52,7 +52,7 @@ limits = [{ of = "A_t", most = 0.1 }]
 """How a table may begin; shown while there is none."""
 
 
-def dotted(path: Iterable[str | int]) -> str:
+def dotted_name(path: Iterable[str | int]) -> str:
     """A place in the study as messages name it."""
     return ".".join(map(str, path))
 
@@ -131,7 +131,7 @@ class Entries:
             else (lambda text: value_from(text, one=field.kind == "number"), text_of)
         )
         entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
-        name = dotted(place)
+        name = dotted_name(place)
         set_attributes(entry.props("dense debounce=350"), {"hint": with_micro(field.about)})
         set_attributes(entry, {"aria-label": name, "data-path": name})
         entry.on_value_change(lambda event: set_to(read(event.value or "")))
@@ -140,7 +140,9 @@ class Entries:
 
     def other_fields(self, *place: str) -> None:
         """The entries of a table without a form of its own, as the reader knows them."""
-        for name, about in known_keys(self.state.study, place[0]).get(dotted(place), {}).items():
+        for name, about in (
+            known_keys(self.state.study, place[0]).get(dotted_name(place), {}).items()
+        ):
             if about:
                 self.field(place, Field(name=name, kind="text", label=name, about=about))
 
@@ -155,7 +157,7 @@ class Entries:
                 )
             return given.get(name)
 
-        def changed(event: ValueChangeEventArguments[Any]) -> None:
+        def set_text(event: ValueChangeEventArguments[Any]) -> None:
             try:
                 self.state.set(name, read(event.value or ""))
             except InvalidValue:
@@ -167,7 +169,7 @@ class Entries:
         entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
         entry.props("outlined autogrow debounce=500")
         set_attributes(entry, {"data-path": name, "aria-label": f"[{name}]"})
-        entry.classes("w-full code").on_value_change(changed)
+        entry.classes("w-full code").on_value_change(set_text)
         keys = known_keys(self.state.study, name).get(name, {})
         ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
         self.shown[name] = Entry(entry, read, show, whole=True)
@@ -183,7 +185,7 @@ class Entries:
     ) -> ui.select:
         """A menu; what follows from a choice is ``then``."""
 
-        def changed(event: ValueChangeEventArguments[Any]) -> None:
+        def set_choice(event: ValueChangeEventArguments[Any]) -> None:
             if then is not None:
                 then(event.value)
             elif place is not None:
@@ -192,13 +194,13 @@ class Entries:
         if not isinstance(now, str):
             now = text_of(now)  # a mistake, which stands there as it is written
         known = options if now in options else {now: now, **options}
-        menu = ui.select(known, value=now, label=label, on_change=changed)
+        menu = ui.select(known, value=now, label=label, on_change=set_choice)
         set_attributes(
             menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)}
         )
         if place is not None:
-            set_attributes(menu, {"data-path": dotted(place)})
-            self.shown[dotted(place)] = Entry(menu)
+            set_attributes(menu, {"data-path": dotted_name(place)})
+            self.shown[dotted_name(place)] = Entry(menu)
         return menu
 
     def change(self, *path_and_value: object) -> None:
@@ -219,7 +221,7 @@ class Entries:
         library = self.state.library
         options = {OWN: OWN, **{name: name for name in library}}
 
-        def then(value: object) -> None:
+        def set_material(value: object) -> None:
             if value != OWN:
                 self.change(*place, value)
                 return
@@ -227,7 +229,7 @@ class Entries:
             given = {"E": known.E, "nu": known.nu, "H": known.H} if known else {}
             self.change(*place, given or {"E": "205 GPa", "nu": 0.29, "H": "5 GPa"})
 
-        self.select(place, options, OWN if own else now, label, then)
+        self.select(place, options, OWN if own else now, label, set_material)
         if own:
             for each in fields_of(tb.Material):
                 self.field(place, each)
@@ -255,11 +257,11 @@ class Entries:
         if blank is not None:
             words = {"": blank, **words}
 
-        def then(value: object) -> None:
+        def set_variant(value: object) -> None:
             self.change(*place, {tag: value} if value else None)
 
         chosen = word or ("" if blank is not None else default)
-        self.select((*place, tag), words, chosen, label, then)
+        self.select((*place, tag), words, chosen, label, set_variant)
         kind = registry.get(chosen)
         if kind is None:
             return
@@ -278,7 +280,7 @@ class Entries:
     def _word_entry(self, place: Place, field: Field, tag: str, word: str) -> None:
         """An entry of a table that is still a word, or left out."""
 
-        def to(value: object) -> None:
+        def set_field(value: object) -> None:
             table = self.state.get(*place)
             if value is None and not isinstance(table, dict):
                 return
@@ -286,7 +288,7 @@ class Entries:
             new = {key: old for key, old in kept.items() if key != field.name}
             self.state.set(*place, new if value is None else new | {field.name: value})
 
-        self.text((*place, field.name), field, to)
+        self.text((*place, field.name), field, set_field)
 
 
 def about_of(problem: Problem) -> str:

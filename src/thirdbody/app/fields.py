@@ -23,7 +23,7 @@ from ..study.schema import Describer
 from ..study.tables import TABLES
 from ..study.toml import value_of
 from .bounds import refuse_long_names
-from .text import in_ascii, with_micro, written
+from .text import in_ascii, toml_value, with_micro
 
 __all__ = [
     "COUNTED_FIELDS",
@@ -194,7 +194,7 @@ def text_of(value: object) -> str:
         return ""
     if isinstance(value, list) and not any(isinstance(x, dict) for x in value):
         return ", ".join(map(text_of, value))
-    return with_micro(value if isinstance(value, str) else written(value))
+    return with_micro(value if isinstance(value, str) else toml_value(value))
 
 
 DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+(?:[eE][+-]?\d+)?\s*(?:[^\d\s,][^,]*)?)")

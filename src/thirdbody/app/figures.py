@@ -27,8 +27,8 @@ __all__ = [
     "Figure",
     "Part",
     "band",
-    "clipped",
     "empty",
+    "escape_tags",
     "figure",
     "fix",
     "json_numbers",
@@ -36,10 +36,10 @@ __all__ = [
     "log_title",
     "mark",
     "mode_bands",
-    "plain",
     "span",
     "symbol",
-    "wrapped",
+    "upper_decades",
+    "wrap_text",
 ]
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
@@ -104,19 +104,19 @@ MODE_FILLS = {name: _rgb(colour) for name, colour in MODE_COLOURS.items()}
 REGIME_FILLS = {name: (label, colour) for name, (label, colour) in REGIMES.items()}
 
 
-def plain(text: str) -> str:
+def escape_tags(text: str) -> str:
     """A text of a study for Plotly, which reads tags in names, titles and categories.
 
-    >>> plain("a<b>c</b> & d")
+    >>> escape_tags("a<b>c</b> & d")
     'a&lt;b&gt;c&lt;/b&gt; &amp; d'
     """
     # %{...} stands for a variable there
     return html.escape(text, quote=False).replace("%{", "%&#123;")
 
 
-def wrapped(text: str, wide: int) -> str:
+def wrap_text(text: str, wide: int) -> str:
     """A text for Plotly in lines of so many characters."""
-    return "<br>".join(map(plain, textwrap.wrap(text, wide)))
+    return "<br>".join(map(escape_tags, textwrap.wrap(text, wide)))
 
 
 def symbol(text: str) -> str:
@@ -125,7 +125,7 @@ def symbol(text: str) -> str:
     >>> symbol("A_t/A_n"), symbol("⟨δ_res⟩,1")
     ('A<sub>t</sub>/A<sub>n</sub>', '⟨δ<sub>res</sub>⟩,1')
     """
-    return re.sub(r"_([^\s/()⟩]+)", r"<sub>\1</sub>", plain(text))
+    return re.sub(r"_([^\s/()⟩]+)", r"<sub>\1</sub>", escape_tags(text))
 
 
 def figure(
@@ -158,7 +158,7 @@ def figure(
     made: Figure = {"data": data, "layout": {**layout, **more}, "config": CONFIG}
     curves = [each["y"] for each in data if each.get("type") == "scatter" and each.get("y")]
     if ylog and len(curves) == len(data):
-        fix(made, "yaxis", span(clipped(curves), log=True))
+        fix(made, "yaxis", span(upper_decades(curves), log=True))
     return made
 
 
@@ -185,7 +185,7 @@ TICKS = ((1.0, (1, 2, 5)), (0.6, (1, 2, 3, 4, 6, 8)))
 def _decades(data: list[Part], name: str) -> Part:
     """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two or so."""
     known = [_array(each[name]) for each in data if each.get(name) is not None]
-    every = clipped(known) if name == "y" else np.concatenate([*known, [np.nan]])
+    every = upper_decades(known) if name == "y" else np.concatenate([*known, [np.nan]])
     every = every[np.isfinite(every) & (every > 0)]
     wide = float(np.log10(every.max() / every.min())) if every.size else 0.0
     if wide > 1.9:  # the browser writes powers a quarter larger than other numbers
@@ -253,13 +253,13 @@ def _array(values: object) -> np.ndarray:
     return np.array(values, float)
 
 
-def clipped(curves: Iterable[object]) -> np.ndarray:
+def upper_decades(curves: Iterable[object]) -> np.ndarray:
     """What matters of curves on a logarithmic axis: the upper decades of each.
 
     A curve that dies out has no end: the axis follows each over `FOLLOWED` decades below its
     largest value, and none below `NEGLIGIBLE` of the largest of all.
 
-    >>> clipped([[1.0, 1e-3, 1e-56], [1e-9, 1e-8]]).tolist()
+    >>> upper_decades([[1.0, 1e-3, 1e-56], [1e-9, 1e-8]]).tolist()
     [1.0, 0.001, 1e-09, 1e-08]
     """
     every = [_array(curve).ravel() for curve in curves]

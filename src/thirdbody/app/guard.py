@@ -56,14 +56,14 @@ class Guard:
         if not self._is_own_request(headers, scope):
             await _refuse(scope, send, 400, "this page is not served under that name")
             return
-        if _embedded(headers):
+        if _is_embedded(headers):
             await _refuse(scope, send, 403, "another site may link to this page, not embed it")
             return
         length = headers.get("content-length", "0")
         if not length.isdecimal() or int(length) > self.largest:
             await _refuse(scope, send, 413, f"more than {self.largest} bytes are not taken")
             return
-        await self.app(scope, self._counted(receive), send)
+        await self.app(scope, self._count_body(receive), send)
 
     def _is_own_request(self, headers: dict[str, str], scope: Message) -> bool:
         """Asked for under a name of its own, by nobody else than itself."""
@@ -73,11 +73,11 @@ class Guard:
             return False
         return "origin" not in headers or _origin(headers["origin"]) == own
 
-    def _counted(self, receive: Receive) -> Receive:
+    def _count_body(self, receive: Receive) -> Receive:
         """Ends a body that goes on beyond the limit without having said so."""
         taken = 0
 
-        async def counted() -> Message:
+        async def count_message() -> Message:
             nonlocal taken
             message = await receive()
             if message["type"] == "http.request":
@@ -86,7 +86,7 @@ class Guard:
                     return {"type": "http.disconnect"}
             return message
 
-        return counted
+        return count_message
 
 
 def _origin(text: str) -> tuple[str, str, int] | None:
@@ -99,7 +99,7 @@ def _origin(text: str) -> tuple[str, str, int] | None:
     return (parts.scheme, parts.hostname, port) if parts.hostname else None
 
 
-def _embedded(headers: dict[str, str]) -> bool:
+def _is_embedded(headers: dict[str, str]) -> bool:
     """Whether the page of another site asks, other than by a link that is followed."""
     if headers.get("sec-fetch-site") not in ("cross-site", "same-site"):
         return False

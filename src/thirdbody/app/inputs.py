@@ -16,7 +16,7 @@ from ..study.load import FORCE
 from ..study.roughness import is_drawn
 from ..systems.bodies import BODIES
 from .bounds import LARGEST_TABLE
-from .entries import Place, dotted
+from .entries import Place, dotted_name
 from .fields import VARIANTS, Field, fields_of, number_field, text_of, value_from
 from .particle_inputs import ParticleInputs
 from .text import with_micro
@@ -127,7 +127,7 @@ class Inputs(ParticleInputs):
         for side in ("first", "second"):
             self.material(("surfaces", side), f"{side} surface")
 
-        async def uploaded(event: events.UploadEventArguments) -> None:
+        async def take_table(event: events.UploadEventArguments) -> None:
             try:
                 self.change("materials", await take(self.state, event))
             except InvalidValue as error:
@@ -135,7 +135,7 @@ class Inputs(ParticleInputs):
 
         about = "a file, dropped below"
         self.field((), Field(name="materials", kind="string", label="own materials", about=about))
-        made = upload("materials", "Own materials", LARGEST_TABLE, uploaded, most=None)
+        made = upload("materials", "Own materials", LARGEST_TABLE, take_table, most=None)
         made.props('accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:
@@ -214,12 +214,12 @@ class Inputs(ParticleInputs):
         """Which load, and its values; under a force the bodies that it presses."""
         table = self.table("load")
         kind = next((name for name in LOADS_BEGUN if name in table), "pressure")
-        self.select(None, LOAD_WORDS, kind, "load", self._loaded)
+        self.select(None, LOAD_WORDS, kind, "load", self._set_load_kind)
         self._values(kind)
         if kind == "force":
             self.body()
 
-    def _loaded(self, kind: str) -> None:
+    def _set_load_kind(self, kind: str) -> None:
         """Another kind of load; bodies come and go with the force."""
         study = {key: value for key, value in self.state.study.items() if key != "body"}
         body = {"body": self.state.get("body") or BODIES_BEGUN["ball-on-flat"]}
@@ -283,7 +283,7 @@ class Inputs(ParticleInputs):
             box = ui.switch(
                 str(getattr(kind, "title", name)), value=self.state.get(*place) is not None
             )
-            set_attributes(box, {"data-path": dotted(place)})
+            set_attributes(box, {"data-path": dotted_name(place)})
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
 
     def output_numbers(self) -> None:

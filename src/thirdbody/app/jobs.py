@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import InvalidValue, Mistake, Problem
-from .solver import TRIES, Died, ended, ended_by
+from .solver import TRIES, Died, ended_by, ended_message
 from .text import without_paths
 
 __all__ = ["MOST", "RUNNING", "Job", "Stopped"]
@@ -139,7 +139,7 @@ class Job:
                 f"{self.task}: it needed more time than the page allows", code=Mistake.TOO_LARGE
             )
         self.ends.append(ended_by(code))
-        raise Died(f"{self.task}: no answer: {ended(self.ends)}")
+        raise Died(f"{self.task}: no answer: {ended_message(self.ends)}")
 
     def cancel(self) -> None:
         """Stop at once."""

@@ -27,7 +27,7 @@ from .text import with_micro
 from .verdict import sentence_of
 from .widgets import set_attributes
 
-__all__ = ["KINDS", "OILS", "NewStudy", "begun", "with_oil"]
+__all__ = ["KINDS", "OILS", "NewStudy", "first_study", "with_oil"]
 
 KINDS = {
     "ball-bearing": "ball bearing",
@@ -87,7 +87,7 @@ FIRST = ("shaft_speed", "ring")
 NUMBERED = ("Bodies and load", "Surfaces", "What is in the oil")
 
 
-def begun(kind: str, which: str = "") -> dict[str, object]:
+def first_study(kind: str, which: str = "") -> dict[str, object]:
     """The study that a form begins with, for a kind of bodies and, of a ball bearing, which one.
 
     Raises
@@ -97,7 +97,7 @@ def begun(kind: str, which: str = "") -> dict[str, object]:
 
     Examples
     --------
-    >>> begun("ball-bearing", "6305")["body"]["bore"], begun("gear")["body"]["kind"]
+    >>> first_study("ball-bearing", "6305")["body"]["bore"], first_study("gear")["body"]["kind"]
     ('25 mm', 'gear')
     """
     if kind in FILED:
@@ -130,7 +130,7 @@ def oil_of(study: dict[str, object]) -> str:
 def with_oil(study: dict[str, object], word: str) -> dict[str, object]:
     """The study with something else in its oil.
 
-    >>> sorted(with_oil(begun("flat"), "clean").keys() & {"particles", "particle_law"})
+    >>> sorted(with_oil(first_study("flat"), "clean").keys() & {"particles", "particle_law"})
     []
     """
     rest = {k: v for k, v in study.items() if k not in ("particles", "particle_law")}
@@ -174,7 +174,9 @@ class NewStudy:
             self.rest = ui.column().classes("w-full gap-0")
             with ui.row().classes("w-full items-center justify-between gap-3 new-end"):
                 self.said = ui.label().classes("so-far").props('role=status data-fact="so far"')
-                self.go = ui.button("Open this study", icon="arrow_forward", on_click=self._opened)
+                self.go = ui.button(
+                    "Open this study", icon="arrow_forward", on_click=self._open_study
+                )
                 set_attributes(self.go.props("no-caps"), {"data-path": "new.open"})
         self.dialog.open()
         self.soon()
@@ -182,12 +184,12 @@ class NewStudy:
     def _begin(self) -> None:
         """A draft of its own; the study of the page stays until the form is done."""
         which = self.which if self.kind == "ball-bearing" else ""
-        self.draft = State(begun(self.kind, which), self.state.folder, later=True)
+        self.draft = State(first_study(self.kind, which), self.state.folder, later=True)
         self.draft.shelf = self.state.shelf
         self.draft.changed.append(self.soon)
-        self.inputs = Inputs(self.draft, self._again)
+        self.inputs = Inputs(self.draft, self._refresh_form)
 
-    def _again(self) -> None:
+    def _refresh_form(self) -> None:
         self._form.refresh()
 
     @ui.refreshable_method
@@ -206,12 +208,12 @@ class NewStudy:
     # ------------------------------------------------------------------ three steps
     def _bodies(self) -> None:
         inputs = self.inputs
-        menu = inputs.select(None, KINDS, self.kind, "what the drawing shows", self._chosen)
+        menu = inputs.select(None, KINDS, self.kind, "what the drawing shows", self._set_kind)
         set_attributes(menu, {"data-path": "new.kind"})
         if self.kind == "ball-bearing":
             size = ui.input("designation", value=self.which).classes("w-full")
             size.props('dense data-path="new.which" hint="6205, 6305-2RS/C3, or 25x52x15 mm"')
-            size.on("change", lambda: self._sized(str(size.value or ""), size))
+            size.on("change", lambda: self._set_size(str(size.value or ""), size))
         if self.draft.get("load", "force") is not None:
             inputs.field(("load",), number_field("force", FORCE))
         else:
@@ -240,7 +242,7 @@ class NewStudy:
 
     def _oil(self) -> None:
         inputs, word = self.inputs, oil_of(self.draft.study)
-        menu = inputs.select(None, OILS, word, "what is there", self._oiled)
+        menu = inputs.select(None, OILS, word, "what is there", self._set_oil)
         set_attributes(menu, {"data-path": "new.oil"})
         if word == "code":
             self._code()
@@ -278,7 +280,7 @@ class NewStudy:
         several = self.draft.get("particles")
         entry = ui.input("ISO 4406 code", value=several[0]["iso4406"]).classes("w-full")
         entry.props('dense data-path="new.code" hint="of the oil, e.g. 18/16/13"')
-        entry.on("change", lambda: self._everywhere("iso4406", str(entry.value or "")))
+        entry.on("change", lambda: self._set_in_all("iso4406", str(entry.value or "")))
         for i, each in enumerate(several):
             share = Field(
                 name="share",
@@ -291,33 +293,33 @@ class NewStudy:
         self.inputs.field(("particles", 0), number_field("gap", AMOUNT["gap"], needed=False))
 
     # ------------------------------------------------------------------ what happens
-    def _everywhere(self, key: str, value: object) -> None:
+    def _set_in_all(self, key: str, value: object) -> None:
         """The same entry in every population."""
         several = self.draft.get("particles")
         if isinstance(several, list):
             self.draft.set("particles", [each | {key: value} for each in several])
 
-    def _chosen(self, kind: str) -> None:
+    def _set_kind(self, kind: str) -> None:
         self.kind = kind
         self._begin()
-        self._again()
+        self._refresh_form()
         self.soon()
 
-    def _sized(self, which: str, entry: ui.input) -> None:
+    def _set_size(self, which: str, entry: ui.input) -> None:
         try:
-            begun(self.kind, which)
+            first_study(self.kind, which)
         except InvalidValue as error:
             entry.error = with_micro("; ".join(error.problems))
             return
         entry.error = None
         self.which = which
         self._begin()
-        self._again()
+        self._refresh_form()
         self.soon()
 
-    def _oiled(self, word: str) -> None:
+    def _set_oil(self, word: str) -> None:
         self.draft.replace(with_oil(self.draft.study, word))
-        self._again()
+        self._refresh_form()
 
     async def _show_answer(self) -> None:
         """The mistakes of the draft, each beside its entry, or its answer so far."""
@@ -338,7 +340,7 @@ class NewStudy:
         self.go.set_enabled(not draft.problems)
         self.said.set_text(with_micro(said))
 
-    def _opened(self) -> None:
+    def _open_study(self) -> None:
         self.dialog.close()
         self.state.open(self.draft.study)
         self.opened("film" if self.draft.get("film") is not None else "interface")

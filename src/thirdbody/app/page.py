@@ -131,9 +131,9 @@ def _plain_names(study: object) -> Any:
     return [_plain_names(item) for item in study] if isinstance(study, list) else study
 
 
-def _took(seconds: float, since: float) -> str:
+def _time_words(seconds: float, since: float) -> str:
     """How long the answer took, and how long before it a process was being started."""
-    starting = solver().prepared(since)
+    starting = solver().starting_seconds(since)
     text = f"answered in {_time(max(seconds - starting, 0.0))}"
     if starting < LEAST:
         return text
@@ -154,11 +154,11 @@ def _time(seconds: float) -> str:
 def page(state: State, told: str, start: Start) -> None:
     """Put everything on the page of one visitor; what is computed follows."""
 
-    def closed() -> None:
+    def close_state() -> None:
         state.close()
         shutil.rmtree(state.folder, ignore_errors=True)
 
-    ui.context.client.on_delete(closed)
+    ui.context.client.on_delete(close_state)
     when_left(state.close)
     ui.add_css(LOOK)
     ui.add_body_html(RESIZE + FOLLOW)
@@ -190,7 +190,7 @@ class Page:
             with ui.row().classes("w-full items-center gap-3"):
                 self.banner = ui.label(told).classes("problem")
                 self.banner.props('role=alert data-said="page"')
-                self.retry = ui.button("Try again", icon="refresh", on_click=self._again)
+                self.retry = ui.button("Try again", icon="refresh", on_click=self._try_again)
                 self.retry.props('flat dense no-caps data-path="again"').set_visibility(False)
             self.getting = ui.label(GETTING).classes("hint")
             self.getting.props('role=status data-said="getting ready"').set_visibility(False)
@@ -198,11 +198,11 @@ class Page:
             with ui.element("div").classes("answer"):
                 self._tabs()
             self.address = Address(state)
-        self.new = NewStudy(state, self._begun)
+        self.new = NewStudy(state, self._show_new_study)
         self.soon = Soon(self._refresh)
         state.changed.append(self.soon)
-        self.tabs.on_value_change(self._turned)
-        ui.on(TRAVELLED, self._travelled)
+        self.tabs.on_value_change(self._show_tab)
+        ui.on(TRAVELLED, self._go_to_address)
         self.soon()
 
     # ------------------------------------------------------------------ what there is
@@ -220,10 +220,12 @@ class Page:
             fresh = ui.button("New study", icon="add", on_click=lambda: self.new.open())
             fresh.props('flat dense no-caps color=white aria-label="a new study, from a drawing"')
             set_attributes(fresh.classes("fresh"), {"data-path": "new"})
-            self.undo = ui.button(icon="undo", on_click=self._undone)
+            self.undo = ui.button(icon="undo", on_click=self._undo_change)
             self.undo.props('flat dense color=white aria-label="undo" data-path="undo"')
             self.names = ui.select(
-                list(EXAMPLES), label="open an example", on_change=lambda e: self._opened(e.value)
+                list(EXAMPLES),
+                label="open an example",
+                on_change=lambda e: self._open_example(e.value),
             )
             self.names.props('dense dark options-dense standout data-path="example"')
             self.names.classes("w-56 examples")
@@ -259,7 +261,7 @@ class Page:
         note_waits(self.waits)
         self.getting.set_visibility(solver().preparing)
         try:
-            await self._shown()
+            await self._show_study()
         except Died as error:
             self.banner.set_text("; ".join(error.problems))
             self.retry.set_visibility(True)
@@ -267,11 +269,11 @@ class Page:
         finally:
             self.getting.set_visibility(False)
 
-    def _again(self) -> None:
+    def _try_again(self) -> None:
         self.state.began = time.perf_counter()
         self.soon()
 
-    async def _shown(self) -> None:
+    async def _show_study(self) -> None:
         """Fields, sliders, the tab in sight."""
         state, library = self.state, self.state.library
         if state.study is not state.read and self.drawing:  # no tab is drawn of two studies
@@ -299,7 +301,7 @@ class Page:
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
         self._say(wrong or self.told)
-        self.verdict.clock.set_text(_took(time.perf_counter() - state.began, state.began))
+        self.verdict.clock.set_text(_time_words(time.perf_counter() - state.began, state.began))
         await self.verdict.show_sentence()
         self.verdict.note(remark)
 
@@ -363,22 +365,22 @@ class Page:
             self.places[name].set_visibility(True)
 
     # ------------------------------------------------------------------ what happens
-    def _opened(self, name: str | None) -> None:
+    def _open_example(self, name: str | None) -> None:
         if name:
             self.names.set_value(None)
             self.state.open(example(name))
             self.side.again()
 
-    def _begun(self, tab: str) -> None:
+    def _show_new_study(self, tab: str) -> None:
         """A new study: the tab that answers it first."""
         self.tabs.set_value(tab)
         self.side.again()
 
-    def _undone(self) -> None:
+    def _undo_change(self) -> None:
         self.state.undo()
         self.side.again()
 
-    async def _travelled(self, event: events.GenericEventArguments) -> None:
+    async def _go_to_address(self, event: events.GenericEventArguments) -> None:
         query = QueryParams(str(event.args).removeprefix("?"))
         self.travels = mine = self.travels + 1
         read = await run.io_bound(self.start.read, query)
@@ -394,11 +396,11 @@ class Page:
         if (study, at, state.tab) == now and state.read is not None:
             return
         state.travel(study, at)
-        self.address.travelled()
+        self.address.follow_browser()
         self.tabs.set_value(state.tab)
         self.side.again()
 
-    def _turned(self) -> None:
+    def _show_tab(self) -> None:
         self.state.tab = str(self.tabs.value or TABS[0])
         self.verdict.turn()
         self.verdict.clock.set_text("")

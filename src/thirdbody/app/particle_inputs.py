@@ -67,10 +67,14 @@ class ParticleInputs(Entries):
             "iso14644": "iso14644: class of a clean room",
         }
         self.select(
-            (*place, "distribution"), labels, kind or "", "sizes", lambda w: self._sized(place, w)
+            (*place, "distribution"),
+            labels,
+            kind or "",
+            "sizes",
+            lambda w: self._set_sizes_kind(place, w),
         )
         if kind in COUNTED:
-            self._counted(place, kind, table[kind])
+            self._build_count(place, kind, table[kind])
         elif kind in VARIANTS["distribution"]:
             for each in fields_of(VARIANTS["distribution"][kind]):
                 self.field(place, each)
@@ -92,7 +96,7 @@ class ParticleInputs(Entries):
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
 
-    def _counted(self, place: Place, kind: str, given: object) -> None:
+    def _build_count(self, place: Place, kind: str, given: object) -> None:
         """A code, or what a counter found, and their options."""
         if isinstance(given, dict):  # dropped on the page
             ui.label(f"{kind}: {bins_in_words(given)}").classes("hint")
@@ -121,7 +125,7 @@ class ParticleInputs(Entries):
                 continue
             self.field(place, number_field(name, AMOUNT[name], needed=False))
 
-    def _sized(self, place: Place, word: str) -> None:
+    def _set_sizes_kind(self, place: Place, word: str) -> None:
         """Another way to give the sizes: what does not go with it goes."""
         table = self.table(*place)
         own = ("material", "name", "law", "strength", "conducts")

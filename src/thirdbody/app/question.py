@@ -67,7 +67,7 @@ class QuestionTab:
 
     def __init__(self, state: State, question: Question) -> None:
         self.state, self.question, self.tab = state, question, state.tab
-        self.inputs = Inputs(state, self._renewed)
+        self.inputs = Inputs(state, self._refresh_form)
         self.there: bool | None = None
         """Whether there were entries."""
         self.answer: Answer | None = None
@@ -86,7 +86,7 @@ class QuestionTab:
             with ui.column().classes("w-full entries"):
                 self._form()
 
-    def _renewed(self) -> None:
+    def _refresh_form(self) -> None:
         self._form.refresh()
 
     @ui.refreshable_method
@@ -97,20 +97,20 @@ class QuestionTab:
             if not isinstance(self.state.get(name), dict):
                 values = ", ".join(f"{key} {value}" for key, value in question.start.items())
                 ui.label(as_shown(f"Shown for {values}.")).classes("hint")
-                change = ui.button("Change these", icon="edit", on_click=self._begun)
+                change = ui.button("Change these", icon="edit", on_click=self._start_question)
                 set_attributes(change.props("no-caps"), {"data-path": f"{name}.add"})
                 return
             for field in (*question.own, *fields_of(question.kind)):
                 if field.name not in question.left_out:
                     self.inputs.field((name,), field)
-            remove = ui.button("Remove", icon="delete", on_click=self._removed)
+            remove = ui.button("Remove", icon="delete", on_click=self._remove_question)
             set_attributes(remove.props("flat dense no-caps"), {"data-path": f"{name}.remove"})
             self.inputs.rest = ui.column().classes("w-full")
 
-    def _begun(self) -> None:
+    def _start_question(self) -> None:
         self.inputs.change(self.question.table, self.question.start)
 
-    def _removed(self) -> None:
+    def _remove_question(self) -> None:
         self.inputs.change(self.question.table, None)
 
     async def draw(self) -> None:
@@ -119,7 +119,7 @@ class QuestionTab:
         if there != self.there:
             self.there = there
             self.grid.classes(**{"remove" if there else "add": "alone"})
-            self._renewed()
+            self._refresh_form()
         self.inputs.show_mistakes()
         answer = self.state.answer
         assert answer is not None

@@ -61,9 +61,9 @@ class Side:
 
     def _section(self, name: str, build: Callable[[], None]) -> None:
         fold = ui.expansion(name, value=name in self.open).classes("w-full")
-        fold.on_value_change(lambda e: self._folded(name, e.value))
+        fold.on_value_change(lambda e: self._remember_fold(name, e.value))
         with fold, ui.column().classes("w-full gap-2"):
             build()
 
-    def _folded(self, name: str, is_open: bool) -> None:
+    def _remember_fold(self, name: str, is_open: bool) -> None:
         (self.open.add if is_open else self.open.discard)(name)

@@ -23,7 +23,7 @@ from .sizing import size_of, with_size
 from .state import Answer, State
 from .widgets import set_attributes
 
-__all__ = ["CODES", "CodeKnob", "Slider", "Sliders", "at_position", "position_of", "shifted"]
+__all__ = ["CODES", "CodeKnob", "Slider", "Sliders", "at_position", "position_of", "shift_code"]
 
 STEPS = 400
 REACH = 10.0
@@ -128,10 +128,10 @@ MOST_SHIFTED = 6
 """Classes that an oil goes up and down."""
 
 
-def shifted(code: str, classes: int) -> str:
+def shift_code(code: str, classes: int) -> str:
     """A cleanliness code by so many classes, each of which doubles the particles.
 
-    >>> shifted("18/16/13", 2), shifted("9/2", -3)
+    >>> shift_code("18/16/13", 2), shift_code("9/2", -3)
     ('20/18/15', '6/0')
     """
     return "/".join(str(max(int(each) + classes, 0)) for each in code.split("/"))
@@ -163,7 +163,7 @@ class CodeKnob(Knob):
 
     def follow(self, position: float) -> None:
         """Set the code of every population by the position of the slider."""
-        code, given = shifted(self.first, round(position)), self.state.get("particles")
+        code, given = shift_code(self.first, round(position)), self.state.get("particles")
         if not self.first or code == self.code():
             return
         self.moved = True
@@ -182,7 +182,7 @@ class CodeKnob(Knob):
         if own or not code:
             return
         here = [n for n in range(-MOST_SHIFTED, MOST_SHIFTED + 1) if self.first]
-        known = [n for n in here if shifted(self.first, n) == code]
+        known = [n for n in here if shift_code(self.first, n) == code]
         self.first = self.first if known else code
         self.slider.set_value(known[0] if known else 0)
 
@@ -201,9 +201,9 @@ class Sliders:
                 self.load.props('aria-label="load" data-slider="load"')
                 self.load.on_value_change(self._load_moved)
             with ui.row().classes("knobs"):
-                self.knobs = [self._knob(knob) for knob in self._all()]
+                self.knobs = [self._knob(knob) for knob in self._knobs()]
 
-    def _all(self) -> list[Knob]:
+    def _knobs(self) -> list[Knob]:
         sizes = Knob(
             "mean size",
             "particles.size",
@@ -276,12 +276,12 @@ class Sliders:
         return value if value > 0 else None
 
     def _knob(self, knob: Knob) -> Knob:
-        def moved(event: ValueChangeEventArguments[float | None]) -> None:
+        def follow_slider(event: ValueChangeEventArguments[float | None]) -> None:
             if not self.moving and event.value is not None:
                 knob.follow(float(event.value))
 
         knob.build()
-        knob.slider.on_value_change(moved)
+        knob.slider.on_value_change(follow_slider)
         return knob
 
     def _load_moved(self, event: ValueChangeEventArguments[float | None]) -> None:

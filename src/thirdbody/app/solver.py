@@ -35,9 +35,9 @@ __all__ = [
     "TRIES",
     "Died",
     "Solver",
-    "apart",
-    "ended",
+    "ask_for_page",
     "ended_by",
+    "ended_message",
     "note_waits",
     "solver",
 ]
@@ -71,10 +71,10 @@ def note_waits(waits: deque[Span]) -> None:
     WAITS.set(waits)
 
 
-def merged(spans: Iterable[Span]) -> list[Span]:
+def merge_spans(spans: Iterable[Span]) -> list[Span]:
     """Spans of time in order, those that meet as one.
 
-    >>> merged([(3.0, 4.0), (0.0, 2.0), (1.0, 2.5)])
+    >>> merge_spans([(3.0, 4.0), (0.0, 2.0), (1.0, 2.5)])
     [(0.0, 2.5), (3.0, 4.0)]
     """
     out: list[Span] = []
@@ -104,10 +104,10 @@ def ended_by(code: int | None) -> str:
     return f"ended by signal {-code}"
 
 
-def ended(how: list[str]) -> str:
+def ended_message(how: list[str]) -> str:
     """What is told where processes ended instead of answering.
 
-    >>> ended(["killed (SIGKILL)"] * 3)[:64]
+    >>> ended_message(["killed (SIGKILL)"] * 3)[:64]
     'the process that computes was killed (SIGKILL), 3 times in a row'
     """
     return (
@@ -261,7 +261,7 @@ class Solver:
                 if self.closed or not wanted():
                     raise asyncio.CancelledError from None
         else:
-            raise Died(f"No answer: {ended(ends)}")
+            raise Died(f"No answer: {ended_message(ends)}")
         if not known:
             self._kill(process, pipe)
             raise InvalidValue(
@@ -333,12 +333,14 @@ class Solver:
         with self.lock:
             self.starting.discard(began)
 
-    def prepared(self, since: float) -> float:
+    def starting_seconds(self, since: float) -> float:
         """Seconds since then in which calls of this context waited while a process was started."""
         now = time.perf_counter()
         with self.lock:
-            starts = merged([*self.starts, *((began, now) for began in self.starting)])
-        waits = merged((max(began, since), end) for began, end in WAITS.get() or () if end > since)
+            starts = merge_spans([*self.starts, *((began, now) for began in self.starting)])
+        waits = merge_spans(
+            (max(began, since), end) for began, end in WAITS.get() or () if end > since
+        )
         return sum(max(min(b, d) - max(a, c), 0.0) for a, b in waits for c, d in starts)
 
     @property
@@ -373,7 +375,7 @@ def solver(warm: Callable[[], None] | None = None) -> Solver:
     return _solver
 
 
-async def apart(call: Callable[[*Args], Found], *args: *Args) -> Found:
+async def ask_for_page(call: Callable[[*Args], Found], *args: *Args) -> Found:
     """`Solver.ask` for the page at hand; nothing comes back to one that was closed."""
     client = ui.context.client
     found = await solver().ask(call, *args, wanted=lambda: not client._deleted)

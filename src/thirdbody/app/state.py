@@ -24,12 +24,12 @@ from ..equilibrium.load import as_load
 from ..errors import InvalidValue, Mistake, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
 from ..study.life_contact import BOUNDARY
-from ..study.load import pressed
+from ..study.load import press_forces
 from ..systems.bodies import Pressed
 from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
 from .folders import Shelf
 from .jobs import Job, Stopped
-from .solver import Died, apart
+from .solver import Died, ask_for_page
 from .text import without_paths
 
 __all__ = [
@@ -78,7 +78,7 @@ class Answer:
         return "d" if self.study.load == "separation" else self.study.load
 
     @property
-    def forced(self) -> bool:
+    def has_one_force(self) -> bool:
         """Whether one force presses bodies: the loads are its mean and largest pressure."""
         return self.study.forces is not None and len(self.study.forces) == 1
 
@@ -89,10 +89,10 @@ class Answer:
         if len(values) > MOST_DRAWN:
             every = np.linspace(0, len(values) - 1, MOST_DRAWN).round().astype(int)
             values = values[np.unique(every)]
-        if len(values) > 1 and not self.forced:
+        if len(values) > 1 and not self.has_one_force:
             return values
         middle = float(values[0])
-        if self.forced:  # from little up to the largest pressure
+        if self.has_one_force:  # from little up to the largest pressure
             return np.geomspace(middle / 100, float(self.study.values.max()), POINTS)
         if self.load == "d":
             width = 2 * self.contact.roughness.sigma
@@ -117,7 +117,7 @@ class Answer:
         """What forces do to their bodies, integrated over the contact as `run_study` does it."""
         if self.study.body is None or self.study.forces is None:
             return []
-        return pressed(self.study.body, self.study.forces, self.contact)
+        return press_forces(self.study.body, self.study.forces, self.contact)
 
     @property
     def particles_held(self) -> float:
@@ -153,7 +153,7 @@ class Answer:
 
         Under one force that is its mean pressure.
         """
-        if len(self.study.values) == 1 or self.forced:
+        if len(self.study.values) == 1 or self.has_one_force:
             return float(self.study.values[0])
         first, last = float(self.loads[0]), float(self.loads[-1])
         if first <= 0:
@@ -197,7 +197,7 @@ def look(study: Tables, folder: Path, surface: Measured | None = None) -> Looked
         if surface is not None:
             problems += surface.get("problems", [])
             given["roughness"] = surface.get("roughness", {"sigma": 1e-7, "R": 1e-6})
-        found, left_out = _checked(given, folder)
+        found, left_out = _check_study(given, folder)
         problems += left_out
         if surface is not None:
             found = dataclasses.replace(found, notes=(*surface.get("notes", []), *found.notes))
@@ -213,7 +213,7 @@ def look(study: Tables, folder: Path, surface: Measured | None = None) -> Looked
     return answer, problems, library
 
 
-def _checked(study: Tables, folder: Path) -> tuple[Study, list[Problem]]:
+def _check_study(study: Tables, folder: Path) -> tuple[Study, list[Problem]]:
     """The study without the outputs that have mistakes, and those; other mistakes are raised."""
     try:
         return check(study, folder=folder), []
@@ -227,11 +227,11 @@ def _checked(study: Tables, folder: Path) -> tuple[Study, list[Problem]]:
         if len(kept) == len(outputs):
             raise
         rest = {key: value for key, value in study.items() if key != "outputs"}
-        found, more = _checked(rest | ({"outputs": kept} if kept else {}), folder)
+        found, more = _check_study(rest | ({"outputs": kept} if kept else {}), folder)
         return found, [*error.problems, *more]
 
 
-def measured(study: Tables, folder: Path) -> str:
+def surface_key(study: Tables, folder: Path) -> str:
     """What names a measured surface that the study builds on; empty where there is none."""
     rough = study.get("roughness")
     names = files_of({"topography": rough.get("topography")}) if isinstance(rough, dict) else []
@@ -248,7 +248,7 @@ def loads_as(answer: Answer, name: str) -> np.ndarray:
     return np.asarray(getattr(answer.curves, name))
 
 
-def _with(
+def _call_and_learn(
     call: Callable[[Answer, *Args], Found], answer: Answer, args: tuple[*Args]
 ) -> tuple[Found, Tables]:
     """What a function of an answer gives, and what the answer has learned by it."""
@@ -411,7 +411,7 @@ class State:
             refuse_foreign_files(study, self.folder)
             if self._unread():
                 await self._measure()
-            found = await apart(look, study, self.folder, self._surface())
+            found = await ask_for_page(look, study, self.folder, self._surface())
         except Died:
             raise  # which says nothing of the study: it is read when it is asked for again
         except InvalidValue as error:
@@ -429,12 +429,12 @@ class State:
         """What a function of the answer and more arguments gives, computed beside the server."""
         answer = self.answer
         assert answer is not None
-        found, more = await apart(_with, call, answer, args)
+        found, more = await ask_for_page(_call_and_learn, call, answer, args)
         answer.__dict__.update(more)
         return found
 
     # ------------------------------------------------------------------ files
-    def took(self, name: str, key: str | None) -> None:
+    def note_file(self, name: str, key: str | None) -> None:
         """A file was given to the page; a study that names it is read anew."""
         if key is not None:
             self.files[name] = key
@@ -453,15 +453,15 @@ class State:
 
     # ------------------------------------------------------------------ measured surfaces
     def _surface(self) -> Measured | None:
-        return self.surfaces.get(measured(self.study, self.folder))
+        return self.surfaces.get(surface_key(self.study, self.folder))
 
     def _unread(self) -> bool:
-        key = measured(self.study, self.folder)
+        key = surface_key(self.study, self.folder)
         return bool(key) and key not in self.surfaces
 
     async def _measure(self) -> None:
         """Have the files read by a process of their own, which gives numbers."""
-        key = measured(self.study, self.folder)
+        key = surface_key(self.study, self.folder)
         tables = {k: v for k, v in self.study.items() if k in ("roughness", "asperity_law")}
         self.reading = Job("roughness", seconds=SECONDS)
         try:

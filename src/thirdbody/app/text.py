@@ -10,7 +10,7 @@ from urllib.parse import quote
 
 from ..errors import InvalidValue, Mistake
 from ..quantities.say import unbroken
-from ..study.toml_text import to_toml, written
+from ..study.toml_text import to_toml, toml_value
 from .bounds import refuse_large, refuse_long_names
 
 __all__ = [
@@ -22,9 +22,9 @@ __all__ = [
     "in_ascii",
     "to_link",
     "to_toml",
+    "toml_value",
     "with_micro",
     "without_paths",
-    "written",
 ]
 
 LONGEST_STUDY = 200_000

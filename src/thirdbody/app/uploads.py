@@ -69,5 +69,5 @@ async def take(state: State, event: UploadEventArguments) -> str:
     key = None
     if state.shelf is not None:
         key = await asyncio.to_thread(state.shelf.keep, state.folder / name)
-    state.took(name, key)
+    state.note_file(name, key)
     return name

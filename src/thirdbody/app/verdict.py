@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from nicegui import ui
 
-from ..errors import Note, ranked
+from ..errors import Note, rank_notes
 from ..quantities.say import percent
 from .state import Answer, State
 from .tabs.interface import headline
@@ -118,7 +118,7 @@ class Verdict:
             notes = [*answer.notes, *notes]
         self.remark.set_text(remark)
         self.remark.set_visibility(bool(remark))
-        known = ranked(notes)
+        known = rank_notes(notes)
         self.tab = self.state.tab
         self.badge.set_visibility(True)
         if known == self.noted:

@@ -13,8 +13,8 @@ from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue
 from .jobs import MOST, RUNNING, Job, Stopped
-from .solver import apart, note_waits, solver
-from .state import State, measured
+from .solver import ask_for_page, note_waits, solver
+from .state import State, surface_key
 from .text import as_shown
 from .widgets import set_attributes
 from .worker import in_little
@@ -37,12 +37,12 @@ def when_left(call: Callable[[], None]) -> None:
     """Call when the page at hand is closed, not when its connection breaks for a moment."""
     client = ui.context.client
 
-    async def later() -> None:
+    async def call_when_gone() -> None:
         await asyncio.sleep(LEFT)
         if not client.has_socket_connection:
             call()
 
-    client.on_disconnect(lambda: background_tasks.create(later()))
+    client.on_disconnect(lambda: background_tasks.create(call_when_gone()))
     client.on_delete(call)
 
 
@@ -118,14 +118,14 @@ class Work(Generic[Found]):
 
     async def update_preview(self, state: State) -> None:
         """Show a preview of the study as it is, then all of it; or say that it does not fit."""
-        if self._wanted(state) and not self.trying and not self._fits(self.tried):
+        if self._is_wanted(state) and not self.trying and not self._fits(self.tried):
             self.tried, self.trying = (self.key(),), True
             background_tasks.create(self._try(state))  # the page does not wait for it
         self._fit()
 
-    def _wanted(self, state: State) -> bool:
+    def _is_wanted(self, state: State) -> bool:
         """Whether another answer begins of itself."""
-        if self.little is None or state.problems or measured(state.study, state.folder):
+        if self.little is None or state.problems or surface_key(state.study, state.folder):
             return False
         return self.done is None or not (self.slow or self._fits(self.done))
 
@@ -135,7 +135,7 @@ class Work(Generic[Found]):
         began, asked_for = time.perf_counter(), self.tried
         try:
             shown = await self._by_itself(self.little)
-            self.slow = time.perf_counter() - began - solver().prepared(began) > SLOW
+            self.slow = time.perf_counter() - began - solver().starting_seconds(began) > SLOW
         finally:
             self.trying = False
         if self.said.client._deleted:
@@ -202,7 +202,9 @@ class Work(Generic[Found]):
                     asked = await asked
                 if asked is None:
                     return False
-                result = await apart(in_little, self.task, little(asked) if little else asked)
+                result = await ask_for_page(
+                    in_little, self.task, little(asked) if little else asked
+                )
             except InvalidValue as error:
                 if self.tried is asked_for and self.done is before:
                     self.fail("; ".join(error.problems), asked_for[0])
@@ -211,11 +213,11 @@ class Work(Generic[Found]):
                 return False  # asked anew or done by the button meanwhile, or nobody looks
             self.preview, self.done, self.failed = little is not None, asked_for, None
             self.said.set_text("")
-            await self._shown(result)
+            await self._show_result(result)
             self._fit()
             return True
 
-    async def _shown(self, result: object) -> None:
+    async def _show_result(self, result: object) -> None:
         shown = self.show(cast(Found, result))
         if shown is not None:
             await shown
@@ -257,7 +259,7 @@ class Work(Generic[Found]):
             current = self.same(key, self.key())
             self.stale.set_text("" if current else STALE)
             self.stale.set_visibility(not current)
-            await self._shown(result)
+            await self._show_result(result)
         finally:
             self.job = None
             self._idle()

@@ -36,8 +36,8 @@ __all__ = [
     "Reading",
     "Surface",
     "compare",
-    "compared",
-    "counted",
+    "compare_laws",
+    "counter_bins",
     "design",
     "error_bars",
     "explicit",
@@ -283,10 +283,10 @@ def compare(
     """The same interface under every asperity law."""
     contact = _study(study, folder).contact
     report(0.05)
-    return compared(contact, load, loads)
+    return compare_laws(contact, load, loads)
 
 
-def compared(contact: Contact, load: str, loads: list[float]) -> Laws:
+def compare_laws(contact: Contact, load: str, loads: list[float]) -> Laws:
     """Every asperity law under these loads."""
     import thirdbody as tb
 
@@ -360,16 +360,16 @@ def error_bars(
             outputs=[*names, "F_star"],
         )
 
-    def within(done: int, expected: int) -> None:
+    def report_part(done: int, expected: int) -> None:
         report(0.9 * min(done / expected, 1.0) / (1 if critical else len(loads)))
 
     for number, value in enumerate([] if critical else loads):
-        with progress.counted(samples, None if number else within):
+        with progress.counted(samples, None if number else report_part):
             found = states_under(value)
         rows.append(found.bands[of])
         nominal.append(found.nominal[of])
         report(0.9 * (number + 1) / len(loads))
-    with progress.counted(samples, within if critical else None):
+    with progress.counted(samples, report_part if critical else None):
         point = states_under(at)
     report(0.95)
     found_at = {
@@ -446,7 +446,7 @@ def surface(*, file: str, options: Reading, report: Report) -> Surface:
     return plain_data(told | more)
 
 
-def counted(file: str) -> dict[str, list[float]]:
+def counter_bins(file: str) -> dict[str, list[float]]:
     """The bins of a particle counter, as a study file writes them."""
     from ..populations.measured.sizes import read_sizes
 

@@ -125,7 +125,7 @@ def _sheets(
     from ..views.printed_tables import grid_of_words
     from ..views.question_sheets import inputs_of, question_sheets
 
-    given = found.asked.described
+    given = found.asked.described_inputs
     below: list[str | Grid | bytes] = []
     for each in more:
         below += [each.above, grid_of_words(each.heads, each.rows)]

@@ -37,14 +37,14 @@ def terminal() -> Console:
         def print(self, *objects: object, **how: Any) -> None:
             """Print as rich does, but for sentences: their numbers stay beside their units."""
             lines = [
-                _filled(each, self.width) if isinstance(each, str) else each for each in objects
+                _fill_lines(each, self.width) if isinstance(each, str) else each for each in objects
             ]
             super().print(*lines, **how)
 
     return Terminal(file=sys.stdout, width=width, highlight=False, markup=False, emoji=False)
 
 
-def _filled(text: str, width: int) -> str:
+def _fill_lines(text: str, width: int) -> str:
     """A text whose longer lines are broken into lines of so many characters."""
     return "\n".join(fill(line, width) if len(line) > width else line for line in text.split("\n"))
 

@@ -34,7 +34,7 @@ from ..errors import (
     Problem,
     in_study,
     note_of,
-    ranked,
+    rank_notes,
 )
 from ..quantities.say import plural, unbroken
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
@@ -244,7 +244,7 @@ def warn_of(notes: Iterable[str]) -> None:
 
     What was said of the inputs counts among the most that are shown; the worst is always shown.
     """
-    worst = ranked(notes)
+    worst = rank_notes(notes)
     shown = worst if SHOWS_ALL.get() else worst[: max(MOST_SHOWN - WARNINGS.get(), 1)]
     for note in shown:
         warn(note)

@@ -487,7 +487,7 @@ def _ensemble(
             )
         )
     for kind, words in (("raw", "these surfaces"), ("cv", "these surfaces without their luck")):
-        outside = ", ".join(number(each, 3) for each in loads[at[kind].outside].tolist())
+        outside = ", ".join(number(each, 3) for each in loads[at[kind].is_outside].tolist())
         if outside:
             told.append(
                 Note(
@@ -498,7 +498,7 @@ def _ensemble(
                 )
             )
     told += at["cv" if gaussian else "raw"].doubts(loads, columns="_cv" if gaussian else "")
-    told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
+    told += _few_points_notes(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[object]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
         columns[name] = [value for each in records for value in each["columns"][name]]
@@ -516,7 +516,9 @@ def _ensemble(
     )
 
 
-def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> list[str]:
+def _few_points_notes(
+    records: list[dict[str, Any]], pool: Pool, grid: Array, h: float
+) -> list[str]:
     """Where the smallest load, at separation h, is carried by a few points of all surfaces."""
     each = [
         np.add(one["columns"]["carrying_pixels"], one["columns"]["carrying_particles"])

@@ -56,7 +56,7 @@ class AtLoads:
     idle: NDArray[np.bool_]
 
     @property
-    def outside(self) -> NDArray[np.bool_]:
+    def is_outside(self) -> NDArray[np.bool_]:
         """Loads that the surfaces carry at none of the separations pressed."""
         return np.isnan(self.values["h"])
 

@@ -153,7 +153,7 @@ def press(
         p and f to begin with.
     """
 
-    def every(stride: int) -> _Programme:
+    def coarse_programme(stride: int) -> _Programme:
         return _Programme(
             np.ascontiguousarray(z[::stride, ::stride]) if stride > 1 else z,
             spacing * stride, E_star, c=c[::stride, ::stride], bodies=bodies, load=load, h=h,
@@ -164,10 +164,12 @@ def press(
     n, m = z.shape
     if start is None and min(n, m) >= NESTED_FROM and n % 4 == 0 and m % 4 == 0:
         for stride in (4, 2):
-            found = _press(every(stride), start, max(tol, ROUGH), max_iterations=60)
+            found = _press(coarse_programme(stride), start, max(tol, ROUGH), max_iterations=60)
             coarse += found.iterations
             start = found.p.repeat(2, axis=0).repeat(2, axis=1), found.f
-    return dataclasses.replace(_press(every(1), start, tol, max_iterations), coarse=coarse)
+    return dataclasses.replace(
+        _press(coarse_programme(1), start, tol, max_iterations), coarse=coarse
+    )
 
 
 def _press(
@@ -186,7 +188,7 @@ def _press(
         if certificate < tol or iterations >= max_iterations:
             if judged or iterations == 0:
                 break
-            judged, x.u = True, programme.displaced(x.p, x.phi)  # the answer has a u of its own
+            judged, x.u = True, programme.displacement(x.p, x.phi)  # the answer has a u of its own
             continue
         judged = False
 
@@ -202,7 +204,7 @@ def _press(
         a *= float(np.clip(free, 0.3, 3) if s.clipped else np.clip(free, 0.1, 10))
         last = s
         if iterations % AFRESH == 0:
-            x.u = programme.displaced(x.p, x.phi)
+            x.u = programme.displacement(x.p, x.phi)
 
     return Pressed(
         p=x.p, f=x.phi * programme.area, squeeze=A.available, u=x.u, h=-x.level,
@@ -316,7 +318,7 @@ class _Programme:
             p, phi = np.clip(start[0], 0, self.c), np.clip(start[1] / self.area, 0, self.most)
         if self.total is not None:
             p, phi = rescale(p, phi, self.c, self.most, self.total)
-        u = self.displaced(p, phi)
+        u = self.displacement(p, phi)
         level = -self.h if self.h is not None else _first_level(p, self.c, u - self.z)
         return _Iterate(p, phi, u, level)
 
@@ -351,11 +353,11 @@ class _Programme:
         """p + Dφ [Pa]."""
         return self.placed.spread(phi, p) if len(self.bodies) else p
 
-    def displaced(self, p: Array, phi: Array) -> Array:
+    def displacement(self, p: Array, phi: Array) -> Array:
         """u = K(p + Dφ) [m], in float64."""
         return self.exact.displacement(self._with_particles(p, phi))
 
-    def _beneath(self, u: Array, phi: Array) -> Array:
+    def _displacement_beneath(self, u: Array, phi: Array) -> Array:
         """Displacement under each particle, without the dent that its law counts already [m]."""
         return self.placed.at_particles(u) - self.own * phi if len(self.bodies) else phi
 
@@ -371,7 +373,7 @@ class _Programme:
         )
         if deepest > 0:
             outer += self._lack_without_cap(x, sum_p, under, deepest)
-        available = self.top + x.level - self._beneath(x.u, phi)
+        available = self.top + x.level - self._displacement_beneath(x.u, phi)
         reached = self.bodies.force(available) / self.area
         r_k = available - squeeze
         can = ((phi > 0) | (reached > 0)) & ~((phi >= self.most) & (r_k >= 0))
@@ -422,7 +424,7 @@ class _Programme:
         s, s_k = np.zeros_like(x.p), along[count:]
         s.reshape(-1)[A.where] = along[:count]
         Ks = self.space.displacement(self._with_particles(s, s_k))
-        linear = self._beneath(Ks, s_k)
+        linear = self._displacement_beneath(Ks, s_k)
         Hs_k = linear + np.divide(s_k, A.M, out=np.zeros_like(A.M), where=A.M > 0)
         quadratic = _dot(s, Ks) + _dot(s_k, linear)
         return _Step(

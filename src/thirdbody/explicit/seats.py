@@ -86,7 +86,7 @@ class RandomSeats(AbstractSeats):
     """Anywhere: ζ has the heights of the surface."""
 
     def draw(self, z: Array, spacing: float, size: Array, rng: np.random.Generator) -> Seated:
-        x, y = _anywhere(z, spacing, len(size), rng)
+        x, y = _random_places(z, spacing, len(size), rng)
         return Seated(x, y, np.zeros(len(size)))
 
 
@@ -173,7 +173,7 @@ class SphereSeats(AbstractSeats):
     """At a random place, as a sphere rests on all heights under it."""
 
     def draw(self, z: Array, spacing: float, size: Array, rng: np.random.Generator) -> Seated:
-        x, y = _anywhere(z, spacing, len(size), rng)
+        x, y = _random_places(z, spacing, len(size), rng)
         return Seated(x, y, _rest(z, spacing, x, y, size))
 
 
@@ -291,7 +291,7 @@ def seat_heights(zeta: Array) -> SeatHeights:
 
 
 # -------------------------------------------------------------------------- rules
-def _anywhere(z: Array, spacing: float, count: int, rng: np.random.Generator) -> Array:
+def _random_places(z: Array, spacing: float, count: int, rng: np.random.Generator) -> Array:
     side = np.array(z.shape) * spacing
     return np.ascontiguousarray((rng.random((count, 2)) * side).T)
 
@@ -306,7 +306,7 @@ def _best(
     sign: float,
 ) -> Seated:
     """Place of the largest ``sign`` × height among ``spots`` places in a circle."""
-    middle = _anywhere(z, spacing, count, rng)
+    middle = _random_places(z, spacing, count, rng)
     away = within * np.sqrt(rng.random((count, spots)))
     turn = 2 * math.pi * rng.random((count, spots))
     x = (middle[0][:, None] + away * np.cos(turn)) % (z.shape[0] * spacing)
@@ -325,7 +325,7 @@ def _descend(
     """Along the gradient in steps of half a pixel, until a step would lead up."""
     slopes = [(np.roll(z, -1, axis) - np.roll(z, 1, axis)) / (2 * spacing) for axis in (0, 1)]
     side = np.array(z.shape)[:, None] * spacing
-    at = np.array(_anywhere(z, spacing, count, rng))
+    at = np.array(_random_places(z, spacing, count, rng))
     height, going = height_at(z, spacing, *at), np.ones(count, bool)
     steps = max(1, math.ceil(distance / (0.5 * spacing)))
     for _ in range(steps):
@@ -351,7 +351,7 @@ def _to_the_end(z: Array, spacing: float, count: int, rng: np.random.Generator) 
         fall[here] = slope[here]
         to[here] = np.roll(points, (-a, -b), axis=(0, 1))[here]
     next_ = to.ravel()
-    x, y = _anywhere(z, spacing, count, rng)
+    x, y = _random_places(z, spacing, count, rng)
     at = np.round(x / spacing).astype(np.int64) % n * m + np.round(y / spacing).astype(np.int64) % m
     while np.any(next_[at] != at):
         at = next_[at]

@@ -177,7 +177,7 @@ def dirt_behind(size: float, turnover: float, *, beta: float = 75.0) -> float:
     return float(np.mean(history.numbers.sum(axis=2) @ counted))
 
 
-def _over(coarse: float, fine: float) -> Band:
+def _dirt_ratio(coarse: float, fine: float) -> Band:
     return Band.from_values([dirt_behind(coarse, t) / dirt_behind(fine, t) for t in TURNOVERS])
 
 
@@ -409,13 +409,13 @@ def _rows() -> Iterable[Row]:
     yield row(
         "filters1979",
         {
-            "fine": partial(_over, FILTERS[1], FILTERS[0]),
-            "coarse": partial(_over, FILTERS[2], FILTERS[1]),
-            "coarsest": partial(_over, FILTERS[3], FILTERS[2]),
+            "fine": partial(_dirt_ratio, FILTERS[1], FILTERS[0]),
+            "coarse": partial(_dirt_ratio, FILTERS[2], FILTERS[1]),
+            "coarsest": partial(_dirt_ratio, FILTERS[3], FILTERS[2]),
         },
         panels=(_filters,),
     )
-    yield row("ultraclean1982", {"order": _ultraclean, "factor": partial(_over, 49e-6, 3e-6)})
+    yield row("ultraclean1982", {"order": _ultraclean, "factor": partial(_dirt_ratio, 49e-6, 3e-6)})
     yield row("needelman", {"order": _monotone})
     yield row("microabrasion1999", {"maximum": _maximum})
     yield row("rabinowicz1961", {"share": _rolling, "tenth": _not_computed})

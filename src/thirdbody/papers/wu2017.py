@@ -133,7 +133,7 @@ def solve(name: str, pressures: Array, factors: Mapping[str, float]) -> Trend:
 READINGS = readings_of("wu2017", PRESSURES, solve)
 
 
-def slid(reading: Reading, pressures: Array | None = None, **factors: float) -> Slid:
+def friction_trend(reading: Reading, pressures: Array | None = None, **factors: float) -> Slid:
     """The contact with some inputs multiplied."""
     trend = reading.trend(pressures, **factors)
     assert isinstance(trend, Slid)
@@ -145,7 +145,7 @@ def friction_over_sizes(reading: Reading, roughness: float) -> Array:
     """μ by x_a/σ (rows) and pressure."""
     return np.stack(
         [
-            slid(reading, size=ratio * SIGMA / SIZE * roughness, roughness=roughness).mu
+            friction_trend(reading, size=ratio * SIGMA / SIZE * roughness, roughness=roughness).mu
             for ratio in RATIOS
         ]
     )
@@ -174,7 +174,7 @@ def particle_over_asperity(reading: Reading) -> Measurement:
     """Smallest and largest μ_sa/μ_ss over loads and x_a/σ."""
     ratio = []
     for each in RATIOS:
-        trend = slid(reading, size=each * SIGMA / SIZE)
+        trend = friction_trend(reading, size=each * SIGMA / SIZE)
         ratio.append(trend.mu_sa / trend.mu_ss)
     return Measurement.from_values(np.min(ratio), np.max(ratio))
 
@@ -213,7 +213,7 @@ def elastic_below(reading: Reading) -> Measurement:
     if value is None:
         return Measurement.absent("no critical load")
     E = contact(FEW).E_ss
-    trend = slid(reading, np.array([0.5 * value * E]))
+    trend = friction_trend(reading, np.array([0.5 * value * E]))
     return Measurement.from_values(
         trend.elastic[0], note=f"elastoplastic {trend.elastoplastic[0]:.3g}, the rest plastic"
     )
@@ -225,7 +225,7 @@ def elastoplastic_above(reading: Reading, factor: float) -> Measurement:
     if value is None:
         return Measurement.absent("no critical load")
     E = contact(FEW).E_ss
-    trend = slid(reading, np.array([factor * value * E]))
+    trend = friction_trend(reading, np.array([factor * value * E]))
     return Measurement.from_values(trend.elastoplastic[0])
 
 
@@ -234,7 +234,7 @@ def two_body_above(reading: Reading, factor: float) -> Measurement:
     value = critical_load(reading, 1.0)
     if value is None:
         return Measurement.absent("no critical load")
-    trend = slid(reading, np.array([factor * value * contact(FEW).E_ss]))
+    trend = friction_trend(reading, np.array([factor * value * contact(FEW).E_ss]))
     return Measurement.from_values(trend.ratio[0])
 
 
@@ -242,7 +242,7 @@ def rule_holds(reading: Reading) -> Measurement:
     """Part of all loads and sizes at which μ < μ_bare exactly where μ_sa < μ_bare."""
     agree = []
     for each in RATIOS:
-        trend = slid(reading, size=each * SIGMA / SIZE)
+        trend = friction_trend(reading, size=each * SIGMA / SIZE)
         agree.append((trend.mu < trend.bare_mu) == (trend.mu_sa < trend.bare_mu))
     return Measurement.from_values(np.mean(agree))
 
@@ -251,7 +251,9 @@ def slope_follows(reading: Reading) -> Measurement:
     """Part of all steps in size in which μ falls exactly where μ_sa was below μ_ss."""
     agree = []
     for small, large in zip(RATIOS[:-1], RATIOS[1:], strict=True):
-        before, after = (slid(reading, size=each * SIGMA / SIZE) for each in (small, large))
+        before, after = (
+            friction_trend(reading, size=each * SIGMA / SIZE) for each in (small, large)
+        )
         agree.append((after.mu < before.mu) == (before.mu_sa < before.mu_ss))
     return Measurement.from_values(np.mean(agree))
 
@@ -261,7 +263,7 @@ def density_of_no_effect(reading: Reading, size: float, pressure: float) -> Meas
     base = CASES[reading.name][0]
 
     def is_higher(factor: float) -> bool:
-        trend = slid(reading, np.array([pressure]), size=size, density=factor)
+        trend = friction_trend(reading, np.array([pressure]), size=size, density=factor)
         return bool(trend.mu[0] > trend.bare_mu[0])
 
     low, high = 1e9 / base, 3e11 / base
@@ -281,7 +283,7 @@ def size_panel() -> Panel:
     """μ against x_a/σ for three densities, and without ploughing."""
     ratios = np.linspace(0.5, 6.0, 34)
     pressure = np.array([5e6])
-    bare = slid(READINGS["few"], pressure).bare_mu[0]
+    bare = friction_trend(READINGS["few"], pressure).bare_mu[0]
     lines = [Line("no particles", ratios, np.full_like(ratios, bare), -1)]
     cases = (
         ("few", 1.0, r"$\eta_a = 10^{10}$ m$^{-2}$"),
@@ -291,7 +293,9 @@ def size_panel() -> Panel:
     )
     for i, (name, density, label) in enumerate(cases):
         mu = [
-            slid(READINGS[name], pressure, size=ratio * SIGMA / SIZE, density=density).mu[0]
+            friction_trend(READINGS[name], pressure, size=ratio * SIGMA / SIZE, density=density).mu[
+                0
+            ]
             for ratio in ratios
         ]
         lines.append(Line(label, ratios, np.array(mu), i, i))
@@ -312,7 +316,10 @@ def density_panel() -> Panel:
     """Coefficients of particles and asperities against density."""
     densities = np.geomspace(1e9, 3e11, 34)
     pressure = np.array([5e6])
-    trends = [slid(READINGS["few"], pressure, size=5 / 3, density=each / FEW) for each in densities]
+    trends = [
+        friction_trend(READINGS["few"], pressure, size=5 / 3, density=each / FEW)
+        for each in densities
+    ]
     lines = (
         Line("no particles", densities, np.array([t.bare_mu[0] for t in trends]), -1),
         Line(r"$\mu$", densities, np.array([t.mu[0] for t in trends]), 0, 0),

@@ -32,7 +32,7 @@ class Asked(Protocol):
         """Notes on numbers that were taken because the file leaves them out."""
 
     @property
-    def described(self) -> Described:
+    def described_inputs(self) -> Described:
         """Inputs with symbols and units."""
 
 

@@ -22,7 +22,7 @@ from .reader import (
     quantity_key,
     read_number,
     read_word,
-    refused,
+    refused_key,
     table_of,
     wrong,
 )
@@ -83,7 +83,7 @@ def _ellipticity(reader: Reader, path: str, data: object) -> object:
         keys = dict(keys_of(Ellipticity))
         keys["ratios"] = keys["ratios"]._replace(about="e.g. ratios = [1, 2, 5]")
         keys |= {
-            key: refused(SECOND_SHAPE, Mistake.CLASH)
+            key: refused_key(SECOND_SHAPE, Mistake.CLASH)
             for key in (*FACE_KEYS, "angle")
             if key in given
         }
@@ -122,7 +122,7 @@ FACE_KEYS = {
     for key in (*RATIOS, *RADII)
 }
 ANGLE = Key(_angle, True, 'angle = "30 deg", or angle = "random"', {"type": ["number", "string"]})
-ELLIPTICITY = refused(NO_SHAPE, Mistake.KIND)._replace(
+ELLIPTICITY = refused_key(NO_SHAPE, Mistake.KIND)._replace(
     about="shapes of elliptic asperities", table=_ellipticity, also=({"first": 1},)
 )
 FIELDS["Ellipticity | None"] = ELLIPTICITY

@@ -26,7 +26,7 @@ def bearing_file(template: str, which: str) -> str:
     """
     size = bearing_size(which)
     bearing = size.bearing()
-    force = _rounded(LOAD * bearing.rating)
+    force = _force_in_kn(LOAD * bearing.rating)
     typical = "estimated" if size.estimated else "typical"
     iso = "as given" if size.estimated else "ISO 15"
     lines = {
@@ -56,7 +56,7 @@ def _mm(value: float) -> str:
     return f'"{1e3 * value:g} mm"'
 
 
-def _rounded(force: float) -> str:
+def _force_in_kn(force: float) -> str:
     """A force to two digits, in kN."""
     return f"{float(f'{1e-3 * force:.2g}'):g}"
 

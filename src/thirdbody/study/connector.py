@@ -51,7 +51,7 @@ class AskedConnector:
     stated: frozenset[str] = frozenset()
 
     @property
-    def described(self) -> Described:
+    def described_inputs(self) -> Described:
         """Inputs with symbols and units."""
         return describe("connector.", self.connector)
 
@@ -104,7 +104,7 @@ def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
         forces=forces,
         notes=tuple(notes),
         assumed=tuple(reader.assumed),
-        stated=reader.stated,
+        stated=reader.stated_keys,
     )
 
 

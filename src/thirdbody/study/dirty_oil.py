@@ -23,7 +23,7 @@ from ..systems.film_conditions import FilmConditions
 from ..systems.machine_elements import RadialBearing
 from ..systems.oil_filter import Filter
 from ..systems.oil_particles import FilmParticles
-from .tracks import HOUR, SIDE, Track, speed_of, swept
+from .tracks import HOUR, SIDE, Track, speed_of, track_areas
 from .whole import Study
 
 __all__ = ["DirtyOil", "Life", "PopulationDents", "dirty_oil", "need_particles", "read_filter"]
@@ -206,7 +206,7 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
         shares = [float(each.load_share) for each in state.state.populations]
         shares = shares or [float(state.state.particle_load_share)]
         force = None if study.forces is None else float(study.forces[0])
-        rate, area, where = swept(study.body, force, film, E_star=contact.E_ss, speed=speed)
+        rate, area, where = track_areas(study.body, force, film, E_star=contact.E_ss, speed=speed)
         track = Track(
             name=where, surfaces=contact.surfaces, film=h, rate=rate, area=area,
             entry=1.0 if film.entrainment is None else film.entrainment.entry_ratio,

@@ -118,7 +118,7 @@ class AskedLife:
     stated: frozenset[str] = frozenset()
 
     @property
-    def described(self) -> Described:
+    def described_inputs(self) -> Described:
         """What the tables describe."""
         bodies = {
             each.material.name or "particles": each.material
@@ -217,7 +217,7 @@ FILTERS = Key(
 
 
 # -------------------------------------------------------------------------- what is waited for
-def _until(reader: Reader, path: str, data: object) -> tuple[until.Until, ...]:
+def _read_until(reader: Reader, path: str, data: object) -> tuple[until.Until, ...]:
     """What ends the history."""
     keys = {
         "iso4406": CODE._replace(about="the oil reaches this code"),
@@ -291,7 +291,7 @@ def _keys() -> dict[str, Key]:
         ),
         "design": design_key(partial(_filter, with_flow=False)),
         "until": Key(
-            None, False, 'what ends it earlier, e.g. iso4406 = "21/19/16"', NOTHING, _until
+            None, False, 'what ends it earlier, e.g. iso4406 = "21/19/16"', NOTHING, _read_until
         ),
     }
 
@@ -374,7 +374,7 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
         design=design,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
-        stated=reader.stated,
+        stated=reader.stated_keys,
     )
 
 

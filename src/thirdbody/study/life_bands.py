@@ -616,7 +616,7 @@ def _bands(
             ends.append(End(**found))
             report(i + 1)
     drawn = ends[:samples]
-    swung = [_measured(each, swings_of) for each in ends[samples:]]
+    swung = [_value_of_end(each, swings_of) for each in ends[samples:]]
     swings = [Swing(name, *swung[2 * i : 2 * i + 2]) for i, name in enumerate(vary)]
     counts = np.quantile(
         np.array([each.counts for each in drawn]).reshape(samples, -1), probabilities, axis=0,
@@ -643,7 +643,7 @@ def _bands(
     )
 
 
-def _measured(end: End, of: str) -> float:
+def _value_of_end(end: End, of: str) -> float:
     return end.wear if of == WEAR else end.counts[1]
 
 

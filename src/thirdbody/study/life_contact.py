@@ -29,7 +29,7 @@ from .reader import (
     word,
     wrong,
 )
-from .tracks import swept
+from .tracks import track_areas
 from .vocabulary import DISTRIBUTIONS
 
 __all__ = ["BOUNDARY", "CONTACT_KEYS", "LifeContact", "Rolling", "contact_of", "rolling_of"]
@@ -82,7 +82,7 @@ class LifeContact:
     running_in: RunningIn | None = None
 
 
-def _worn(reader: Reader, path: str, value: object) -> tuple[float, float]:
+def _read_worn(reader: Reader, path: str, value: object) -> tuple[float, float]:
     """Areas of both surfaces."""
     if not isinstance(value, list) or len(value) != 2:
         raise wrong(
@@ -96,7 +96,7 @@ def _worn(reader: Reader, path: str, value: object) -> tuple[float, float]:
 
 
 WORN_AREA = Key(
-    _worn,
+    _read_worn,
     about='area of each surface that is worn in turn, e.g. ["10 cm^2", "1 cm^2"]: a whole track, '
     "and a pin",
     schema={"type": "array", "items": quantity_key("worn_area", WORN).schema},
@@ -210,14 +210,16 @@ class Rolling:
     def contacts(self) -> float:
         """Contacts as the most loaded one that sweep as much as all of the body [1]."""
         E_star, film = self.contact.E_ss, self.film
-        area, _, _ = swept(self.body, self.force, film, E_star=E_star, speed=1.0)
+        area, _, _ = track_areas(self.body, self.force, film, E_star=E_star, speed=1.0)
         return area / (2 * float(film.conjunction.semi_axes(film.load, E=2 * E_star)[1]))
 
     @property
     def worn_area(self) -> tuple[float, float]:
         """What wears in turn in a bearing: its balls or rollers, and the track [m²]."""
         assert isinstance(self.body, RadialBearing)
-        _, track, _ = swept(self.body, self.force, self.film, E_star=self.contact.E_ss, speed=1.0)
+        _, track, _ = track_areas(
+            self.body, self.force, self.film, E_star=self.contact.E_ss, speed=1.0
+        )
         return self.body.rolling_area, track
 
 

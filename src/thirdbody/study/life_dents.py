@@ -159,7 +159,7 @@ def dents_of_life(
     oils = [_dents("as it begins", 0.0, history.terms, tracks, (history.terms.start,) * 2)]
     for name, each in _circuits(circuit, asked, filter):
         own = history if each is circuit else None
-        oils.append(_after(name, each, tracks, asked, own, contact))
+        oils.append(_dents_after(name, each, tracks, asked, own, contact))
     said = [] if filter is None else _notes_of_filter(circuit, filter)
     if assumed:
         what = "the entry ratio of particles is not given and taken as 1: dents are upper bounds"
@@ -222,7 +222,7 @@ def _notes_of_filter(circuit: OilCircuit, filter: Filter) -> list[Note]:
     ]
 
 
-def _after(
+def _dents_after(
     name: str,
     circuit: OilCircuit,
     tracks: Sequence[Track],

@@ -45,11 +45,11 @@ def _code(reader: Reader, path: str, value: Any) -> str:
     try:
         cleanliness.read_iso4406(value)
     except InvalidValue as error:
-        raise _placed(path, error) from None
+        raise _place_mistake(path, error) from None
     return str(value)
 
 
-def _placed(path: str, error: InvalidValue | TypeError) -> InvalidValue:
+def _place_mistake(path: str, error: InvalidValue | TypeError) -> InvalidValue:
     """The mistake at its place in the file."""
     code = error.code if isinstance(error, InvalidValue) else Mistake.KIND
     return InvalidValue(Problem(path, f": {error}", code=code))
@@ -60,7 +60,7 @@ def _dust(reader: Reader, path: str, value: Any) -> str:
     try:
         dust = cleanliness.dust_table(value)
     except (InvalidValue, TypeError) as error:
-        raise _placed(path, error) from None
+        raise _place_mistake(path, error) from None
     if not dust["verified"]:
         reader.notes.append(
             f"{path} = {say(value)}: its table is that of {dust['edition']} and was not "
@@ -74,7 +74,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> str:
     try:
         cleanliness.concentration(value)
     except (InvalidValue, TypeError) as error:
-        raise _placed(path, error) from None
+        raise _place_mistake(path, error) from None
     return str(value)
 
 

@@ -96,7 +96,7 @@ class AskedDry:
     stated: frozenset[str] = frozenset()
 
     @property
-    def described(self) -> Described:
+    def described_inputs(self) -> Described:
         """What the tables describe."""
         abouts = {f"life.dry.{name}": (name, about) for name, about in QUANTITIES.items()}
         abouts["load.pressure"] = ("pressure", LOADS["pressure"])
@@ -230,5 +230,5 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
         drawn=known,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
-        stated=reader.stated,
+        stated=reader.stated_keys,
     )

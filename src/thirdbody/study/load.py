@@ -13,7 +13,7 @@ from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import NOTHING, Key, Reader, Table, amounts, get, variants
 from .vocabulary import LOADS
 
-__all__ = ["BODY", "FORCE", "LOAD", "force_sentences", "loads_of", "pressed", "told_forces"]
+__all__ = ["BODY", "FORCE", "LOAD", "force_sentences", "loads_of", "press_forces", "told_forces"]
 
 FORCE = quantity(
     "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
@@ -82,7 +82,7 @@ def loads_of(bodies: Body | None, forces: np.ndarray, contact: Contact) -> np.nd
     return np.stack([hertz.mean, hertz.maximum], axis=-1).ravel()
 
 
-def pressed(bodies: Body, forces: np.ndarray, contact: Contact) -> list[Pressed]:
+def press_forces(bodies: Body, forces: np.ndarray, contact: Contact) -> list[Pressed]:
     """Every force; integrated over the contact where they are few, else the ends."""
     some = range(len(forces)) if len(forces) <= MOST_INTEGRATED else (0, len(forces) - 1)
     return [

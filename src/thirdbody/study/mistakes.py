@@ -10,7 +10,7 @@ from ..errors import InvalidValue, Mistake, Problem, in_study
 from ..quantities.nearest import Guess, guess
 from ..quantities.units import say
 from .fields import declarations
-from .vocabulary import near
+from .vocabulary import nearest_option
 
 __all__ = ["Known", "Missing", "Unknown", "clash", "in_file"]
 
@@ -69,7 +69,7 @@ class Known:
         if why := self.refused.get(path, {}).get(key):
             return Problem(place, why, shown, code=Mistake.IDLE), None
         if not path and _is_table(value):
-            meant = near(key, known)
+            meant = nearest_option(key, known)
             hint = guess(key, known, meant=meant, show="[{}]".format)
             return Problem(
                 f"[{key}]", "is not a known table", hint=hint, code=Mistake.UNKNOWN
@@ -88,7 +88,7 @@ class Known:
         ]
         if homes:
             return not_known(f" here: it goes with {tag} = {' or '.join(homes)}"), None
-        meant = near(key, known)
+        meant = nearest_option(key, known)
         homes = [table for table, keys in self.keys.items() if key in keys and table != path]
         numbered = [table for table in homes if re.fullmatch(rf"{re.escape(path)}\.\d+", table)]
         if numbered:

@@ -251,9 +251,9 @@ def _population(reader: Reader, path: str, data: object) -> object:
             if OF_SIZES in own:
                 values["shape"] = own.pop(OF_SIZES)
             diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
-            found = _laden(reader, path, own, diameter)
+            found = _particles_of_sizes(reader, path, own, diameter)
         else:
-            found = _counted(reader, path, kind, values)
+            found = _counted_particles(reader, path, kind, values)
         return with_strength(found, f"{path}.strength", strength)
 
     if kind == "distribution":
@@ -399,7 +399,9 @@ def _sizes_of_file(reader: Reader, value: object, weighting: str) -> MeasuredSiz
 
 
 # -------------------------------------------------------------------------- particles
-def _laden(reader: Reader, path: str, values: dict[str, Any], diameter: Distribution) -> Particles:
+def _particles_of_sizes(
+    reader: Reader, path: str, values: dict[str, Any], diameter: Distribution
+) -> Particles:
     """Particles with these sizes, and the density or the concentration of the file."""
     if "concentration" not in values:
         return reader.make(Particles, path, values | {"diameter": diameter})
@@ -413,7 +415,7 @@ def _laden(reader: Reader, path: str, values: dict[str, Any], diameter: Distribu
         raise error.under(path) from None
 
 
-def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Particles:
+def _counted_particles(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Particles:
     """Particles from a code, a test dust or a measured histogram."""
     found = values.pop(kind)
     options = {name: values.pop(name) for name in COUNTED[kind] if name in values}
@@ -422,9 +424,11 @@ def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Pa
             if isinstance(found, Histogram):
                 found = MeasuredSizes(sizes=found, weighting=options.get("weighting", "number"))
             source = found.fit(options["fit"]) if "fit" in options else found
-            return _laden(reader, path, values, source.by_number(options.get("smallest")))
+            return _particles_of_sizes(
+                reader, path, values, source.by_number(options.get("smallest"))
+            )
         if kind == SETTLED:
-            return _settled(reader, path, found, options, values)
+            return _settled_particles(reader, path, found, options, values)
         gap = values.pop("gap", values.pop("film", None))
         if part := options.pop("share", None):
             gap *= part
@@ -439,7 +443,7 @@ def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Pa
         raise error.under(path) from None
 
 
-def _settled(
+def _settled_particles(
     reader: Reader,
     path: str,
     iso_class: float,

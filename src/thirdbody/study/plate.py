@@ -50,7 +50,7 @@ class AskedPlate:
     stated: frozenset[str] = frozenset()
 
     @property
-    def described(self) -> Described:
+    def described_inputs(self) -> Described:
         """Inputs with symbols and units."""
         return describe("plate.", self.chuck)
 
@@ -81,7 +81,7 @@ def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
         grains=grains,
         notes=tuple(reader.notes),
         assumed=tuple(reader.assumed),
-        stated=reader.stated,
+        stated=reader.stated_keys,
     )
 
 

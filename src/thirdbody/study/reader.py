@@ -28,7 +28,7 @@ from ..quantities.value import (
 )
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
-from .vocabulary import near
+from .vocabulary import nearest_option
 
 __all__ = [
     "ANYTHING",
@@ -49,7 +49,7 @@ __all__ = [
     "read_numbers",
     "read_text",
     "read_word",
-    "refused",
+    "refused_key",
     "rivals",
     "switch",
     "table_of",
@@ -195,7 +195,7 @@ class Reader:
         self.known = Known()
 
     @property
-    def stated(self) -> frozenset[str]:
+    def stated_keys(self) -> frozenset[str]:
         """Dotted names of all keys of the file, items of lists by their numbers."""
         return frozenset(_names_in(self.whole, ""))
 
@@ -275,7 +275,11 @@ class Reader:
         against the nearest kind, or against what any kind would take.
         """
         asked = get(data, tag)
-        chosen = asked if isinstance(asked, str) and asked in kinds else near(str(asked), kinds)
+        chosen = (
+            asked
+            if isinstance(asked, str) and asked in kinds
+            else nearest_option(str(asked), kinds)
+        )
         keys = {tag: tag_key(tuple(kinds))}
         for name in kinds if chosen is None else (chosen,):
             for field, key in keys_of(kinds[name]).items():
@@ -562,7 +566,7 @@ def read_word(options: Iterable[str], reader: object, path: str, value: object) 
     """The word that a value of a file is."""
     if isinstance(value, str) and value in options:
         return value
-    meant = near(str(value), options)
+    meant = nearest_option(str(value), options)
     hint = guess(str(value), options, meant=meant, show=say, otherwise=None)
     raise wrong(
         path,
@@ -588,7 +592,7 @@ def words(options: Iterable[str] | None, about: str = "") -> Key:
     return Key(read, about=about, schema={"anyOf": [one, {"type": "array", "items": one}]})
 
 
-def refused(why: str, code: Mistake = Mistake.IDLE) -> Key:
+def refused_key(why: str, code: Mistake = Mistake.IDLE) -> Key:
     """A key that is known and has no place here."""
 
     def read(reader: Reader, path: str, value: object) -> object:

@@ -25,7 +25,7 @@ from .reader import (
     get,
     keys_of,
     quantity_key,
-    refused,
+    refused_key,
     text,
     word,
     wrong,
@@ -222,7 +222,7 @@ BESIDE = {
     "spacing": amounts("spacing", SPACING),
     "channel": text._replace(about="name of a channel of the file"),
 }
-TWICE = refused("is told by the topography as well; remove one of the two", Mistake.CLASH)
+TWICE = refused_key("is told by the topography as well; remove one of the two", Mistake.CLASH)
 
 
 def _topography(reader: Reader, path: str, data: dict[str, object]) -> object:

@@ -12,7 +12,7 @@ from ..contact.contact import Contact
 from ..equilibrium.modes import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
 from ..errors import InvalidValue, Mistake, RangeWarning, ThirdBodyError, note_of
-from .load import pressed
+from .load import press_forces
 from .results import Entrained, FilmResult, Passing, StudyResult
 from .whole import Study
 
@@ -48,7 +48,7 @@ def run_study(study: Study) -> StudyResult:
         warnings.simplefilter("always", RangeWarning)
         states = study.solve()
         critical = _transitions(study.contact)
-        forces = [] if study.body is None else pressed(study.body, study.forces, study.contact)  # type: ignore[arg-type]
+        forces = [] if study.body is None else press_forces(study.body, study.forces, study.contact)  # type: ignore[arg-type]
     sentences = [*states.warnings, *(note_of(item.message) for item in heard)]
     sentences += [sentence for each in forces for sentence in each.warnings]
     return StudyResult(

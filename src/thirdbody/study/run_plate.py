@@ -176,7 +176,7 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
         first, second = (each.replace(H=each.H * factor) for each in (pair.first, pair.second))
         return chuck.replace(surfaces=pair.replace(first=first, second=second))
 
-    def varied(change: Callable[[float], Chuck], factor: float) -> tuple[float, ...]:
+    def vary_heights(change: Callable[[float], Chuck], factor: float) -> tuple[float, ...]:
         return heights(change(1 / factor), change(factor))
 
     out = [
@@ -184,13 +184,15 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
             what="the hardness of plate and chuck",
             between=f"{percent(1 - 1 / HARDNESS)} softer and {percent(HARDNESS - 1)} harder",
             action="measure both near the surface, coatings included",
-            values=varied(with_hardness, HARDNESS),
+            values=vary_heights(with_hardness, HARDNESS),
         ),
         WhatIf(
             what="the thickness of the plate",
             between=f"{percent(THICKNESS - 1)} more and as much less",
             action="give plate.thickness as measured",
-            values=varied(lambda part: chuck.replace(thickness=chuck.thickness * part), THICKNESS),
+            values=vary_heights(
+                lambda part: chuck.replace(thickness=chuck.thickness * part), THICKNESS
+            ),
         ),
     ]
     if counted:
@@ -204,7 +206,7 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
                 what="the number of particles",
                 between="half and twice as many",
                 action="count them on the back of a plate, by size",
-                values=varied(with_dust, 2.0),
+                values=vary_heights(with_dust, 2.0),
             )
         )
     else:

@@ -138,7 +138,7 @@ def _any_of(ways: Iterable[dict[str, object]]) -> dict[str, Any]:
         elif schema not in out:
             out.append(schema)
     if tables:
-        out.append(_merged(tables))
+        out.append(_merge_tables(tables))
     if {} in out or not out:
         return {}
     return out[0] if len(out) == 1 else {"anyOf": out}
@@ -155,7 +155,7 @@ def _each_way(ways: Iterable[dict[str, Any]]) -> Iterator[dict[str, object]]:
             yield schema | ({"items": _any_of([schema["items"]])} if "items" in schema else {})
 
 
-def _merged(tables: list[dict[str, Any]]) -> dict[str, object]:
+def _merge_tables(tables: list[dict[str, Any]]) -> dict[str, object]:
     """The schema of a table that is written in these ways: all their keys, and no others."""
     ways: dict[str, list[dict[str, object]]] = {}
     for table in tables:

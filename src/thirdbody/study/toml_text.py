@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from .toml import override, value_of
 
-__all__ = ["text_with", "to_toml", "written"]
+__all__ = ["text_with", "to_toml", "toml_value"]
 
 HEAD = re.compile(r"^\s*(\[\[?)\s*([\w.-]+)\s*\]\]?\s*(#.*)?$")
 """The head of a table, and of one of several."""
@@ -39,7 +39,7 @@ def _table(table: dict[str, object], path: tuple[str, ...], lines: list[str]) ->
         if heads or (several and not path):
             inner[key] = value
         else:
-            lines.append(f"{_key(key)} = {written(value)}")
+            lines.append(f"{_key(key)} = {toml_value(value)}")
     for key, value in inner.items():
         name = ".".join(map(_key, (*path, key)))
         for part in value if isinstance(value, list) else [value]:
@@ -54,10 +54,10 @@ def _deep(path: tuple[str, ...], key: str) -> bool:
 
 
 def _key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else written(key)
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else toml_value(key)
 
 
-def written(value: object) -> str:
+def toml_value(value: object) -> str:
     """One value as in TOML."""
     if isinstance(value, bool):
         return str(value).lower()
@@ -66,9 +66,9 @@ def written(value: object) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf" if value > 0 else "-inf"
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(k)} = {written(v)}" for k, v in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(k)} = {toml_value(v)}" for k, v in value.items()) + " }"
     if isinstance(value, list):
-        return "[" + ", ".join(map(written, value)) + "]"
+        return "[" + ", ".join(map(toml_value, value)) + "]"
     return repr(value)
 
 
@@ -88,7 +88,7 @@ def text_with(text: str, settings: Iterable[str]) -> str:
         wanted = override(tomllib.loads(text), [setting])
         path, _, value = setting.partition("=")
         keys = [key.strip() for key in path.split(".")]
-        edited = _edited(text, keys, written(value_of(value)))
+        edited = _edit_line(text, keys, toml_value(value_of(value)))
         text = edited if _holds(edited, wanted) else to_toml(wanted)
     return text
 
@@ -101,7 +101,7 @@ def _holds(text: str, wanted: dict[str, object]) -> bool:
         return False
 
 
-def _edited(text: str, keys: list[str], value: str) -> str:
+def _edit_line(text: str, keys: list[str], value: str) -> str:
     """The text with one line changed, or added to its table, or with a table more at the end."""
     lines = text.splitlines()
     *table, key = keys

@@ -15,7 +15,7 @@ from ..systems.film_conditions import FilmConditions
 from ..systems.machine_elements import RINGS, RadialBearing
 from ..systems.oil_particles import FilmDents, FilmParticles
 
-__all__ = ["Track", "speed_of", "swept", "tracks_of"]
+__all__ = ["Track", "speed_of", "track_areas", "tracks_of"]
 
 HOUR = 3600.0
 SIDE = 2
@@ -82,7 +82,7 @@ def speed_of(body: Body | None, film: FilmConditions) -> float:
     return own if own is not None else film.speed[len(film.speed) // 2]
 
 
-def swept(
+def track_areas(
     body: Body | None, force: float | None, film: FilmConditions, *, E_star: float, speed: float
 ) -> tuple[float, float, str]:
     """Area of track rolled over per second [m²/s], area of the whole track [m²], and its name."""
@@ -126,7 +126,7 @@ def tracks_of(
     for each, of in parts:
         speed = speed_of(each, of)
         h = float(of.at(clean, speed=speed).h_T)
-        rate, area, name = swept(each, force, of, E_star=contact.E_ss, speed=speed)
+        rate, area, name = track_areas(each, force, of, E_star=contact.E_ss, speed=speed)
         if math.isfinite(h):
             out.append(
                 Track(name=name, surfaces=contact.surfaces, film=h, rate=rate, area=area,

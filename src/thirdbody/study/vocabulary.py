@@ -9,7 +9,7 @@ from ..populations.heights import Heights
 from ..quantities import nearest
 from ..quantities.value import quantity
 
-__all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "near"]
+__all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "nearest_option"]
 
 DISTRIBUTIONS = Distribution.registry
 """Every size distribution by the word that study files use."""
@@ -38,7 +38,7 @@ ALSO_CALLED = {
 """Other words for distributions, to suggest the right one."""
 
 
-def near(word: str, options: Iterable[str]) -> str | None:
+def nearest_option(word: str, options: Iterable[str]) -> str | None:
     """The option that was probably meant."""
     options = list(options)
     known = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in options)

@@ -288,7 +288,7 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
         assumed=tuple(dict.fromkeys(reader.assumed)),
         gaps=gaps_of(reader.whole),
         filter=filter_of(reader.whole),
-        stated=reader.stated,
+        stated=reader.stated_keys,
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),

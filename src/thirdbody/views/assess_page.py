@@ -40,7 +40,7 @@ def page(assessment: Assessment | Assessments) -> str:
     return document(title, body)
 
 
-def _uncrowded(curve: Propagation, of: str, value: float) -> Propagation:
+def _drop_crowded_loads(curve: Propagation, of: str, value: float) -> Propagation:
     """Bands up to the load from which crowded samples would be an end of the outermost one.
 
     All of them where the operating load itself is crowded: of that the page warns.
@@ -84,7 +84,7 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
                 seed=found.seed,
                 outputs=[of],
             )
-        shown = _uncrowded(curve, of, value)
+        shown = _drop_crowded_loads(curve, of, value)
         ax = plot.bands(shown, of, mark=value)
         words = f"Bands of the {OUTPUTS[of].meaning} over the load; the operating load is marked."
         if len(shown.loads) < len(loads):

@@ -39,10 +39,10 @@ def once_in(failure: float) -> str:
     return f"once in {_count(failure)} closings ({percent(failure)})"
 
 
-def _between(low: float, high: float) -> str:
+def _range_words(low: float, high: float) -> str:
     """How often, between two ends.
 
-    >>> _between(0.0048, 0.35), _between(0.35, 1.0)
+    >>> _range_words(0.0048, 0.35), _range_words(0.35, 1.0)
     ('once in 208 closings (0.48 %) to in 35 % of all closings', 'in 35 to 100 % of all closings')
     """
     if low >= OFTEN:
@@ -103,7 +103,7 @@ def uncertainty(found: ConnectorResult) -> list[str]:
     every = [each for each in found.what_ifs if each.ratio > 1]
     heads = ["Most uncertain"] + ["Besides"] * len(every)
     return [
-        f"{head}: {each.what}. With {each.between} it fails {_between(each.low, each.high)}; "
+        f"{head}: {each.what}. With {each.between} it fails {_range_words(each.low, each.high)}; "
         f"{each.action}."
         for head, each in zip(heads, every, strict=False)
         if each is every[0] or each.code == "wipe"

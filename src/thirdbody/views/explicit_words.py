@@ -20,15 +20,15 @@ def rows(found: OneSurface, i: int) -> dict[str, tuple[str, str]]:
     """Name, explicit and statistical value of what is compared under load i."""
     state, model = found.state, found.model
 
-    def both(name: str) -> tuple[float, float]:
+    def both_values(name: str) -> tuple[float, float]:
         return tuple(float(np.atleast_1d(getattr(each, name))[i]) for each in (state, model))  # type: ignore[return-value]
 
-    out = {"separation h": both("h"), "real contact area": both("A_t")}
+    out = {"separation h": both_values("h"), "real contact area": both_values("A_t")}
     told = {name: (value_of(a, "m"), value_of(b, "m")) for name, (a, b) in out.items()}
     told["real contact area"] = (percent(out["real contact area"][0]),
                                  percent(out["real contact area"][1]))  # fmt: skip
     if not state.contact.two_body:
-        a, b = both("particle_load_share")
+        a, b = both_values("particle_load_share")
         told = {"load on particles": (percent(a), percent(b))} | told
     return told
 

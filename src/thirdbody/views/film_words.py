@@ -58,18 +58,18 @@ def answer(result: FilmResult) -> list[str]:
     """Who carries, and where regimes change, in two sentences."""
     states, ends = result.states, sorted({0, len(result.states["speed"]) - 1})
 
-    def both(name: str, unit: str = "") -> str:
+    def ends_of(name: str, unit: str = "") -> str:
         said = [states[name][i] for i in ends]
         return " to ".join(dict.fromkeys(
             share(each) if not unit else value_of(each, unit, 3) for each in said
         ))  # fmt: skip
 
     lambdas = " to ".join(number(states["lambda_ratio"][i], 2) for i in ends)
-    solids = [f"asperities {both('ss_share')}"]
-    solids += [f"particles {both('sa_share')}"] if result.passing else []
-    where = f"From {both('speed', 'm/s')}" if len(ends) > 1 else f"At {both('speed', 'm/s')}"
+    solids = [f"asperities {ends_of('ss_share')}"]
+    solids += [f"particles {ends_of('sa_share')}"] if result.passing else []
+    where = f"From {ends_of('speed', 'm/s')}" if len(ends) > 1 else f"At {ends_of('speed', 'm/s')}"
     return [
-        f"{where} the film of {both('h_T', 'm')} carries {both('film_share')} of the load "
+        f"{where} the film of {ends_of('h_T', 'm')} carries {ends_of('film_share')} of the load "
         f"(lambda = {lambdas}), {' and '.join(solids)}.",
         f"Lubrication is {', and '.join(_regimes(result))}.",
     ]

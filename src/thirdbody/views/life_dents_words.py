@@ -59,17 +59,17 @@ def dent_answer(found: LifeDents | None) -> list[str]:
     first, *others = found.oils[1:]
     who = f"The oil {first.oil} dents" if first.oil.startswith("with") else "The oil dents"
     tracks = [f"{each.track} {_count(each.per_hour)}" for each in first.tracks]
-    when = _when(first)
+    when = _time_clause(first)
     out = [f"{who} {join_words(tracks)} times an hour{when}"]
     out += [
         f"{each.oil} {join_words([_count(track.per_hour) for track in each.tracks])} times"
-        f"{_when(each) if _when(each) != when else ''}"
+        f"{_time_clause(each) if _time_clause(each) != when else ''}"
         for each in others
     ]
     return [f"{'; '.join(out)}.", *_smaller(first)]
 
 
-def _when(oil: OilDents) -> str:
+def _time_clause(oil: OilDents) -> str:
     return f" after {duration_of(oil.time)}" if math.isfinite(oil.time) else ""
 
 

@@ -98,7 +98,7 @@ def _tends(history: LifeHistory) -> str:
         if not any(ends.values()):
             return f"{out}, and is there from the beginning."
         out += f", and is within half a number of it after {_each_time(ends)}."
-        out += _past(history)
+        out += _bypass_sentence(history)
     else:
         grow = [size for part, size in zip(code.split("/"), SIZES, strict=True) if part == "-"]
         out = (
@@ -112,7 +112,7 @@ def _tends(history: LifeHistory) -> str:
     return out
 
 
-def _past(history: LifeHistory) -> str:
+def _bypass_sentence(history: LifeHistory) -> str:
     """That the end is not that of an oil that goes past a full filter, where it does."""
     names = history.bypassed
     if not names:

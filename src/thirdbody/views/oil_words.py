@@ -173,11 +173,11 @@ def _life(life: Life) -> str:
     return (
         f"By ISO 281 ({PLACES[life.place]}) oil {life.code} with {kappa} has e_C = "
         f"{number(life.e_C, 2)}, and the life factor a_ISO is {number(life.a_ISO, 2)} ({lost})"
-        f"{hours}{_beyond(life)}."
+        f"{hours}{_load_warning(life)}."
     )
 
 
-def _beyond(life: Life) -> str:
+def _load_warning(life: Life) -> str:
     """That the load is beyond what the life is known for, where it is."""
     if not life.load_over_rating > HEAVY:
         return ""

@@ -62,13 +62,15 @@ def _in_one_unit(texts: Sequence[str]) -> tuple[str, list[Cell | str]]:
     size = sizes[(len(sizes) - 1) // 2]
     shared = next(unit for _, unit in parts if SIZES.get(unit, (unit, 1.0))[1] == size)
     cells = [
-        _scaled(cell, SIZES.get(unit, (unit, 1.0))[1] / size) if isinstance(cell, Cell) else text
+        _scale_cell(cell, SIZES.get(unit, (unit, 1.0))[1] / size)
+        if isinstance(cell, Cell)
+        else text
         for text, (cell, unit) in zip(texts, found, strict=True)
     ]
     return f" [{shared}]" if shared else "", cells
 
 
-def _scaled(cell: Cell, factor: float) -> Cell:
+def _scale_cell(cell: Cell, factor: float) -> Cell:
     """A number in another unit, with as many digits as are printed."""
     if factor == 1:
         return cell

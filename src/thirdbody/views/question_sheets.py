@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ..errors import ranked
+from ..errors import rank_notes
 from ..populations.materials import NUMBERS
 from ..quantities.say import unit_of
 from ..version import __version__
 from .printed_tables import grid_of_words
-from .report.sources import Row, alike, as_stated, value_rows
+from .report.sources import Row, as_stated, bodies_by_label, value_rows
 from .study_sheets import amount_cells, note_line
 from .workbook import Grid, Sheet, sheet_of_table
 
@@ -58,7 +58,7 @@ def question_sheets(
     if table is not None:
         found.append(grid_of_words(*table))
     told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
-    notes = [note_line(each) for each in ranked(warnings)] or [("none", None, "")]
+    notes = [note_line(each) for each in rank_notes(warnings)] or [("none", None, "")]
     cited = [(line, None, "") for line in (*citations, f"thirdbody {__version__}")]
     return [
         Sheet("Answer", (*found, *last), title=f"{title} (thirdbody {__version__})"),
@@ -97,7 +97,7 @@ def inputs_of(
          row.name)
         for row in rows
     ]  # fmt: skip
-    for label, body in alike(dict(bodies)):
+    for label, body in bodies_by_label(dict(bodies)):
         for key, about in NUMBERS.items():
             if (value := getattr(body, key)) is not None:
                 row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])

@@ -15,7 +15,7 @@ from ..equilibrium.words import (
     critical_name,
     happens,
 )
-from ..errors import Note, RangeWarning, ranked
+from ..errors import Note, RangeWarning, rank_notes
 from ..populations.materials import NUMBERS
 from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
 from ..version import __version__
@@ -28,8 +28,8 @@ from .report.found import Found, some_of
 from .report.make import USUAL, curve_over
 from .report.sources import (
     Row,
-    alike,
     as_stated,
+    bodies_by_label,
     film_rows,
     laws_of,
     load_rows,
@@ -231,7 +231,7 @@ def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
         )
         for row in rows
     ]
-    for label, body in alike(bodies_of(contact)):
+    for label, body in bodies_by_label(bodies_of(contact)):
         for key, about in NUMBERS.items():
             if (value := getattr(body, key)) is not None:
                 row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])
@@ -243,7 +243,7 @@ def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
 def _source_grid(contact: Contact, stated: Collection[str]) -> Grid:
     """Where laws and the numbers of materials come from."""
     rows = [(f"material of {label}", body.name, "", "", "; ".join(filter(None, (*texts, standing))))
-            for label, body in alike(bodies_of(contact))
+            for label, body in bodies_by_label(bodies_of(contact))
             for texts, standing in [sources_of(body)]]  # fmt: skip
     rows += [
         (
@@ -274,7 +274,7 @@ def _notes(
     meanings: Mapping[str, str],
 ) -> tuple[Grid, ...]:
     """Warnings with what to do, the columns of the states, and what is to be cited."""
-    notes = [note_line(each) for each in ranked(result.warnings)] or [("none", None, "")]
+    notes = [note_line(each) for each in rank_notes(result.warnings)] or [("none", None, "")]
     told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
     cited = [(line, None, "") for line in (*result.citations, f"thirdbody {__version__}")]
     return (

@@ -17,15 +17,15 @@ from ...views.film_words import point as film_point
 from ..examples import EXAMPLES, example
 from ..fields import engineering, number_of, text_of
 from ..figures import AXES, GREY, SCALES, Figure, figure, fix, line
-from ..sliders import CODES, shifted
-from ..solver import apart
-from ..state import Answer, State, look, measured
+from ..sliders import CODES, shift_code
+from ..solver import ask_for_page
+from ..state import Answer, State, look, surface_key
 from ..text import as_shown
 from ..widgets import Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
 from .interface import facts_of
 
-__all__ = ["TITLE", "Beside", "beside", "build", "changes"]
+__all__ = ["TITLE", "Beside", "build", "changes", "compare_answers"]
 
 TITLE = "Before / after"
 OPENED, KEPT = "as it was opened", "as it was kept"
@@ -97,7 +97,7 @@ def cleaner(study: dict[str, object]) -> dict[str, object] | None:
             return None
         many = number_of(each.get("areal_density"), about)
         if CODES.fullmatch(str(each.get("iso4406"))):
-            new.append(each | {"iso4406": shifted(each["iso4406"], CLASSES)})
+            new.append(each | {"iso4406": shift_code(each["iso4406"], CLASSES)})
         elif many > 0:
             new.append(each | {"areal_density": engineering(FEWER * many, "1/m^2", 3)})
         else:
@@ -105,10 +105,10 @@ def cleaner(study: dict[str, object]) -> dict[str, object] | None:
     return study | {"particles": new if isinstance(given, list) else new[0]}
 
 
-def beside(before: Answer, after: Answer, at: float) -> Beside:
+def compare_answers(before: Answer, after: Answer, at: float) -> Beside:
     """Two answers under the operating load of the second; each under its own mean pressure where
     forces press."""
-    forced = before.forced or after.forced
+    forced = before.has_one_force or after.has_one_force
     same = before.load == after.load and not forced
     points = (before.solve(at if same else _load_before(before, after, at)), after.solve(at))
     told = [
@@ -126,7 +126,7 @@ def beside(before: Answer, after: Answer, at: float) -> Beside:
 
 def _load_before(before: Answer, after: Answer, at: float) -> float:
     """The load of the study before that is compared: its own, or the same load in its words."""
-    if before.forced or after.forced:
+    if before.has_one_force or after.has_one_force:
         return before.default_at()
     F_star = float(after.solve(at).F_star)
     loads = {"F_star": F_star, "pressure": F_star * before.contact.E_ss}
@@ -216,25 +216,25 @@ class BeforeAfter:
             )
             keep = ui.button("Keep as it is now", icon="push_pin", on_click=self._keep_study)
             set_attributes(keep.props("no-caps outline"), {"data-path": "before.keep"})
-            back = ui.button("Go back to before", icon="history", on_click=self._back)
+            back = ui.button("Go back to before", icon="history", on_click=self._go_back)
             set_attributes(back.props("no-caps flat"), {"data-path": "before.back"})
         self.changed = ui.column().classes("w-full gap-0").props('data-figure="changes"')
         self.rows = ui.column().classes("w-full scroll-x")
         with ui.element("div").classes("figures w-full"):
             self.plots = {name: Plot(f"before {name}", 340) for name in ("shares", "area")}
-        self.which.on_value_change(self._chosen)
+        self.which.on_value_change(self._choose_before)
 
     def _options(self) -> list[str]:
         return [OPENED, *([KEPT] if self.state.kept is not None else []), *EXAMPLES]
 
-    def _before(self) -> dict[str, object]:
+    def _study_before(self) -> dict[str, object]:
         """The study that stands on the left."""
         name = str(self.which.value)
         if name == KEPT and self.state.kept is not None:
             return self.state.kept
         return self.state.opened if name in (OPENED, KEPT) else example(name)
 
-    def _chosen(self) -> None:
+    def _choose_before(self) -> None:
         name = str(self.which.value)
         self.state.beside = "" if name == OPENED else name
         self.state.announce_change()
@@ -242,15 +242,15 @@ class BeforeAfter:
     def _keep_study(self) -> None:
         self.state.kept = self.state.study
         self.which.set_options(self._options(), value=KEPT)
-        self._chosen()
+        self._choose_before()
 
-    def _back(self) -> None:
-        self.state.replace(self._before())
+    def _go_back(self) -> None:
+        self.state.replace(self._study_before())
         self.again()
 
     async def draw(self) -> None:
         """Both studies as they are now."""
-        state, before = self.state, self._before()
+        state, before = self.state, self._study_before()
         answer = state.answer
         assert answer is not None
         self._show_changes(before)
@@ -264,7 +264,7 @@ class BeforeAfter:
             return
         if self.shown == (old, now, state.operating_load):
             return
-        found = await apart(beside, old, now, state.operating_load)
+        found = await ask_for_page(compare_answers, old, now, state.operating_load)
         self.shown = (old, now, state.operating_load)
         self.said.set_text(as_shown(found.sentence))
         start = (
@@ -281,9 +281,9 @@ class BeforeAfter:
     async def _answer(self, before: dict[str, object]) -> Answer | None:
         """The answer of the study before, None with a mistake."""
         if self.read is None or self.read[0] != before:
-            state, key = self.state, measured(before, self.state.folder)
+            state, key = self.state, surface_key(before, self.state.folder)
             surface = state.surfaces.get(key)
-            found, problems, _ = await apart(look, before, state.folder, surface)
+            found, problems, _ = await ask_for_page(look, before, state.folder, surface)
             self.wrong.set_text(as_shown("; ".join(problems)))
             self.read = (before, found)
         return self.read[1]

@@ -14,7 +14,7 @@ from ..state import Answer, State, loads_as
 from ..widgets import plot_place, set_attributes
 from ..widgets import table as shown_table
 from ..work import Asked, Work
-from ..worker import Laws, compared
+from ..worker import Laws, compare_laws
 
 __all__ = ["TITLE", "build", "law_figure"]
 
@@ -83,7 +83,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     work = Work("compare", "Compare all laws", ask, show, key=lambda: state.answer, little=little)
     what = ui.select(
-        {name: _plain(text[0]) for name, text in SHOWN.items()}, value="A_t_difference"
+        {name: _without_tags(text[0]) for name, text in SHOWN.items()}, value="A_t_difference"
     )
     what.props('dense options-dense aria-label="what is compared"')
     plot = plot_place("compare", 460)
@@ -94,7 +94,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             return
         plot.set_visibility(True)
         plot.update_figure(law_figure(shown, str(what.value)))
-        _table(await state.ask(_here, state.operating_load), table)
+        _table(await state.ask(_laws_at, state.operating_load), table)
 
     async def draw_tab() -> None:
         await work.update_preview(state)
@@ -105,12 +105,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     return draw_tab
 
 
-def _here(answer: Answer, at: float) -> Laws:
+def _laws_at(answer: Answer, at: float) -> Laws:
     """Every law under the operating load."""
-    return compared(answer.contact, "F_star", [float(answer.solve(at).F_star)])
+    return compare_laws(answer.contact, "F_star", [float(answer.solve(at).F_star)])
 
 
-def _plain(label: str) -> str:
+def _without_tags(label: str) -> str:
     return label.replace("<sub>", "_").replace("</sub>", "")
 
 

@@ -20,13 +20,13 @@ from ..figures import (
     SCALES,
     Figure,
     Part,
+    escape_tags,
     figure,
     fix,
     line,
     log_title,
     mark,
     mode_bands,
-    plain,
     span,
 )
 from ..state import Answer, State
@@ -120,7 +120,7 @@ def _shares(answer: Answer, x: np.ndarray, draw: Draw) -> Figure:
     ]
     for number, part in enumerate(state.populations):
         share = 100 * np.asarray(part.load_share)
-        lines.append(line(x, share, f"{plain(part.name)}: load", number + 2))
+        lines.append(line(x, share, f"{escape_tags(part.name)}: load", number + 2))
     made = draw(lines, y="share of particles [%]", title="What particles carry; mode as bands")
     fix(made, "yaxis", [-2, 102])
     return made
@@ -212,7 +212,7 @@ class Curves:
         """Where the line of the operating load is."""
         state, axis = self.state, str(self.against.value)
         at = (
-            await state.ask(_solved, state.operating_load)
+            await state.ask(_solve_load, state.operating_load)
             if answer.load == "d"
             else state.operating_load
         )
@@ -305,7 +305,7 @@ def _figures(answer: Answer, against: str, critical: bool) -> dict[str, Figure]:
     return figures(answer, against, critical=critical)
 
 
-def _solved(answer: Answer, d: float) -> float:
+def _solve_load(answer: Answer, d: float) -> float:
     return float(answer.solve(d).F_star)
 
 

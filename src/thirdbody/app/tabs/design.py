@@ -13,7 +13,7 @@ from ...quantities.plain_data import plain_data
 from ...quantities.say import number, prefixed
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, text_of, value_from
-from ..figures import GREY, Figure, Part, band, figure, line, plain, symbol
+from ..figures import GREY, Figure, Part, band, escape_tags, figure, line, symbol
 from ..state import State, loads_as
 from ..text import as_shown
 from ..widgets import plot_place
@@ -68,14 +68,14 @@ def design_figure(
     """Every point tried, the best marked, the tolerance as a band."""
     every = found["points"][variable]
     words = any(isinstance(item, str) for item in every)
-    x = np.array([plain(str(item)) for item in every]) if words else np.array(every, float)
+    x = np.array([escape_tags(str(item)) for item in every]) if words else np.array(every, float)
     size, name = (1.0, "") if words else prefixed(float(np.max(np.abs(x))), unit)
     x = x if words else x / size
     y = np.array(found["points"][objective], float)
     good = np.array(found["points"]["feasible"], np.bool_)
     order = np.argsort(x)
     best = found["values"][variable]
-    best = plain(best) if isinstance(best, str) else best / size
+    best = escape_tags(best) if isinstance(best, str) else best / size
     traces: list[Part] = [
         line([], y[order], "all points", 0, line={"width": 1.5}) | {"x": x[order].tolist()},
         {
@@ -98,7 +98,7 @@ def design_figure(
     made = figure(
         traces,
         x=symbol(words_of.get(variable, variable)) + (f" [{name}]" if name else ""),
-        y=plain(meaning(objective)),
+        y=escape_tags(meaning(objective)),
         title="What was tried",
         xlog=not words and bool(x.min() > 0),
         height=420,
@@ -130,14 +130,14 @@ class Search:
             self._limit()
         self.form.set_visibility(first != WRITTEN)
         if first != SIZE:
-            self._ranged()
+            self._set_range()
         self.work = Work("design", "Search", self._ask, self._show, key=self._key, little=_little)
         self.plot = plot_place("design", 420)
         ui.label(
             "The search runs over the loads of the study. Limits hold at every load; besides, "
             "always: A_t < 0.2, and particles cover less than 0.3."
         ).classes("hint")
-        self.which.on_value_change(self._changed)
+        self.which.on_value_change(self._update_range)
         for entry in (self.of, self.aim, self.over, self.limit):
             entry.on_value_change(lambda: self.work.update_preview(state))
         for text in (self.low, self.high, self.most, self.least):
@@ -169,11 +169,11 @@ class Search:
         asked = [str(each.value) for each in (*form, self.limit, self.most, self.least)]
         return self.state.answer, self.state.get("design"), asked
 
-    async def _changed(self) -> None:
-        self._ranged()
+    async def _update_range(self) -> None:
+        self._set_range()
         await self.work.update_preview(self.state)
 
-    def _ranged(self) -> None:
+    def _set_range(self) -> None:
         """Another input: a range about what it is."""
         name, answer = str(self.which.value), self.state.answer
         unit = variables_of(self.state).get(name)

@@ -15,14 +15,14 @@ from ...quantities.say import percent, value_of
 from ..bounds import LARGEST_TABLE, MOST_NUMBERS
 from ..entries import about_of
 from ..fields import text_of
-from ..figures import Figure, figure, line, plain
+from ..figures import Figure, escape_tags, figure, line
 from ..inputs import Inputs
-from ..solver import apart
+from ..solver import ask_for_page
 from ..state import Answer, State
 from ..text import as_shown, without_paths
 from ..uploads import take
 from ..widgets import facts, plot_place, upload
-from ..worker import counted
+from ..worker import counter_bins
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
 
@@ -57,7 +57,7 @@ def size_figure(contact: tb.Contact) -> Figure:
             low, high = 0.9 * low, 1.1 * high
         x = np.geomspace(max(low, 1e-3 * high), high, 240)
         density = np.asarray(sizes.pdf(x)) * x
-        name = plain(dust.name or dust.material.name or f"population {number + 1}")
+        name = escape_tags(dust.name or dust.material.name or f"population {number + 1}")
         for k, (values, how) in enumerate(((density, "number"), (density * x**3, "volume"))):
             top = values.max() if np.isfinite(values).all() and values.max() > 0 else 1.0
             traces.append(line(1e6 * x, values / top, f"{name}, by {how}", 2 * number + k))
@@ -72,10 +72,11 @@ STARTS = {
 KEPT = ("material", "name", "law")
 
 
-def begun(table: dict[str, object], key: str, value: str) -> dict[str, object]:
+def restart_population(table: dict[str, object], key: str, value: str) -> dict[str, object]:
     """A population given by another code or test dust; what goes with it is kept.
 
-    >>> begun({"material": "SiO2", "mean": "1 um", "areal_density": 1e9}, "iso4406", "16/14/11")
+    >>> grains = {"material": "SiO2", "mean": "1 um", "areal_density": 1e9}
+    >>> restart_population(grains, "iso4406", "16/14/11")
     {'material': 'SiO2', 'iso4406': '16/14/11', 'gap': '1 um'}
     """
     if key in table:
@@ -116,7 +117,7 @@ class Dust:
         self.test.on_value_change(lambda e: self._use("test_dust", str(e.value or "")))
         self.wrong = ui.label().classes("problem").props('role=alert data-said="dust"')
         self.chooser = upload(
-            "sizes", "Sizes from a particle counter", LARGEST_TABLE, self._uploaded
+            "sizes", "Sizes from a particle counter", LARGEST_TABLE, self._take_counts
         )
 
     def _particles(self) -> dict[str, object]:
@@ -129,13 +130,13 @@ class Dust:
 
     def _use(self, key: str, value: str) -> None:
         if value and self._particles().get(key) != value:
-            self._set_particles(begun(self._particles(), key, value))
+            self._set_particles(restart_population(self._particles(), key, value))
 
-    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+    async def _take_counts(self, event: events.UploadEventArguments) -> None:
         self.chooser.reset()
         try:
             name = await take(self.state, event)
-            found = await apart(counted, str(self.state.folder / name))
+            found = await ask_for_page(counter_bins, str(self.state.folder / name))
         except InvalidValue as error:
             self.wrong.set_text(as_shown(without_paths("; ".join(error.problems))))
             return

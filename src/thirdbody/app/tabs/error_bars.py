@@ -28,7 +28,7 @@ from ..figures import (
     json_numbers,
     line,
     mark,
-    wrapped,
+    wrap_text,
 )
 from ..inputs import Inputs
 from ..state import State
@@ -36,7 +36,7 @@ from ..text import as_shown
 from ..widgets import plot_place, set_attributes
 from ..work import Asked, Work
 from ..worker import Bands
-from .outputs import bounded
+from .outputs import are_bounded
 
 __all__ = ["TITLE", "band_figure", "build", "critical_figure", "results_of", "tornado_figure"]
 
@@ -64,7 +64,7 @@ PART = 0.1
 ASSUMED = "The study does not say how well its inputs are known: shown for ±10 % of {}."
 
 
-def assumed(state: State) -> dict[str, dict[str, object]]:
+def assumed_ranges(state: State) -> dict[str, dict[str, object]]:
     """Ranges to begin with, where neither study nor library states any; else none."""
     if state.answer is None or state.get("uncertainty", "inputs") or _ranges(state):
         return {}
@@ -131,7 +131,7 @@ def band_figure(found: Bands, load: str) -> Figure:
     nominal = np.array(found["nominal"], float)
     own = {"color": GREY, "dash": "dash"}
     traces.append(line(x, nominal, "this study", 1, line=own))
-    positive = bool(np.nanmin(band) > 0) and not bounded([found["of"]])
+    positive = bool(np.nanmin(band) > 0) and not are_bounded([found["of"]])
     made = figure(
         traces,
         x=AXES[load],
@@ -209,7 +209,7 @@ def tornado_figure(found: Bands) -> Figure:
             {
                 "type": "bar",
                 "orientation": "h",
-                "y": [wrapped(found["words"][label], WIDE) for label in labels],
+                "y": [wrap_text(found["words"][label], WIDE) for label in labels],
                 "x": [None if v is None or middle is None else v - middle for v in ends],
                 "base": middle,
                 "name": name,
@@ -265,12 +265,12 @@ class ErrorBars:
         ui.label(
             "Without any entry the ranges of the materials library count, where it states some."
         ).classes("hint")
-        self.inputs = Inputs(state, self._renewed)
+        self.inputs = Inputs(state, self._refresh_entries)
         self.known = self._inputs_and_ranges()
         """What the entries show."""
         self._entries()
 
-    def _renewed(self) -> None:
+    def _refresh_entries(self) -> None:
         self._entries.refresh()
 
     @ui.refreshable_method
@@ -299,7 +299,7 @@ class ErrorBars:
         space = np.linspace if answer.load == "d" else np.geomspace
         self.load = answer.load
         study = self.state.study
-        if start := assumed(self.state):
+        if start := assumed_ranges(self.state):
             study = study | {"uncertainty": {"inputs": start}}
         return {
             "study": study,
@@ -334,12 +334,12 @@ class ErrorBars:
     async def draw(self) -> None:
         if self._inputs_and_ranges() != self.known:
             self.known = self._inputs_and_ranges()
-            self._renewed()
+            self._refresh_entries()
         self.inputs.show_mistakes()
         options, of = results_of(self.state), self.of
         if options != of.options:
             of.set_options(options, value=of.value if of.value in options else PLAIN[0])
-        names = words_of_inputs(self.state, assumed(self.state))
+        names = words_of_inputs(self.state, assumed_ranges(self.state))
         self.assumed.set_text(as_shown(ASSUMED.format(", ".join(names))) if names else "")
         self.assumed.set_visibility(bool(names))
         await self.work.update_preview(self.state)

@@ -24,9 +24,9 @@ from ..fields import Field, engineering, fields_of, number_field
 from ..figures import GREY, Figure, band, figure, line, log_title, mark
 from ..inputs import Inputs
 from ..sliders import Slider
-from ..solver import apart
+from ..solver import ask_for_page
 from ..soon import Soon
-from ..state import Answer, State, look, measured
+from ..state import Answer, State, look, surface_key
 from ..text import as_shown
 from ..widgets import Facts, Plot, set_attributes, show_figures
 from ..widgets import table as shown_table
@@ -80,7 +80,7 @@ AXES = {
 }
 
 
-def _solved(answer: Answer) -> tuple[FilmResult, int]:
+def _solve_film_curve(answer: Answer) -> tuple[FilmResult, int]:
     return run_film_curve(answer.study)
 
 
@@ -151,7 +151,7 @@ class Film:
 
     def __init__(self, state: State) -> None:
         self.state = state
-        self.inputs = Inputs(state, self._renewed)
+        self.inputs = Inputs(state, self._refresh_form)
         self.answer: Answer | None = None
         """Whose film is shown."""
         self.start: tuple[Answer, Answer | None] | None = None
@@ -174,14 +174,14 @@ class Film:
             self.oil_rows = ui.column().classes("w-full scroll-x")
             self.fine = ui.input("a filter: its β ratio at sizes").classes("w-full narrow")
             set_attributes(self.fine, {"data-path": "film.filter", "hint": FILTER})
-            self.fine.props("dense debounce=400").on_value_change(self._filtered)
+            self.fine.props("dense debounce=400").on_value_change(self._show_filter)
         with ui.element("div").classes("figures w-full") as self.grid:
             with ui.column().classes("w-full gap-1") as self.beside:
                 self._results()
             with ui.column().classes("w-full entries"):
                 self._form()
 
-    def _renewed(self) -> None:
+    def _refresh_form(self) -> None:
         self._form.refresh()
 
     @ui.refreshable_method
@@ -195,7 +195,7 @@ class Film:
         self.said = ui.label().classes("hint").props('data-fact="film speed"')
         self.slider = Slider(min=0, max=MOST_SPEEDS, step=1, value=0)
         self.slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
-        self.slider.on_value_change(self._moved)
+        self.slider.on_value_change(self._follow_slider)
         self.facts = Facts(kind="film: ")
         with ui.element("div").classes("pair w-full"):
             self.plots = {name: Plot(name) for name in CURVES}
@@ -217,7 +217,7 @@ class Film:
         made = film_figures(found, i)
         await show_figures((plot, made[name]) for name, plot in self.plots.items())
 
-    def _moved(self) -> None:
+    def _follow_slider(self) -> None:
         i = int(self.slider.value or 0)
         if self.found is not None and i != self.i:
             self.i = i
@@ -227,7 +227,7 @@ class Film:
         shape = _shape(self.state.get("film"))
         if shape != self.there:
             self.there = shape
-            self._renewed()
+            self._refresh_form()
         has_entries = isinstance(self.state.get("film"), dict)
         self.grid.classes(**{"remove" if has_entries else "add": "alone"})
         self.inputs.show_mistakes()
@@ -239,7 +239,7 @@ class Film:
         if answer is None or answer is self.answer:
             return
         before = self.found
-        found, middle = await apart(_solved, answer)
+        found, middle = await ask_for_page(_solve_film_curve, answer)
         kept = before is not None and np.array_equal(before.states["speed"], found.states["speed"])
         self.answer, self.found = answer, found
         self.i = self.i if kept else middle
@@ -262,8 +262,8 @@ class Film:
             return answer
         if self.start is None or self.start[0] is not answer:
             study, surface = state.study | {"film": START}, state.surfaces
-            known = surface.get(measured(study, state.folder))
-            found, problems, _ = await apart(look, study, state.folder, known)
+            known = surface.get(surface_key(study, state.folder))
+            found, problems, _ = await ask_for_page(look, study, state.folder, known)
             self.start = (answer, found)
             self.wrong.set_text(as_shown("; ".join(problems)))
         return self.start[1]
@@ -272,7 +272,7 @@ class Film:
         """The answer in sentences: what the particles of the oil do, then the film."""
         wrong = ""
         try:
-            oil = await apart(oil_of, answer, str(self.fine.value or ""))
+            oil = await ask_for_page(oil_of, answer, str(self.fine.value or ""))
         except ThirdBodyError as error:
             oil, wrong = None, "; ".join(getattr(error, "problems", None) or [str(error)])
             self.wrong.set_text(wrong)
@@ -311,7 +311,7 @@ class Film:
             for text in more:
                 ui.label(as_shown(text)).classes("hint")
 
-    async def _filtered(self) -> None:
+    async def _show_filter(self) -> None:
         if self.answer is not None and self.found is not None:
             self.wrong.set_text("")
             await self._show_answer(self.answer, self.found)
@@ -348,7 +348,7 @@ def _entries(inputs: Inputs, state: State) -> None:
             ui.button(
                 "What the oil carries", on_click=lambda: inputs.change("film", "entrainment", DIRT)
             ).props("flat dense no-caps")
-    ui.button("Remove the film", icon="delete", on_click=lambda: _removed(inputs, state)).props(
+    ui.button("Remove the film", icon="delete", on_click=lambda: _remove_film(inputs, state)).props(
         'flat dense no-caps data-path="film.remove"'
     )
 
@@ -385,7 +385,7 @@ def _speed(inputs: Inputs, now: object) -> None:
     inputs.field(("film", "speed"), points)
 
 
-def _removed(inputs: Inputs, state: State) -> None:
+def _remove_film(inputs: Inputs, state: State) -> None:
     """The study without a film; it keeps a load."""
     answer = state.answer
     if state.get("load") is None and answer is not None:

@@ -95,13 +95,13 @@ def facts_of(point: tb.Equilibrium, held: float = math.inf) -> list[tuple[str, s
         if "n_sa" not in counted:
             contact = point.contact.replace(outputs=(tb.outputs.Counts(),))
             counted = tb.solve(contact, d=_one(point.d)).outputs
-        at.append(_loaded(point.contact, _one(counted["n_sa"])))
+        at.append(_loaded_row(point.contact, _one(counted["n_sa"])))
     for part in point.populations:
         at.append((f"{part.name} carries", percent(_one(part.load_share))))
     return at
 
 
-def _loaded(contact: tb.Contact, n: float) -> tuple[str, str]:
+def _loaded_row(contact: tb.Contact, n: float) -> tuple[str, str]:
     """How many of the particles bear load; of those that break, pieces for each that came.
 
     Pieces bear beside whole particles, and so they are no part of those that came.
@@ -131,7 +131,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     )
     with ui.row().classes("w-full gap-4 items-center justify-between"):
         legend = ui.row().classes("gap-4")
-        ui.button("Another place", icon="casino", on_click=lambda: another()).props(
+        ui.button("Another place", icon="casino", on_click=lambda: draw_another()).props(
             "flat dense no-caps"
         )
     means = abouts()
@@ -172,7 +172,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
                 _legend(names)
         numbers.show(pairs)
 
-    def another() -> None:
+    def draw_another() -> None:
         seed["now"] += 1
         state.announce_change()  # which is answered as every other change is
 
@@ -221,7 +221,7 @@ class Force:
         warned = [text for each in found for text in each.warnings]
         self.warned.set_text(f"Warning: {'; '.join(warned)}." if warned else "")
         self.warned.set_visibility(bool(warned))
-        self.place.set_visibility(found[0].kind != "flat" and answer.forced)
+        self.place.set_visibility(found[0].kind != "flat" and answer.has_one_force)
         self.drawn = time.perf_counter()
         if follows and self.later is None and not self.running:
             self._wait(RESTS)
@@ -240,7 +240,7 @@ class Force:
             return
         self.running = True
         try:
-            await self.state.ask(_integrated)
+            await self.state.ask(_integrate_forces)
         except InvalidValue as error:
             self.first.set_text("; ".join(error.problems))
             return
@@ -272,7 +272,7 @@ def at_once(answer: Answer) -> list[Pressed]:
     ]
 
 
-def _integrated(answer: Answer) -> None:
+def _integrate_forces(answer: Answer) -> None:
     """Have the answer learn what its forces do."""
     _ = answer.forces
 
@@ -296,7 +296,7 @@ def _caption(drawn: Section, held: float) -> str:
     )
     if not drawn.grains:
         return said
-    loaded = sum(grain.loaded for grain in drawn.grains)
+    loaded = sum(grain.is_loaded for grain in drawn.grains)
     carry = "larger than the gap above their seat and carry load."
     if rare := meets(held):
         does = "is larger than the gap above its seat and carries load"

@@ -67,7 +67,7 @@ def _start() -> AskedLife:
     return read_tables({"life": START}, Path(), oil_of, lambda t: t.name in NEEDED)
 
 
-def _slid(asked: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:
+def _scale_oil(asked: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:
     """The oil with its sliders where they are: factors on what the study says."""
     circuit = asked.circuit
     changes: dict[str, object] = {}
@@ -99,7 +99,7 @@ def contents_of(
     answer_of_study: Answer, flow: float = 1.0, service: float = 1.0, ingress: float = 1.0
 ) -> LifeShown:
     """The answer in words, numbers, the course of the code, and the flows of dirt."""
-    asked = _slid(_oil_of(answer_of_study) or _start(), flow, service, ingress)
+    asked = _scale_oil(_oil_of(answer_of_study) or _start(), flow, service, ingress)
     times = np.concatenate([[0.0], np.geomspace(1e-5, 1.0, POINTS) * asked.duration])
     times[-1] = asked.duration
     history = run_oil_history(
@@ -213,7 +213,7 @@ class LifeTab:
                     low, high = (-SERVICE_STEPS, 0) if name == "service" else (-STEPS, STEPS)
                     slider = Slider(min=low, max=high, step=1, value=0)
                     set_attributes(slider, {"aria-label": name, "data-slider": f"life.{name}"})
-                    slider.on_value_change(self._slid)
+                    slider.on_value_change(self._show_scaled)
                     self.sliders[name] = slider
         self.facts = Facts()
         with ui.element("div").classes("figures w-full"):
@@ -225,7 +225,7 @@ class LifeTab:
         flow, service, ingress = (float(self.sliders[name].value) for name in NAMES)
         return REACH ** (flow / STEPS), 1 + service / 40, REACH ** (ingress / STEPS)
 
-    async def _slid(self) -> None:
+    async def _show_scaled(self) -> None:
         if self.state.answer is not None:
             await self._show()
 

@@ -91,7 +91,7 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
     ]
     return figure(
         traces,
-        shapes=[] if here is None else [_here(NM * here[0], MPA * here[1])],
+        shapes=[] if here is None else [_mark_study(NM * here[0], MPA * here[1])],
         x="mean particle size [nm]",
         y="nominal pressure [MPa]",
         title="Contact mode; a click goes there",
@@ -101,7 +101,7 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
     )
 
 
-def _here(size: float, load: float) -> Part:
+def _mark_study(size: float, load: float) -> Part:
     """The study as a point of the map: a shape moves without a new picture of the map."""
     return {
         "type": "circle",
@@ -134,7 +134,7 @@ def reach(here: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     return made[0], made[1]
 
 
-def inside(found: ModeMap, here: tuple[float, float] | None) -> bool:
+def lies_inside(found: ModeMap, here: tuple[float, float] | None) -> bool:
     """Whether the study lies on the map."""
     if here is None:
         return True
@@ -167,7 +167,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if answer is None or len(answer.contact.populations) != 1:
             work.fail("the map needs exactly one population of particles")
             return None
-        place = await here()
+        place = await find_study()
         if place is None or not (place[0] > 0 and place[1] > 0):
             work.fail("the map needs a state of the study that is solved")
             return None
@@ -180,7 +180,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             "loads": loads.tolist(),
         }
 
-    async def here() -> tuple[float, float] | None:
+    async def find_study() -> tuple[float, float] | None:
         """Where the study is on a map: its mean size [m] and pressure [Pa]."""
         assert state.answer is not None
         contact = state.answer.contact
@@ -210,14 +210,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if shown is None or state.answer is None:
             return
         plot.widget.set_visibility(True)
-        place = await here()
-        if not inside(shown, place):
+        place = await find_study()
+        if not lies_inside(shown, place):
             await work.again(state)  # a map contains its study
             place = None
         only.set_text(about_map(shown["mode"]))
         await plot.show(map_figure(shown, place))
 
-    def clicked(event: GenericEventArguments) -> None:
+    def go_to_point(event: GenericEventArguments) -> None:
         points = (event.args or {}).get("points") or []
         if not points or state.answer is None:
             return
@@ -227,7 +227,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         at = {"F_star": F_star, "pressure": F_star * contact.E_ss}.get(state.answer.load)
         state.replace(with_size(state.study, size), at=at)
 
-    plot.widget.on("plotly_click", clicked)
+    plot.widget.on("plotly_click", go_to_point)
     return draw_tab
 
 

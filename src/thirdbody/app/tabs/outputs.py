@@ -17,13 +17,24 @@ from ...analysis.uncertainty.propagation import about_result
 from ...contact.output import AbstractOutput
 from ...equilibrium.columns import about
 from ...quantities.say import prefixed, value_of
-from ..figures import AXES, SCALES, Figure, clipped, figure, line, mark, plain, symbol, wrapped
+from ..figures import (
+    AXES,
+    SCALES,
+    Figure,
+    escape_tags,
+    figure,
+    line,
+    mark,
+    symbol,
+    upper_decades,
+    wrap_text,
+)
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..widgets import Plot, show_figures
 from ..widgets import table as shown_table
 
-__all__ = ["TITLE", "bounded", "build", "output_figures"]
+__all__ = ["TITLE", "are_bounded", "build", "output_figures"]
 
 TITLE = "Outputs"
 QUANTITIES = {
@@ -69,13 +80,13 @@ def output_figures(answer: Answer, at: float) -> dict[str, Figure]:
         for unit, columns in units.items():
             what = quantity_of(columns, unit)
             title = str(output.title) if len(units) == 1 else f"{output.title}: {what}"
-            made = _figure(answer, columns, unit, what, wrapped(title, WIDE))
-            made["layout"]["shapes"] = [mark(_here(answer, at), "", dash="solid")[0]]
+            made = _figure(answer, columns, unit, what, wrap_text(title, WIDE))
+            made["layout"]["shapes"] = [mark(_value_on_axis(answer, at), "", dash="solid")[0]]
             out[f"{output.name} [{unit}]"] = made
     return out
 
 
-def _here(answer: Answer, at: float) -> float:
+def _value_on_axis(answer: Answer, at: float) -> float:
     """Where the operating load is on the axis of the figures: a separation, or a pressure."""
     if answer.load == "d":
         return at
@@ -90,28 +101,28 @@ def _figure(answer: Answer, columns: list[str], unit: str, what: str, title: str
     every = np.concatenate(values)
     every = every[np.isfinite(every) & (every != 0)]
     size, name = prefixed(float(np.abs(every).max()) if len(every) else 1.0, unit)
-    matters = clipped(values)
+    matters = upper_decades(values)
     wide = len(every) > 0 and every.min() > 0 and matters.max() > WIDE_FROM * matters.min()
-    names = [f"{symbol(about(c).symbol)}: {plain(about(c).meaning)}" for c in columns]
-    names = [_folded(each) for each in names]
+    names = [f"{symbol(about(c).symbol)}: {escape_tags(about(c).meaning)}" for c in columns]
+    names = [_fold_name(each) for each in names]
     return figure(
         [line(x, y / size, each, i) for i, (y, each) in enumerate(zip(values, names, strict=True))],
         x=AXES[against],
         title=title,
-        y=wrapped(what + (f" [{name}]" if name else ""), WIDE),
+        y=wrap_text(what + (f" [{name}]" if name else ""), WIDE),
         xlog=against != "d",
-        ylog=bool(wide) and not bounded(columns),
+        ylog=bool(wide) and not are_bounded(columns),
         height=HEIGHT + LINE * sum(each.count("<br>") + 1 for each in names),
     )
 
 
-def bounded(columns: list[str]) -> bool:
+def are_bounded(columns: list[str]) -> bool:
     """Whether all columns are parts of a whole or coefficients of friction, none far above 1.
 
     What of them is small does not matter: their axis is linear.
 
-    >>> bounded(["mu", "mu_ss", "rolling_share"]), bounded(["n_ss"]), bounded(["wear", "wear_K"])
-    (True, False, False)
+    >>> [are_bounded(c) for c in (["mu", "mu_ss", "rolling_share"], ["n_ss"], ["wear", "wear_K"])]
+    [True, False, False]
     """
     told = [about_result(column) for column in columns]
     return all(each.unit == "1" and BOUNDED.search(each.meaning) for each in told)
@@ -130,7 +141,7 @@ def quantity_of(columns: list[str], unit: str) -> str:
     return " ".join(words).rstrip(":,") or QUANTITIES.get(unit, "value")
 
 
-def _folded(name: str) -> str:
+def _fold_name(name: str) -> str:
     """A name of a legend in lines, its tags whole."""
     return "<br>".join(textwrap.wrap(name, WIDE + 12, break_long_words=False))
 
@@ -163,7 +174,7 @@ class Outputs:
         self.state = state
         self.asked = names_of_outputs(state)
         """What the entries show."""
-        self.inputs = Inputs(state, self._renewed)
+        self.inputs = Inputs(state, self._refresh_tab)
         self._switches()
         self.start = ui.label(START).classes("hint").props('data-fact="outputs begun"')
         self.grids: dict[str, tuple[ui.element, ui.element]] = {}
@@ -175,7 +186,7 @@ class Outputs:
         self.table = ui.column().classes("w-full scroll-x")
         self._numbers()
 
-    def _renewed(self) -> None:
+    def _refresh_tab(self) -> None:
         self.asked = names_of_outputs(self.state)
         self.inputs.shown.clear()
         self._switches.refresh()
@@ -197,7 +208,7 @@ class Outputs:
         """The outputs of the study as it is now, or some to begin with."""
         state = self.state
         if names_of_outputs(state) != self.asked:  # undone, or another study
-            self._renewed()
+            self._refresh_tab()
         self.inputs.show_mistakes()
         made, rows = await state.ask(_figures_and_rows, state.operating_load)
         for name in [name for name in self.plots if name not in made]:
@@ -217,7 +228,7 @@ class Outputs:
 
 def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], list[dict[str, str]]]:
     """The figures, and the rows of the table; of some outputs where the study asks for none."""
-    answer = answer if answer.contact.outputs else _begun(answer)
+    answer = answer if answer.contact.outputs else _with_first_outputs(answer)
     rows = [
         {
             "meaning": about(name).meaning,
@@ -230,7 +241,7 @@ def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], lis
     return output_figures(answer, at), rows
 
 
-def _begun(answer: Answer) -> Answer:
+def _with_first_outputs(answer: Answer) -> Answer:
     """The answer with outputs that need no number of their own."""
     contact = answer.contact
     fitting = tuple(each for each in BEGUN if not each.problems(contact))

@@ -12,7 +12,7 @@ from ...systems.chuck import Chuck
 from ...systems.plate_over_particle import ATOM
 from ...views.plate_words import answer, facts, heads, rows, uncertainty
 from ..fields import Field
-from ..figures import figure, line, plain
+from ..figures import escape_tags, figure, line
 from ..question import Question, QuestionTab, Shown
 from ..state import Answer, State
 
@@ -51,7 +51,7 @@ def contents_of(answer_of_study: Answer) -> Shown:
     traces = []
     for i, (name, heights) in enumerate(kinds):
         seen = np.where(heights < ATOM, np.nan, heights)
-        traces.append(line(1e6 * sizes, 1e9 * seen, plain(name), i))
+        traces.append(line(1e6 * sizes, 1e9 * seen, escape_tags(name), i))
     traces.append(line(1e6 * sizes, 1e9 * sizes, "as high as the particle", 5))
     if chuck.limit is not None:
         level = np.full(2, 1e9 * chuck.limit)

@@ -16,7 +16,7 @@ from ...quantities.units import to_si
 from ..fields import value_from
 from ..figures import Figure, Part, figure, line, mark
 from ..guard import LARGEST_UPLOAD
-from ..solver import apart
+from ..solver import ask_for_page
 from ..state import State, missing
 from ..text import as_shown
 from ..uploads import take
@@ -115,7 +115,7 @@ class Surface:
                 "surface",
                 "Drop a file",
                 LARGEST_UPLOAD,
-                self._uploaded,
+                self._take_file,
                 refused=lambda: self.work.said.set_text(
                     f"the file is larger than {LARGEST_UPLOAD // 2**20} MB, or not one file"
                 ),
@@ -142,15 +142,17 @@ class Surface:
                 self.plots[name] = plot_place(f"surface-{name}")
 
     # ------------------------------------------------------------------ what happens
-    def _written(self) -> dict[str, str]:
+    def _texts_written(self) -> dict[str, str]:
         return {name: str(w.value or "") for name, w in self.texts.items()}
 
     def _key(self) -> object:
-        return self.file, self._written()
+        return self.file, self._texts_written()
 
     def _reading(self) -> dict[str, str]:
         """The file and how it is read, for the address."""
-        return {"file": Path(self.file).name} | {k: v for k, v in self._written().items() if v}
+        return {"file": Path(self.file).name} | {
+            k: v for k, v in self._texts_written().items() if v
+        }
 
     def _choose_file(self, name: str) -> None:
         """Another file is the one to read."""
@@ -188,7 +190,7 @@ class Surface:
         """The example of the library, until a file is dropped."""
         with self.box, contextlib.suppress(InvalidValue):
             example: dict[str, object] = {"file": "example", "options": {}}
-            found = await apart(in_little, "surface", example)
+            found = await ask_for_page(in_little, "surface", example)
             if self.result is None and self.file == "example" and not self.box.is_deleted:
                 self._show(cast(Found, found))
 
@@ -196,7 +198,7 @@ class Surface:
         with self.box:
             await self.work.run()
 
-    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+    async def _take_file(self, event: events.UploadEventArguments) -> None:
         try:
             name = await take(self.state, event)
         except InvalidValue as error:
@@ -209,12 +211,12 @@ class Surface:
 
     def _ask(self) -> Asked | None:
         try:
-            options = options_from(self._written())
+            options = options_from(self._texts_written())
         except InvalidValue as error:
             self.work.said.set_text("; ".join(error.problems))
             return None
         self._hide()
-        self.asked = self._written()
+        self.asked = self._texts_written()
         self.state.surface = self.followed = self._reading()
         self.state.announce_change()
         return {"file": self.file, "options": options}

@@ -81,7 +81,7 @@ class TakeAway:
         with ui.row().classes("w-full items-center no-wrap"):
             self.link = ui.input().props('readonly dense data-path="link" aria-label="link"')
             self.link.classes("grow")
-            copy = ui.button(icon="content_copy", on_click=self._copied)
+            copy = ui.button(icon="content_copy", on_click=self._copy_link)
             copy.props('flat aria-label="copy the link"')
 
     def _study(self) -> None:
@@ -89,14 +89,14 @@ class TakeAway:
         self.editor = ui.textarea().classes("w-full code")
         self.editor.props('outlined autogrow data-path="toml" aria-label="study file"')
         with ui.row().classes("items-center"):
-            ui.button("Use this text", icon="input", on_click=self._edited).props(
+            ui.button("Use this text", icon="input", on_click=self._use_edited_text).props(
                 'no-caps data-take="toml"'
             )
             self.chooser = upload(
                 "study",
                 "Open a study file",
                 LONGEST_STUDY,
-                self._uploaded,
+                self._take_study,
                 refused=lambda: self.said.set_text("the file is too large for a study"),
             ).props('accept=".toml,text/plain"')
         self.problems = ui.column().classes("w-full")
@@ -106,7 +106,7 @@ class TakeAway:
         self.state.replace(study)
         self.again()
 
-    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+    async def _take_study(self, event: events.UploadEventArguments) -> None:
         self.said.set_text("")
         self.chooser.reset()
         try:
@@ -118,14 +118,14 @@ class TakeAway:
         except InvalidValue as error:
             self.said.set_text("; ".join(error.problems))
 
-    def _edited(self) -> None:
+    def _use_edited_text(self) -> None:
         self.said.set_text("")
         try:
             self._use(from_toml(str(self.editor.value or "")))
         except InvalidValue as error:
             self.said.set_text("; ".join(error.problems))
 
-    def _copied(self) -> None:
+    def _copy_link(self) -> None:
         ui.clipboard.write(str(self.link.value))
 
     async def _send(self, name: str, kind: str) -> None:

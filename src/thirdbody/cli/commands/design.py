@@ -119,7 +119,7 @@ def _sheets(
     return question_sheets(
         heading_of(asked.title or "design", asked.settings),
         said.answer(),
-        said.chosen(),
+        said.chosen_rows(),
         [f"limits in force: {said.limits('; '.join(best.active)) or 'none'}"],
         states=(columns, units),
         meanings={name: each.about.get("long_name", "") for name, each in best.of_points.items()},
@@ -141,7 +141,7 @@ def _page(asked: Study, best: Best) -> None:
     front = best.of_points["front"].values
     several = len(best.objectives) > 1
     out.print("\none of the best" if several else "\nbest")
-    heads, rows = said.chosen()
+    heads, rows = said.chosen_rows()
     table = Table(heads, right=True, words=["chosen"])
     for row in rows:
         table.add_row(*row)
@@ -213,7 +213,7 @@ class _Words:
         why = self.limits(best.reason)
         return [f"Nothing tried obeys the limits. Nearest is what follows: {why}", self.sentence()]
 
-    def chosen(self) -> tuple[tuple[str, ...], list[list[str]]]:
+    def chosen_rows(self) -> tuple[tuple[str, ...], list[list[str]]]:
         """Heads, and a row for each variable: its value and how far it may be off."""
         rows = []
         for name, value in self.best.values.items():

@@ -49,7 +49,7 @@ def command(
     from ...study.dirty_oil import need_particles, read_filter
     from ...study.toml import heading_of
     from ...study.toml_text import text_with
-    from ...study.toml_text import written as in_toml
+    from ...study.toml_text import toml_value as in_toml
     from ...views.pdf import need_browser, pdf_of
     from ...views.report import PARTS, report
     from ...views.report.page import UNTITLED

@@ -108,7 +108,7 @@ def command(options: Options) -> None:
         with folder.open() as data:
             files.write(*_table(data), sheets=partial(_sheets, data, options.study))
         tell_written(*files.paths)
-    _tell(folder)
+    _tell_warnings(folder)
 
 
 def _need_files(
@@ -232,7 +232,7 @@ def _answer(data: xarray.Dataset) -> list[str]:
     return [f"{over}, {join_words(told)}."] if told else []
 
 
-def _tell(folder: Folder) -> None:
+def _tell_warnings(folder: Folder) -> None:
     """What a finished sweep warns of, and how many states it has."""
     summary = folder.finished
     assert summary is not None

@@ -22,7 +22,7 @@ from ..engine import ignore_ranges
 from ..seats import explicit_particles
 from .cases import SIGMA, Case
 
-__all__ = ["FULL", "QUICK", "Effort", "Point", "box_of", "by_field", "compared", "points_of"]
+__all__ = ["FULL", "QUICK", "Effort", "Point", "box_of", "by_field", "points_of", "press_case"]
 
 SURE = 0.975
 """Probability to each side within which a difference is one of the draw."""
@@ -99,18 +99,18 @@ class Point:
     field: tuple[float, float, float] = (math.nan, math.nan, math.nan)
 
     @property
-    def bounded(self) -> bool:
+    def has_bounds_only(self) -> bool:
         """Whether bounds are all that is known of the share."""
         return math.isfinite(self.bounds[0])
 
     @property
-    def apart(self) -> float:
+    def difference(self) -> float:
         """Share of the model over the explicit one, less 1."""
         return self.statistical / self.share[0] - 1 if self.share[0] > 0 else math.nan
 
     @property
     def apart_by_field(self) -> float:
-        """Difference as of `apart`, for the law of one field."""
+        """Difference as of `difference`, for the law of one field."""
         return self.field[0] / self.share[0] - 1 if self.share[0] > 0 else math.nan
 
     @property
@@ -119,14 +119,14 @@ class Point:
         return (self.statistical - self.share[0]) / self.share[1] if self.share[1] > 0 else math.nan
 
     @property
-    def off(self) -> bool:
+    def is_off(self) -> bool:
         """Whether the model is off by more than the error bars: 95 %, few surfaces counted.
 
         Where only bounds are known, whether it is outside them.
         """
         if self.surfaces < 2:
             return False
-        if self.bounded:
+        if self.has_bounds_only:
             return not self.bounds[0] <= self.statistical <= self.bounds[1]
         return abs(self.errors) > float(student.ppf(SURE, self.surfaces - 1))
 
@@ -137,7 +137,7 @@ class Point:
         The shares' odds differ by the factors with which explicit asperities carry less than
         those of the model at one separation, and explicit particles less than their sum.
         """
-        if not self.off:
+        if not self.is_off:
             return ""
         found = self.ratios
         bare = found["bare_over_bearing"] / self.model_bare
@@ -153,7 +153,7 @@ class Point:
         return "; ".join(told[:3])
 
 
-def compared(
+def press_case(
     case: Case, effort: Effort, folder: Path | None, report: Callable[[int], None]
 ) -> Ensemble:
     """The surfaces of a case, finished ones read from the folder."""

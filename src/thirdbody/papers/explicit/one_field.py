@@ -46,7 +46,7 @@ class State:
     area: tuple[float, float, float]
     share_error: float
 
-    def off(self, field: bool) -> tuple[float, float, float]:
+    def differences(self, field: bool) -> tuple[float, float, float]:
         """Share over that pressed, less 1; separation less that pressed [σ]; area as the share."""
         i = 2 if field else 1
         return (
@@ -76,7 +76,7 @@ def against_stored(
     Examples
     --------
     >>> states = against_stored(endless=True, cases=["soft_x2"])
-    >>> max(abs(state.off(field=True)[0]) for state in states) < 0.02
+    >>> max(abs(state.differences(field=True)[0]) for state in states) < 0.02
     True
     """
     rows = comparison()
@@ -109,7 +109,7 @@ def _number(value: float | None) -> float:
 
 def errors(states: Sequence[State], *, field: bool) -> dict[str, tuple[float, float]]:
     """Worst and RMS of share [1], separation [σ] and area [1], of what was pressed."""
-    off = np.array([state.off(field) for state in states])
+    off = np.array([state.differences(field) for state in states])
     rms = np.sqrt(np.nanmean(off**2, axis=0))
     worst = np.nanmax(np.abs(off), axis=0)
     return {name: (float(worst[i]), float(rms[i])) for i, name in enumerate(("share", "h", "area"))}
@@ -122,7 +122,7 @@ def main(arguments: list[str] | None = None) -> int:
     states = against_stored(endless=parser.parse_args(arguments).endless)
     print("case, F*: share (one field, summits) in %, h in sigma, area in %; error of the share")
     for state in states:
-        new, old = state.off(True), state.off(False)
+        new, old = state.differences(True), state.differences(False)
         print(
             f"{state.case:14} {state.F_star:7.0e}: {100 * new[0]:+5.1f} ({100 * old[0]:+5.1f})  "
             f"{new[1]:+.3f} ({old[1]:+.3f})  {100 * new[2]:+5.1f} ({100 * old[2]:+5.1f}); "

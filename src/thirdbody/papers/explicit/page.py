@@ -23,7 +23,7 @@ from .. import engine
 from ..engine import Picture, Progress
 from ..page import document
 from .cases import CASES, GROUPS
-from .compared import FULL, QUICK, Effort, Point, compared, points_of
+from .compared import FULL, QUICK, Effort, Point, points_of, press_case
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,7 +49,7 @@ class Summary(engine.Summary):
 
     def findings(self) -> list[str]:
         """Every state, and how far both laws are off."""
-        off = sum(point.off for point in self.points)
+        off = sum(point.is_off for point in self.points)
         out = [
             f"{len(CASES)} contacts, each on {self.effort.words}",
             f"{len(self.points)} states: the model is off by more than the error bars (95 %) in "
@@ -63,7 +63,7 @@ class Summary(engine.Summary):
                     out.append(
                         f"  {point.case.words:<44} F* = {number(point.F_star, 2):<8} "
                         f"{_explicit(point):>18}  model {percent(point.statistical)}  "
-                        f"{_apart(point)}  one field {_by_field(point)}"
+                        f"{_difference_words(point)}  one field {_by_field(point)}"
                     )
         return out
 
@@ -137,7 +137,7 @@ def _find(effort: Effort, folder: Path, report: Progress) -> Summary:
         def tell(done: int, before: int = before) -> None:
             report("surfaces", before + done, total)
 
-        found = compared(case, effort, folder / "surfaces", tell)
+        found = press_case(case, effort, folder / "surfaces", tell)
         left_out += found.left_out
         if found.left_out:
             lost.append(case.name)
@@ -150,10 +150,10 @@ def _find(effort: Effort, folder: Path, report: Progress) -> Summary:
 
 def _worst(points: tuple[Point, ...]) -> list[str]:
     """Worst and RMS of both laws above F* = 1e-4, where errors of the runs are small."""
-    some = [point for point in points if point.F_star > HEAVY and not math.isnan(point.apart)]
+    some = [point for point in points if point.F_star > HEAVY and not math.isnan(point.difference)]
     out = []
     for words, off in (
-        ("by the sum over summits", [point.apart for point in some]),
+        ("by the sum over summits", [point.difference for point in some]),
         ("by one field", [point.apart_by_field for point in some]),
     ):
         if known := [100 * each for each in off if not math.isnan(each)]:
@@ -217,7 +217,7 @@ def _as_json(summary: Summary) -> dict[str, object]:
         "effort": summary.effort.words,
         "left_out": summary.left_out,
         "states": [
-            plain_data(_columns(point)) | {"off": point.off, "why": point.why}
+            plain_data(_columns(point)) | {"off": point.is_off, "why": point.why}
             for point in summary.points
         ],
     }
@@ -302,7 +302,7 @@ def figure(points: tuple[Point, ...]) -> Figure:
             every = [
                 point
                 for point in mine
-                if point.case.words == words and point.share[0] > 0 and not point.bounded
+                if point.case.words == words and point.share[0] > 0 and not point.has_bounds_only
             ]
             load = np.array([point.F_star for point in every]) * beside
             ratio = np.array([point.statistical / point.share[0] for point in every])
@@ -314,7 +314,7 @@ def figure(points: tuple[Point, ...]) -> Figure:
             field = np.array([point.field[0] / point.share[0] for point in every])
             ax.plot(load, field, marker="x", markersize=4, linestyle=":", linewidth=0.8, color=ink)
             for point in mine:  # a bar from bound to bound has no mark
-                if point.case.words == words and point.bounded and point.bounds[0] > 0:
+                if point.case.words == words and point.has_bounds_only and point.bounds[0] > 0:
                     ends = [point.statistical / each for each in point.bounds]
                     ax.plot([point.F_star * beside] * 2, ends, color=ink, marker="_", linewidth=1.0)
         ax.set_title(fill(title, 48), fontsize="small", loc="left")
@@ -343,7 +343,7 @@ def _share(pair: tuple[float, float]) -> str:
 
 def _explicit(point: Point) -> str:
     """The share, corrected for the random surfaces drawn, or its bounds."""
-    if not point.bounded:
+    if not point.has_bounds_only:
         return _share(point.share)
     return _bounds_text(*(100 * each for each in point.bounds)) + " %"
 
@@ -376,11 +376,11 @@ def _page(summary: Summary, figures: str) -> str:
     return document(title, body)
 
 
-def _apart(point: Point) -> str:
+def _difference_words(point: Point) -> str:
     """By how much the model is off."""
-    if point.bounded:
-        return "outside" if point.off else "within"
-    return f"{signed(100 * point.apart, 1)} %, {signed(point.errors, 1)} errors"
+    if point.has_bounds_only:
+        return "outside" if point.is_off else "within"
+    return f"{signed(100 * point.difference, 1)} %, {signed(point.errors, 1)} errors"
 
 
 def _by_field(point: Point) -> str:
@@ -392,14 +392,14 @@ def _by_field(point: Point) -> str:
 
 
 def _row(point: Point, stored: bool) -> list[str]:
-    kind = "fail" if point.off else "pass"
+    kind = "fail" if point.is_off else "pass"
     cells = [
         symbols(point.case.words),
         number(point.F_star, 2),
         _share(point.raw),
         f"<b>{_explicit(point)}</b>",
         percent(point.statistical),
-        f"<td class='{kind}'>{_apart(point)}</td>",
+        f"<td class='{kind}'>{_difference_words(point)}</td>",
         _by_field(point),
         f"{point.h[0]:.3f} ± {point.h[1]:.3f}",
         f"{point.h_statistical:.3f}",

@@ -19,7 +19,7 @@ from .measures import (
     ends,
     extreme,
     extreme_over_materials,
-    inside,
+    is_inside,
     material_measure,
     measure,
     ratios,
@@ -32,7 +32,7 @@ from .readings import RANGE, Curve, Curves
 # ------------------------------------------------------------------ real area
 def _distance_from_bare(c: Curve, bare: Curve, load: float) -> float | Measurement:
     """Difference of the area to that without particles, where it grows throughout."""
-    if np.any(np.diff(c.A_t[inside(c)]) <= 0):
+    if np.any(np.diff(c.A_t[is_inside(c)]) <= 0):
         return Measurement.absent("the area does not grow throughout")
     return abs(c.value_at(load, c.A_t) / bare.value_at(load, bare.A_t) - 1)
 
@@ -44,17 +44,19 @@ add_measures(
 )
 add_measures(
     two_body_measure,
-    two_body_departure=lambda c, bare: np.max(np.abs(c.A_t / bare.A_t - 1)[inside(c)]),
+    two_body_departure=lambda c, bare: np.max(np.abs(c.A_t / bare.A_t - 1)[is_inside(c)]),
     slope_difference=lambda c, bare, loads: abs(
         slope(c, c.A_t, loads) - slope(bare, bare.A_t, loads)
     ),
-    area_over_two_body=lambda c, bare, loads: ends((c.A_t / bare.A_t)[inside(c, loads)]),
-    smallest_pressure_gain=lambda c, bare, loads: 1 / np.max((c.A_t / bare.A_t)[inside(c, loads)]),
+    area_over_two_body=lambda c, bare, loads: ends((c.A_t / bare.A_t)[is_inside(c, loads)]),
+    smallest_pressure_gain=lambda c, bare, loads: (
+        1 / np.max((c.A_t / bare.A_t)[is_inside(c, loads)])
+    ),
     return_to_two_body=_distance_from_bare,
 )
 add_measures(
     partial(extreme_over_materials, max),
-    largest_area_over_two_body=lambda c, bare: np.max((c.A_t / bare.A_t)[inside(bare)]),
+    largest_area_over_two_body=lambda c, bare: np.max((c.A_t / bare.A_t)[is_inside(bare)]),
 )
 add_measures(
     partial(
@@ -62,12 +64,14 @@ add_measures(
         lambda found: max(np.concatenate(found), key=lambda ratio: abs(ratio - 1)),
     ),
     material_area_ratio=lambda silica, steel, loads=RANGE: (steel.A_t / silica.A_t)[
-        inside(silica, loads)
+        is_inside(silica, loads)
     ],
 )
 add_measures(
     partial(material_measure, max),
-    silica_over_steel_area=lambda silica, steel: np.max((silica.A_t / steel.A_t)[inside(silica)]),
+    silica_over_steel_area=lambda silica, steel: np.max(
+        (silica.A_t / steel.A_t)[is_inside(silica)]
+    ),
     silica_minus_steel_asperity_share=lambda silica, steel, load: (
         silica.value_at(load, silica.asperity_share) - steel.value_at(load, steel.asperity_share)
     ),
@@ -82,7 +86,7 @@ add_measures(
 
 def _growth(one: Curve, other: Curve) -> float:
     """The largest area of a curve over that of another at the same load."""
-    return np.max((one.A_t / other.A_t)[inside(one)])
+    return np.max((one.A_t / other.A_t)[is_inside(one)])
 
 
 @measure
@@ -177,7 +181,7 @@ def _largest_step(c: Curve) -> float | Measurement:
     start = critical_load_1(c)
     if not math.isfinite(start):
         return Measurement.absent(NEVER_P_S if math.isnan(start) else ALWAYS_P_S)
-    return np.max(np.diff(c.particle_share[inside(c, (start, RANGE[1]))]))
+    return np.max(np.diff(c.particle_share[is_inside(c, (start, RANGE[1]))]))
 
 
 def _onset(c: Curve) -> Measurement:
@@ -202,9 +206,9 @@ def _modes(c: Curve) -> Measurement:
 
 add_measures(
     curve_measure,
-    smallest_asperity_share=lambda c: np.min(c.asperity_share[inside(c)]),
-    largest_particle_share=lambda c: np.max(c.particle_share[inside(c)]),
-    mean_particle_share=lambda c, loads: np.mean(c.particle_share[inside(c, loads)]),
+    smallest_asperity_share=lambda c: np.min(c.asperity_share[is_inside(c)]),
+    largest_particle_share=lambda c: np.max(c.particle_share[is_inside(c)]),
+    mean_particle_share=lambda c, loads: np.mean(c.particle_share[is_inside(c, loads)]),
     particle_share_at=lambda c, at: tuple(c.value_at(load, c.particle_share) for load in at),
     particle_share_step=_largest_step,
     particle_onset=_onset,

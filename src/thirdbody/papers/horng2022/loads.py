@@ -94,7 +94,7 @@ def _in_order(name: str, load: Load, *, largest: bool, why: str) -> None:
     """
     pair = (SILICA, STEEL) if largest else (STEEL, SILICA)
 
-    def ordered(
+    def extreme_ratio(
         curves: Curves,
         sigma: Any,
         x_a: Any,
@@ -109,7 +109,7 @@ def _in_order(name: str, load: Load, *, largest: bool, why: str) -> None:
             rows = [[curves(m, sigma, x) for m in pair] for x in x_a]
         return extreme([r for row in rows for r in ratios(map(load, row))], largest, why)
 
-    MEASURES[name] = ordered
+    MEASURES[name] = extreme_ratio
 
 
 for _name, _load, _largest, _why in (

@@ -28,8 +28,8 @@ __all__ = [
     "ends",
     "extreme",
     "extreme_over_materials",
-    "inside",
     "interior_peak_of",
+    "is_inside",
     "material_measure",
     "measure",
     "ratios",
@@ -52,7 +52,7 @@ def measure(function: Measure) -> Measure:
     return function
 
 
-def inside(curve: Curve, loads: Sequence[float] = RANGE) -> NDArray[np.bool_]:
+def is_inside(curve: Curve, loads: Sequence[float] = RANGE) -> NDArray[np.bool_]:
     """Grid points between two loads, both included."""
     low, high = loads
     return (curve.F >= low * (1 - 1e-9)) & (curve.F <= high * (1 + 1e-9))
@@ -60,7 +60,7 @@ def inside(curve: Curve, loads: Sequence[float] = RANGE) -> NDArray[np.bool_]:
 
 def slope(curve: Curve, values: Array, loads: Sequence[float]) -> float:
     """Least-squares slope of ln(values) over ln F*."""
-    part = inside(curve, loads) & (values > 0)
+    part = is_inside(curve, loads) & (values > 0)
     if part.sum() < 2:
         return math.nan
     return float(np.polyfit(np.log(curve.F[part]), np.log(values[part]), 1)[0])
@@ -99,7 +99,7 @@ def interior_peak_of(curve: Curve, *, turns: bool) -> tuple[float, float] | None
     With ``turns`` the share must fall below a stated part of its maximum on both sides, as in
     `thirdbody.transitions`; without, any maximum counts that is not at an end.
     """
-    part = inside(curve)
+    part = is_inside(curve)
     F, share = curve.F[part], curve.particle_share[part]
     top = int(np.argmax(share))
     limit = data_of(PAPER)["definitions"]["turn_share"] if turns else 1 - 1e-6

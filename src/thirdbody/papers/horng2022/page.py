@@ -143,7 +143,7 @@ def _statement(claim: Claim, ledger: Ledger) -> str:
     text = symbols(claim.statement) + "."
     if claim.remark:
         text += f"<br><span class=soft>{symbols(claim.remark)}</span>"
-    apart = [other for other in claim.conflicts if not ledger.together(claim.id, other)]
+    apart = [other for other in claim.conflicts if not ledger.can_meet_both(claim.id, other)]
     if apart:
         others = ", ".join(f"<a href='#{name}'>{name}</a>" for name in apart)
         text += f"<br><span class=soft>No reading meets it together with {others}.</span>"

@@ -300,7 +300,7 @@ class Curves:
         """The curve for a particle material, σ and x_a in nm, at `LOADS`."""
         key = (material if x_a else "", sigma, x_a)
         if key not in self._known:
-            self._known[key] = self.under(LOADS, material, sigma, x_a)
+            self._known[key] = self.curve_under(LOADS, material, sigma, x_a)
         return self._known[key]
 
     def two_body(self, sigma: float) -> Curve:
@@ -311,10 +311,10 @@ class Curves:
         """The single state under one load, kept."""
         key = (material if x_a else "", sigma, x_a, load)
         if key not in self._known:
-            self._known[key] = self.under(np.array([load]), material, sigma, x_a)
+            self._known[key] = self.curve_under(np.array([load]), material, sigma, x_a)
         return self._known[key]
 
-    def under(self, loads: Array, material: str, sigma: float, x_a: float) -> Curve:
+    def curve_under(self, loads: Array, material: str, sigma: float, x_a: float) -> Curve:
         """The curve at other loads, not kept."""
         contact = self.reading.contact(material, sigma, x_a)
         with ignore_ranges():  # several readings leave the range of the laws on purpose

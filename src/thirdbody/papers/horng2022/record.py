@@ -30,7 +30,7 @@ class Ledger:
         lost = [key for key in own if own[key].passed and not booked[key].passed]
         return gained, lost
 
-    def together(self, one: str, other: str) -> bool:
+    def can_meet_both(self, one: str, other: str) -> bool:
         """Whether some reading meets both claims."""
         return any(scored[one].passed and scored[other].passed for scored in self.verdicts.values())
 

@@ -13,7 +13,7 @@ from .measures import (
     add_measures,
     curve_measure,
     extreme_over_materials,
-    inside,
+    is_inside,
     material_measure,
     measure,
     two_body_measure,
@@ -29,7 +29,7 @@ elastic and elastoplastic shares fall and the plastic one rises."""
 @measure
 def regime_share_step(curves: Curves, sigma: float, regime: str, extreme: str) -> Measurement:
     bare = curves.two_body(sigma)
-    share = bare.share(regime)[inside(bare)]
+    share = bare.share(regime)[is_inside(bare)]
     steps = share[1:] / share[:-1]
     return Measurement.from_values(steps.max() if extreme == "largest" else steps.min())
 
@@ -37,21 +37,21 @@ def regime_share_step(curves: Curves, sigma: float, regime: str, extreme: str) -
 add_measures(curve_measure, plastic_share_at=lambda c, load: c.value_at(load, c.share("p")))
 add_measures(
     partial(extreme_over_materials, max),
-    largest_elastic_share=lambda c, bare: np.max(c.share("e")[inside(c)]),
+    largest_elastic_share=lambda c, bare: np.max(c.share("e")[is_inside(c)]),
     largest_elastic_share_over_two_body=lambda c, bare: max(
-        (c.share("e") / bare.share("e"))[inside(bare)]
+        (c.share("e") / bare.share("e"))[is_inside(bare)]
     ),
 )
 add_measures(
     partial(extreme_over_materials, min),
-    smallest_elastoplastic_share=lambda c, bare: np.min(c.share("ep")[inside(c)]),
+    smallest_elastoplastic_share=lambda c, bare: np.min(c.share("ep")[is_inside(c)]),
 )
 add_measures(
     partial(material_measure, max),
     regime_order_breach=lambda silica, steel: max(
         0.0,
         *(
-            np.max(sign * (silica.share(regime) - steel.share(regime))[inside(silica)])
+            np.max(sign * (silica.share(regime) - steel.share(regime))[is_inside(silica)])
             for regime, sign in GAINED.items()
         ),
     ),
@@ -82,7 +82,7 @@ def _area_lost(c: Curve, growth: float) -> float | Measurement:
     """Over all pairs of hybrid states with d* larger by the factor: the smallest loss of area."""
     share, definitions = c.particle_share, data_of(PAPER)["definitions"]
     above, below = definitions["first_share"], 1 - definitions["second_share"]
-    hybrid = inside(c) & (share < above) & (share > below)
+    hybrid = is_inside(c) & (share < above) & (share > below)
     d, A = c.d_star[hybrid], c.A_t[hybrid]
     wide = d[:, None] >= growth * d
     if not wide.any():
@@ -99,7 +99,7 @@ add_measures(
 )
 add_measures(
     two_body_measure,
-    separation_over_two_body=lambda c, bare, loads: np.max((c.d / bare.d)[inside(c, loads)]),
+    separation_over_two_body=lambda c, bare, loads: np.max((c.d / bare.d)[is_inside(c, loads)]),
 )
 add_measures(
     partial(material_measure, min),
@@ -109,7 +109,7 @@ add_measures(
 )
 add_measures(
     partial(material_measure, max),
-    largest_separation_ratio=lambda silica, steel: np.max((silica.d / steel.d)[inside(silica)]),
+    largest_separation_ratio=lambda silica, steel: np.max((silica.d / steel.d)[is_inside(silica)]),
 )
 
 
@@ -125,5 +125,5 @@ def separation_steps(
 @measure
 def separation_step(curves: Curves, sigma: float) -> Measurement:
     bare = curves.two_body(sigma)
-    d = bare.d_star[inside(bare)]
+    d = bare.d_star[is_inside(bare)]
     return Measurement.from_values(np.max(d[1:] / d[:-1]))

@@ -59,9 +59,9 @@ def _band() -> Band:
     return Band(found.low, found.best, found.high, f'deep = "off": {_rise("off").text}')
 
 
-def _most() -> Band:
+def _limit() -> Band:
     off = Band.from_values(pressure(0.95, "off"))
     return Band.from_values(pressure(0.95, "table"), f'deep = "off": {off.text}')
 
 
-ROW = row_of("bishop1945", {"rises": _band, "limit": _most})
+ROW = row_of("bishop1945", {"rises": _band, "limit": _limit})

@@ -16,7 +16,7 @@ DEPTHS = np.geomspace(0.02, 0.1, 9)
 """Interference over R."""
 
 
-def _over(what: str) -> Band:
+def _band_of(what: str) -> Band:
     default = tb.asperity.ZMC()
     spheres = [
         {"R": 1.0, "E_star": E_star, "H": H}
@@ -45,8 +45,8 @@ def _over(what: str) -> Band:
 ROW = row_of(
     "jamari2006",
     {
-        "pressure": lambda: _over("pressure"),
-        "constant": lambda: _over("constant"),
-        "area": lambda: _over("area"),
+        "pressure": lambda: _band_of("pressure"),
+        "constant": lambda: _band_of("constant"),
+        "area": lambda: _band_of("area"),
     },
 )

@@ -71,15 +71,15 @@ def wear_columns(pressure: float, coefficients: tuple[float, float, float]) -> d
     }
 
 
-def _every() -> list[dict[str, Array]]:
+def _all_columns() -> list[dict[str, Array]]:
     return [wear_columns(p, given) for p in PRESSURES for given in COEFFICIENTS]
 
 
 def _maximum() -> Band:
     """Largest wear over that at the nearer end of the densities."""
-    found = [max(each["wear"]) / max(each["wear"][0], each["wear"][-1]) for each in _every()]
-    place = [DENSITIES[int(np.argmax(each["wear"]))] for each in _every()]
-    share = [each["share"][int(np.argmax(each["wear"]))] for each in _every()]
+    found = [max(each["wear"]) / max(each["wear"][0], each["wear"][-1]) for each in _all_columns()]
+    place = [DENSITIES[int(np.argmax(each["wear"]))] for each in _all_columns()]
+    share = [each["share"][int(np.argmax(each["wear"]))] for each in _all_columns()]
     return Band.from_values(
         found,
         f"at {min(place):.1e} to {max(place):.1e} particles per m², where particles carry "
@@ -89,7 +89,7 @@ def _maximum() -> Band:
 
 def _rolling() -> Band:
     """Rolling share at the most particles, less that at the fewest."""
-    return Band.from_values([each["rolling"][-1] - each["rolling"][0] for each in _every()])
+    return Band.from_values([each["rolling"][-1] - each["rolling"][0] for each in _all_columns()])
 
 
 def turning(pressure: float, coefficients: tuple[float, float, float]) -> tuple[float, float]:

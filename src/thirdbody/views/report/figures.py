@@ -90,7 +90,7 @@ def _mark_loads(report: Found, ax: Axes) -> Axes:
             va="top",
         )
     ax.tick_params(which="both", top=False)
-    above = ax.secondary_xaxis("top", functions=(scaled(E), scaled(1 / E)))
+    above = ax.secondary_xaxis("top", functions=(multiply_by(E), multiply_by(1 / E)))
     above.set_xlabel("Nominal pressure")
     if ax.get_xscale() == "log":
         above.xaxis.set_major_locator(LogLocator(numticks=MOST_PRESSURES))
@@ -155,6 +155,6 @@ def _place(*, left: float, above: float = 0.52) -> Axes:
     return Figure(figsize=DRAWING, dpi=150).add_axes(rectangle)
 
 
-def scaled(factor: float) -> Any:
+def multiply_by(factor: float) -> Any:
     """A function that multiplies."""
     return lambda values: values * factor

@@ -24,7 +24,7 @@ from ..html import document, figure, section, text_table, words
 from .figures import figures_of
 from .found import Found
 from .sentences import answer_sentences, ranked_inputs, strongest_inputs
-from .sources import alike, inputs_and_sources, laws_and_reasons, works_cited
+from .sources import bodies_by_label, inputs_and_sources, laws_and_reasons, works_cited
 from .tables import (
     bearing_section,
     critical_section,
@@ -209,7 +209,7 @@ def _bars(report: Found) -> list[str]:
                 "<p>There are none: with particles that break every sample takes a second, so "
                 "that bands are drawn only where a table [uncertainty] asks for them.</p>"
             ]
-        names = [body.name or label for label, body in alike(report.bodies())]
+        names = [body.name or label for label, body in bodies_by_label(report.bodies())]
         return [
             "<p>There are none: the study has no table [uncertainty] that says something of "
             "this contact, and the materials library states no ranges for "

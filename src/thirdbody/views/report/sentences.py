@@ -51,7 +51,7 @@ def _without_oil(report: Found) -> tuple[str, str, str]:
             _distance(report, first),
         )
     low, high = (f"{report.at_load(i)} {_carries(report, i)}" for i in (first, last))
-    near, far = (_apart(report, i) for i in (first, last))
+    near, far = (_gap_and_area(report, i) for i in (first, last))
     return f"{low}: {near}.", f"{high}: {far}.", _path(report, known)
 
 
@@ -101,7 +101,7 @@ def _area(report: Found, i: int) -> str:
     return f"real contact area is {percent(report.result.states.A_t[i])} of the nominal area"
 
 
-def _apart(report: Found, i: int) -> str:
+def _gap_and_area(report: Found, i: int) -> str:
     touching = report.result.states.A_t[i] > 0
     return f"{_gap(report, i)} and the {_area(report, i)}" if touching else _gap(report, i)
 
@@ -152,7 +152,7 @@ def _path(report: Found, known: Sequence[int]) -> str:
         return _first_input(report)
     loads = [states.F_star[i] for i in known]
     found = [
-        f"{name} = {number(F)} ({value_of(F * report.contact.E_ss, 'Pa')}{_beyond(F, loads)})"
+        f"{name} = {number(F)} ({value_of(F * report.contact.E_ss, 'Pa')}{_outside_note(F, loads)})"
         for name, F in report.existing_loads().items()
     ]
     if any(is_rare(states.mode[i], report.result.particles_in(i)) for i in known):
@@ -170,13 +170,13 @@ def _first_input(report: Found) -> str:
     assert report.slopes is not None
     slope = float(report.slopes.elasticity["A_t"][order[0]])
     return (
-        f"{_when(report)}{words_of(report.contact, order[0])} moves the real contact area most: "
-        "1 % more of it makes "
+        f"{_inputs_clause(report)}{words_of(report.contact, order[0])} moves the real contact area "
+        "most: 1 % more of it makes "
         f"{signed(slope, 2, '%')} of area."
     )
 
 
-def _when(report: Found) -> str:
+def _inputs_clause(report: Found) -> str:
     """Clause on the inputs, and on which of several loads they matter."""
     at = f", at {report.load(report.at)}" if len(report.result.solved_states) > 1 else ""
     return f"Of the inputs{at}, "
@@ -214,7 +214,7 @@ def _order(slopes: Sensitivity, of: str) -> list[str]:
     return sorted(size, key=lambda label: -(size[label] if math.isfinite(size[label]) else -1.0))
 
 
-def _beyond(F: float, loads: Sequence[float]) -> str:
+def _outside_note(F: float, loads: Sequence[float]) -> str:
     """Whether a load lies outside those of the study."""
     low, high = min(loads), max(loads)
     if low <= F <= high:

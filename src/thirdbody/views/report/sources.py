@@ -47,7 +47,7 @@ class Row(NamedTuple):
 
 def inputs_and_sources(report: Found) -> list[str]:
     bodies = []
-    for label, body in alike(report.bodies()):
+    for label, body in bodies_by_label(report.bodies()):
         source, standing = source_of(body)
         values = [
             f"{about['symbol']} = {value_of(getattr(body, key), about['unit'])}"
@@ -210,7 +210,7 @@ def sources_of(body: Material) -> tuple[list[str], str]:
     return texts, STANDING.get(standing, standing)
 
 
-def alike(bodies: dict[str, Material]) -> list[tuple[str, Material]]:
+def bodies_by_label(bodies: dict[str, Material]) -> list[tuple[str, Material]]:
     """Bodies by label; two surfaces of one material share a row."""
     out = dict(bodies)
     if "surface 1" not in out:
