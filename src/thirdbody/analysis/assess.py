@@ -22,7 +22,7 @@ from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import OWN_SPOTS, varied
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
 from ..quantities.carried import takes_units
-from ..quantities.progress import LONG, SURE, Cost, Stages, counted, duration, solving
+from ..quantities.progress import LONG, SURE, Cost, Stages, count_contacts, duration, solving
 from ..quantities.say import number, percent, value_of
 from ..quantities.value import problem_with
 from .assessment import (
@@ -279,7 +279,7 @@ class _Work:
             if self.progress is not None and states and not why:
                 self.progress.moved(int(done), states, "states")
 
-        with counted(expected, self.within), solving(more):
+        with count_contacts(expected, self.within), solving(more):
             yield
 
     def price(

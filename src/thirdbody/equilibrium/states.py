@@ -18,7 +18,7 @@ from ..errors import InvalidValue, Mistake, NotCompiled, Problem
 from ..populations.materials import BULK
 from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
-from ..quantities.progress import Cost, reporting, solved, solving, weighed
+from ..quantities.progress import Cost, report_solved, reporting, solving, weigh_states
 from ..quantities.value import paths_of, warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
@@ -307,7 +307,7 @@ def _with_outputs(
 ) -> Columns:
     """Columns of the states, with those of the outputs of each contact."""
     inputs = {name: v for name, v in arrays.items() if carries(name)}
-    with weighed(0.5):
+    with weigh_states(0.5):
         out = _columns(contact.replace(outputs=()), inputs, load, loads, fewest)
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
@@ -329,7 +329,7 @@ def _with_outputs(
         )
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
-        solved(0.5 * len(which), OWN_SPOTS)
+        report_solved(0.5 * len(which), OWN_SPOTS)
     return out
 
 
@@ -533,7 +533,7 @@ def _without_doubts(
 
 def _with_progress(parts: Iterable[tuple[Which, Columns]]) -> Iterator[tuple[Which, Columns]]:
     for here, columns in parts:
-        solved(len(columns["status"]))
+        report_solved(len(columns["status"]))
         yield here, columns
 
 
@@ -552,7 +552,7 @@ def _by_groups(
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
         more = {"engine": _all(len(which), path), CODE: np.atleast_1d(result.status_code)}
         parts.append((which, result.columns() | more))
-        solved(len(which), why)
+        report_solved(len(which), why)
     return _joined(len(loads), parts)
 
 

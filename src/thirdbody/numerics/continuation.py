@@ -69,7 +69,7 @@ class Branch(NamedTuple):
         y = np.column_stack([self.x, self.parameter])
         over = self.parameter >= value
         turns = np.flatnonzero(over[1:] != over[:-1])
-        return [_between(residual, y[i], y[i + 1], value)[:-1] for i in turns]
+        return [_point_at_value(residual, y[i], y[i + 1], value)[:-1] for i in turns]
 
 
 @dataclass
@@ -160,7 +160,7 @@ class _Walk:
         return best["y"]
 
 
-def _between(residual: Residual, one: Array, other: Array, value: float) -> Array:
+def _point_at_value(residual: Residual, one: Array, other: Array, value: float) -> Array:
     """The point between two of a branch at which the parameter has a value."""
     walk = _Walk(residual, first_jacobian(residual, one))
     direction = (other - one) / np.linalg.norm(other - one)

@@ -117,12 +117,12 @@ def stretches_with_a_turn(walk: Walk, points: list[Array], step: float) -> list[
     ]
     out: list[Stretch] = []
     for i in np.flatnonzero(looked):
-        parts = _parted(walk, places[i], places[i + 1], step)
+        parts = _split_stretch(walk, places[i], places[i + 1], step)
         out += [Stretch(int(i), a.y, b.y, highest=a.slope > b.slope) for a, b in parts]
     return out
 
 
-def _parted(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[_Place, _Place]]:
+def _split_stretch(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[_Place, _Place]]:
     """Ends of the parts of a stretch in which the parameter turns once."""
     way = b.y - a.y
     length = float(np.linalg.norm(way))
@@ -139,7 +139,7 @@ def _parted(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[_Place,
         return alone
     if _is_plain(a, m, b, step):
         return alone
-    return _parted(walk, a, m, step) + _parted(walk, m, b, step)
+    return _split_stretch(walk, a, m, step) + _split_stretch(walk, m, b, step)
 
 
 def _is_plain(a: _Place, m: _Place, b: _Place, step: float) -> bool:

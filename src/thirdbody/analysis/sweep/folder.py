@@ -42,7 +42,7 @@ from ...quantities.run_files import (
     read_json,
     read_record,
     refuse_another,
-    sealed,
+    sealed_text,
 )
 from ...quantities.say import plural
 
@@ -169,7 +169,7 @@ class Folder:
     ) -> None:
         """Say that a block is on the disk."""
         prints = {file.relative_to(self.path).as_posix(): fingerprint(file) for file in files}
-        text = sealed({"study": study, **summary, "files": prints})
+        text = sealed_text({"study": study, **summary, "files": prints})
         write_text(self.marker(number), text, tidy=False)
 
     def record(self, study: str, blocks: int, data: Path | None = None) -> None:
@@ -233,7 +233,7 @@ class Folder:
     def write_record(self, study: str, blocks: int, prints: Mapping[str, Fingerprint]) -> None:
         """Write ``files.json``."""
         told = {"study": study, "blocks": blocks, "files": dict(prints)}
-        write_text(self.path / "files.json", sealed(told))
+        write_text(self.path / "files.json", sealed_text(told))
 
     def shared_files(self, study: str | None) -> tuple[dict[str, Fingerprint], int] | None:
         """Content of ``files.json``: fingerprints, and the number of blocks."""

@@ -17,8 +17,8 @@ import numpy as np
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Cost, Report, reporting, solving
-from ...quantities.run_files import sealed
-from ...quantities.sharing import shared
+from ...quantities.run_files import sealed_text
+from ...quantities.sharing import share_parts
 from .folder import (
     STORE,
     Folder,
@@ -153,7 +153,7 @@ def _results(
         return task if client is not None else partial(_with_progress, task, cost)
 
     tasks = ((number, work(number)) for number in numbers)
-    return shared(tasks, workers=workers, client=client)
+    return share_parts(tasks, workers=workers, client=client)
 
 
 def _with_progress(task: Callable[[], Result], cost: Cost) -> Result:
@@ -310,7 +310,7 @@ def _carry_out(
     elif more or not intact:
         _assemble(plan, folder, layout, attrs)
         folder.record(name, plan.count)
-    write_text(path / "finished.json", sealed({"study": name, **total}))
+    write_text(path / "finished.json", sealed_text({"study": name, **total}))
     folder.remove_parts()
 
 

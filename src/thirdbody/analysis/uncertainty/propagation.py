@@ -31,7 +31,7 @@ from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities import notebook
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
-from ...quantities.progress import watched
+from ...quantities.progress import watch_contacts
 from ...quantities.record import Record
 from ...quantities.say import percent
 from ...quantities.uncertain import uncertain_number
@@ -539,7 +539,7 @@ def propagate(
     first_few = np.arange(len(u)).reshape(REPLICATES, each)[:, :few]
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
-    with watched("propagate", len(u), progress):
+    with watch_contacts("propagate", len(u), progress):
         critical = _sought(contact, sought, some, first_few)
         found = _Bands(names, probabilities, first_few, critical, contact)
         of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)

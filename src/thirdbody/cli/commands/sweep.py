@@ -84,9 +84,9 @@ def command(options: Options) -> None:
     _need_files(files, plan, options.study, options.settings, options.force)
     client = None
     if options.scheduler is not None:
-        from ...quantities.sharing import connected
+        from ...quantities.sharing import connect_client
 
-        client = connected(options.scheduler)
+        client = connect_client(options.scheduler)
     try:
         folder = run(
             plan,

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.special import ndtr, ndtri
 
 from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
-from ...populations.measured.spectra import filled
+from ...populations.measured.spectra import fill_missing
 from ...quantities.say import percent
 from ...quantities.value import Value, choice, quantity
 from .programme import TERMS, Edges, Pressed, pressed
@@ -148,7 +148,7 @@ class OwnSpectrum(Value):
                 f"{percent(MISSING, digits=1)}), so that its waves are not known; crop it",
                 code=Mistake.BEYOND,
             )
-        z = filled(z)
+        z = fill_missing(z)
         t = (z - z.mean()) / z.std()
         skewness, excess = float(np.mean(t**3)), float(np.mean(t**4) - 3)
         G: tuple[float, ...] = (1.0,)

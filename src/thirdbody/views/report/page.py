@@ -15,7 +15,7 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
-from ...quantities.say import join_words, signed, value_of
+from ...quantities.say import join_words, signed_number, value_of
 from ...study.toml import heading_of
 from ...version import __version__
 from .. import connector_words, nature_words, oil_words, plate_words, state_words
@@ -251,7 +251,7 @@ def _slopes(report: Found) -> list[str]:
         unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
         unit = unit or declared(report.contact, label.split("+")[0])["unit"]
         each = (float(report.slopes.elasticity[name][label]) for name in (of, *others))
-        slopes = (signed(slope, 3) for slope in each)
+        slopes = (signed_number(slope, 3) for slope in each)
         rows.append([words_of(report.contact, label), value_of(float(value), unit), *slopes])
     sentence = (
         f"At {report.load(report.at)}, {strongest_inputs(report, of, order)}. The numbers tell by "

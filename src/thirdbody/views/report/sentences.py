@@ -18,7 +18,7 @@ from ...equilibrium.words import (
     not_met,
     two_bodies,
 )
-from ...quantities.say import join_words, number, percent, signed, times, value_of
+from ...quantities.say import join_words, number, percent, signed_number, times, value_of
 from .found import Found
 
 MATTER = 3
@@ -172,7 +172,7 @@ def _first_input(report: Found) -> str:
     return (
         f"{_when(report)}{words_of(report.contact, order[0])} moves the real contact area most: "
         "1 % more of it makes "
-        f"{signed(slope, 2, '%')} of area."
+        f"{signed_number(slope, 2, '%')} of area."
     )
 
 
