@@ -19,7 +19,7 @@ from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
 from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.states import OWN_SPOTS, varied
+from ..equilibrium.states import OWN_SPOTS, vary_contact
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import LONG, SURE, Cost, Stages, count_contacts, duration, solving
@@ -537,7 +537,7 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tupl
 
     def alone(way: Way) -> bool:
         start = {name: float(v) for name, v in every[way][0].moved_numbers([steps[way][0]]).items()}
-        return costly(varied(one.contact, start), start)
+        return costly(vary_contact(one.contact, start), start)
 
     halved = {way for way in steps if alone(way)}
     for counts, some in (

@@ -12,7 +12,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.output import AbstractOutput
 from ..equilibrium.columns import COLUMNS
-from ..equilibrium.states import carries, unknown_inputs, varied
+from ..equilibrium.states import carries, unknown_inputs, vary_contact
 from ..errors import InvalidValue, Mistake, Problem
 from ..populations.roughness import ETA_R_SIGMA
 from ..quantities.say import join_words
@@ -215,7 +215,7 @@ def _room(contact: Contact, moved: Input, step: float, reach: int = FULL_REACH) 
     for offsets in places_of(reach):
         try:
             for end in (offsets[0], offsets[-1]):
-                varied(contact, moved.numbers_at(float(step * end)))
+                vary_contact(contact, moved.numbers_at(float(step * end)))
         except InvalidValue as refused:
             why = why or str(refused)
         else:

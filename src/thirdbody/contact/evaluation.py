@@ -124,12 +124,12 @@ def _about_few(state: Solved) -> list[str]:
     if not concerned or not max(areas) or not len(state.d):
         return []
 
-    def pressed(spots: AsperitySpots | ParticleSpots) -> NDArray[np.bool_]:
+    def has_load(spots: AsperitySpots | ParticleSpots) -> NDArray[np.bool_]:
         return spots.load > 0
 
     kinds = {
-        "asperities": max(areas) * state.total(pressed),
-        "particles": max(areas) * state.total_of_particles(pressed),
+        "asperities": max(areas) * state.total(has_load),
+        "particles": max(areas) * state.total_of_particles(has_load),
     }
     count = kinds["asperities"] + kinds["particles"]
     out: list[str] = []

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Ground", "GroundedPart", "LiftedSum", "grounded"]
+__all__ = ["Ground", "GroundedPart", "LiftedSum", "put_on_ground"]
 
 STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
@@ -313,7 +313,7 @@ class Ground:
                 break
             states = [each[more] for each in states]
             misses = [each[more] for each in misses]
-            state = _accelerated(states, misses)
+            state = _next_state(states, misses)
         return rest[left == MORE]
 
     def _above(self, first: int, u: Array, w: Array) -> tuple[Array, Array]:
@@ -356,7 +356,7 @@ def field_offset(seat: Seat, field: FieldSum) -> float:
     return (field.rough.y_s - field.centre - seat.part.offset) / field.sigma
 
 
-def _accelerated(states: list[Array], misses: list[Array]) -> Array:
+def _next_state(states: list[Array], misses: list[Array]) -> Array:
     """The next state: the combination of the last ones that misses least, row by row."""
     if len(states) == 1:
         return states[0] + 0.5 * misses[0]
@@ -537,7 +537,7 @@ class LiftedSum(FieldSum):
         return self.plain.spots(self._lifted(d))
 
 
-def grounded(
+def put_on_ground(
     field: FieldSum,
     populations: Sequence[SeatedParticles],
     laws: Sequence[SeatedLaw],

@@ -18,7 +18,7 @@ from ..quantities.progress import advance
 from .asperity_sums import asperity_sum
 from .broken_averages import is_rough
 from .contact import Contact
-from .field_ground import grounded
+from .field_ground import put_on_ground
 from .field_sums import FieldSum
 from .particle_sums import SeatedParticles, particle_sum, together_in
 
@@ -43,7 +43,7 @@ class Interface:
             for law, each in zip(laws, contact.populations, strict=True)
         ]
         if self.populations and isinstance(self.asperities, FieldSum):
-            self.asperities, found = grounded(
+            self.asperities, found = put_on_ground(
                 self.asperities,
                 [each for each in self.populations if isinstance(each, SeatedParticles)],
                 [law for law in laws if isinstance(law, SeatedLaw)],

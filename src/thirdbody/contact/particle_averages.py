@@ -283,7 +283,7 @@ class SizeAverage:
         weight: Array | float,
     ) -> ParticleSpots:
         """Spots of all particles in gaps (M, 1), each gap counted with its weight."""
-        x, delta, number = _counted(*self.of_sizes(gap, rise, splits, SIZE_NODES))
+        x, delta, number = _drop_empty_nodes(*self.of_sizes(gap, rise, splits, SIZE_NODES))
         return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
 
     @property
@@ -293,7 +293,7 @@ class SizeAverage:
         return np.concatenate([below, self.top - self.upper.edges**2])
 
 
-def _counted(x: Array, delta: Array, number: Array) -> tuple[Array, Array, Array]:
+def _drop_empty_nodes(x: Array, delta: Array, number: Array) -> tuple[Array, Array, Array]:
     """The same without nodes that stand for nothing, on panels that have no room in their row.
 
     Rows with fewer nodes than others repeat their last one, for nothing.

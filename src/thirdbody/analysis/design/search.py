@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...contact.contact import Contact
-from ...contact.pressed import buried, most_buried
+from ...contact.pressed import buried_share, most_buried
 from ...equilibrium.load import as_load
 from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
@@ -231,8 +231,8 @@ class Task:
             for name, values in out.items():
                 values[possible] = np.asarray(states[name], float).reshape(count, J)
         nominal = {name: values[:, 0] for name, values in vary.items()}
-        buried_share = self._buried(bare, nominal, out)
-        return {**out, "coverage": covered, "buried_share": buried_share, "refused": refused}
+        buried = self._buried(bare, nominal, out)
+        return {**out, "coverage": covered, "buried_share": buried, "refused": refused}
 
     def _states(
         self, contact: Contact, vary: dict[str, Array], names: Iterable[str]
@@ -274,7 +274,7 @@ class Task:
             known &= most > NOTHING * pressure
             part = np.zeros(known.shape)
             if known.any():
-                part[known] = buried(own, d[which][known])
+                part[known] = buried_share(own, d[which][known])
             out[which] += np.nan_to_num(part * share[which])
         return out
 

@@ -24,7 +24,7 @@ from ...contact.broken_averages import roughly
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.critical_loads import CRITICAL, critical_loads
-from ...equilibrium.crowding import crowded
+from ...equilibrium.crowding import is_crowded
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
@@ -655,7 +655,7 @@ class _Bands:
             self.modes[mode].append(float(share.mean()))
             self.mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
         self.solved.append(float(np.mean(np.isfinite(state["d"]))))
-        self.crowded.append(float(np.mean(crowded(self.contact, state["A_t"]))))
+        self.crowded.append(float(np.mean(is_crowded(self.contact, state["A_t"]))))
 
 
 def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propagation]:
@@ -690,7 +690,7 @@ def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propaga
                 mode_error=dict.fromkeys(MODES_OR_NONE, 0.0),
                 critical_status=statuses,
                 solved=1.0,
-                crowded=float(crowded(contact, state["A_t"])[0]),
+                crowded=float(is_crowded(contact, state["A_t"])[0]),
             )
         )
     return out

@@ -126,7 +126,7 @@ def _chosen(friction: float) -> list[_Run]:
     return sorted(runs, key=lambda run: run.node)
 
 
-def _welded(run: _Run) -> _Run:
+def _welded_run(run: _Run) -> _Run:
     """The welded rigid-plastic run of the same hardness ratio."""
     return next(it for it in _chosen(1.0) if it.ratio == run.ratio)
 
@@ -143,7 +143,7 @@ def squeeze_at(place: Array) -> Array:
     return 1 / (1 + np.exp(-(first + last + place * (last - first)) / 2))
 
 
-def _between(nodes: Sequence[float], values: Sequence[Array]) -> Fan:
+def _interpolant(nodes: Sequence[float], values: Sequence[Array]) -> Fan:
     """Function of x between the values (N, K) at nodes (N,): monotone, constant outside."""
     from scipy.interpolate import PchipInterpolator
 
@@ -168,15 +168,15 @@ def _fans() -> tuple[Fan, list[Fan], list[tuple[float, Fan]]]:
     for m in _frictions():
         runs = _chosen(m)
         changes = [_change(run, places) for run in runs]
-        rubbing.append(_between([run.node for run in runs], changes))
+        rubbing.append(_interpolant([run.node for run in runs], changes))
     elastic = []
     runs = [run for run in _runs() if run.softness > 0]
     for node in sorted({run.node for run in runs}):
         here = [run for run in runs if run.node == node]
         slopes = [_change(run, places) / run.softness for run in here]
-        elastic.append((node, _between([run.softness for run in here], slopes)))
+        elastic.append((node, _interpolant([run.softness for run in here], slopes)))
     rows = [_row(run, places) for run in welded]
-    return _between([run.node for run in welded], rows), rubbing, elastic
+    return _interpolant([run.node for run in welded], rows), rubbing, elastic
 
 
 @lru_cache(maxsize=1)
@@ -309,7 +309,7 @@ def _row(run: _Run, places: Array) -> Array:
 
 def _change(run: _Run, places: Array) -> Array:
     """A row less that of the welded rigid-plastic run of the same ρ; 0 beyond either."""
-    welded = _welded(run)
+    welded = _welded_run(run)
     change = (_row(run, places) - _row(welded, places)).reshape(2, 1 + len(places))
     change[:, 1:][:, squeeze_at(places) > min(run.high, welded.high) * (1 + 1e-9)] = 0.0
     return change.ravel()

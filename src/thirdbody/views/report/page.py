@@ -14,7 +14,7 @@ from ...analysis.uncertainty.samples import LEAST, costly, enough
 from ...contact.contact import Contact
 from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
-from ...equilibrium.words import unsolved
+from ...equilibrium.words import unsolved_sentences
 from ...quantities.say import join_words, signed_number, value_of
 from ...study.toml import heading_of
 from ...version import __version__
@@ -175,7 +175,7 @@ def _in_full(report: Found) -> list[str]:
 def _warnings(report: Found) -> list[str]:
     others = [each for each in (report.connector, report.plate, report.film) if each is not None]
     texts = [*(text for each in others for text in each.run_warnings), *report.result.warnings]
-    texts = [*dict.fromkeys(texts), *unsolved(report.result.states.status)]
+    texts = [*dict.fromkeys(texts), *unsolved_sentences(report.result.states.status)]
     if not texts:
         return []
     items = "".join(f"<li>{words(text)}</li>" for text in texts)

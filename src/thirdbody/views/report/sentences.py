@@ -9,13 +9,13 @@ from ...analysis.inputs import words_of
 from ...analysis.sensitivity import Sensitivity
 from ...equilibrium.columns import about
 from ...equilibrium.words import (
-    carried,
     happens,
     is_rare,
     mode_among,
     mode_of,
     mode_path,
     not_met,
+    particle_share_text,
     two_bodies,
 )
 from ...quantities.say import join_words, number, percent, signed_number, times, value_of
@@ -83,7 +83,7 @@ def _carries(report: Found, i: int) -> str:
     if report.contact.two_body:
         return two_bodies()
     parts = {part.name: part.load_share[i] for part in states.populations}
-    share = carried(states.particle_load_share[i], parts)
+    share = particle_share_text(states.particle_load_share[i], parts)
     mode, held = states.mode[i], report.result.particles_in(i)
     where = " of a wide surface" * is_rare(mode, held)
     return f"{mode_among(mode, held)}, and {share}{where}"
@@ -202,7 +202,7 @@ def strongest_inputs(report: Found, of: str, order: list[str]) -> str:
     if report.contact.two_body or of != "A_t":
         return most
     share = report.result.states.particle_load_share[report.at]
-    return f"{carried(share)}, which leaves that share little to answer with; {most}"
+    return f"{particle_share_text(share)}, which leaves that share little to answer with; {most}"
 
 
 def _order(slopes: Sensitivity, of: str) -> list[str]:
