@@ -41,7 +41,7 @@ from .assessment import (
 )
 from .attempts import columns_tried
 from .differences import QUICK
-from .inputs import declared, words_of
+from .inputs import declared_quantity, words_of
 from .inputs import inputs as all_inputs
 from .sensitivity import moves, sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
@@ -577,7 +577,7 @@ def _usual(contact: Contact) -> dict[str, Uncertain]:
     sizes: dict[str, list[str]] = {}
     for name in own:
         owner, found, _ = name.rpartition(".diameter.")
-        if found and declared(contact, name)["unit"] == "m":
+        if found and declared_quantity(contact, name)["unit"] == "m":
             sizes.setdefault(owner, []).append(name)
     labels += ["+".join(names) for names in sizes.values()]
     labels += [name for name in own if name.endswith(".material.H")]
@@ -603,7 +603,8 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int
     def fits(value: float) -> bool:
         at = moved.numbers_at((value - moved.values[0]) / moved.scales[0])
         return all(
-            problem_with(declared(contact, name), float(v)) is None for name, v in at.items()
+            problem_with(declared_quantity(contact, name), float(v)) is None
+            for name, v in at.items()
         )
 
     good = [fits(float(value)) for value in values]
@@ -636,11 +637,11 @@ def _departures(
             vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = moved
     loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
 
-    def solved(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
+    def solve_some(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
         some = {name: values[which] for name, values in vary.items()}
         return columns_at(one.contact, one.load, loads[which], some, len(which))
 
-    states, refused = columns_tried(solved, int(ends[-1]))
+    states, refused = columns_tried(solve_some, int(ends[-1]))
     out, stops = {}, {}
     for (way, (_, values)), piece in zip(ways.items(), pieces, strict=True):
         modes = [str(word) for word in states["mode"][piece]]

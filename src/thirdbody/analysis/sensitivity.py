@@ -362,7 +362,7 @@ def sensitivity(
 
     rule = QUICK if quick else FULL
     with watch_contacts("sensitivity", 2 * rule.reach * len(moved), progress):
-        value, entries = _derived(contact, results, given, moved, load, rule)
+        value, entries = _values_and_slopes(contact, results, given, moved, load, rule)
 
     start: dict[str, Any] = {each.label: each.values[0] for each in moved}
     if load in labels:
@@ -428,7 +428,7 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     return names
 
 
-def _derived(
+def _values_and_slopes(
     contact: Contact,
     results: Sequence[str],
     given: Mapping[str, ArrayLike],

@@ -68,7 +68,7 @@ def in_memory(
         for number, (arrays, summary) in results(range(plan.count)):
             summaries.append(summary)
             if plan.reduction is None:
-                _into(data, layout, plan, number, arrays)
+                _write_block(data, layout, plan, number, arrays)
             else:
                 rows[number] = arrays
             done += summary["states"]
@@ -76,8 +76,8 @@ def in_memory(
     if plan.reduction is not None:
         for row in range(plan.count // _parts(plan)):
             numbers = range(row * _parts(plan), (row + 1) * _parts(plan))
-            kept = _reduced(plan.reduction, (rows.pop(number) for number in numbers))
-            _into(data, layout, plan, numbers[0], kept)
+            kept = _reduce_parts(plan.reduction, (rows.pop(number) for number in numbers))
+            _write_block(data, layout, plan, numbers[0], kept)
     words &= set(data)
     data |= {name: data[name].astype(str) for name in words}
     flags = ("flag_values", "flag_meanings")
@@ -98,7 +98,7 @@ def _memory(name: str, kind: str) -> object:
     return np.int64 if name == "iterations" else np.dtype(kind)
 
 
-def _into(data: Arrays, layout: Layout, plan: Plan, number: int, arrays: Arrays) -> None:
+def _write_block(data: Arrays, layout: Layout, plan: Plan, number: int, arrays: Arrays) -> None:
     where = _where(plan, number)
     for name, values in arrays.items():
         data[name][tuple(where.get(dim, slice(None)) for dim in layout.variables[name][0])] = values
@@ -114,7 +114,7 @@ def _parts(plan: Plan) -> int:
     return math.prod(plan.grid[plan.outer :])
 
 
-def _reduced(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
+def _reduce_parts(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
     return reduction.result(reduction.merged(list(parts)))
 
 
@@ -281,7 +281,7 @@ def _carry_out(
     if found.problems or len(done) < plan.count:
         (path / "finished.json").unlink(missing_ok=True)
     if direct:
-        store = _mended(plan, folder, layout, name, found)
+        store = _mend_store(plan, folder, layout, name, found)
     elif not (intact and len(done) == plan.count):
         (path / "parts").mkdir(exist_ok=True)
         done = {n: one for n, one in done.items() if folder.part_file(n).exists()}
@@ -324,7 +324,7 @@ def _make_store(plan: Plan, folder: Folder, layout: Layout, name: str) -> None:
     draft.rename(folder.data)
 
 
-def _mended(plan: Plan, folder: Folder, layout: Layout, name: str, found: Found) -> _Zarr:
+def _mend_store(plan: Plan, folder: Folder, layout: Layout, name: str, found: Found) -> _Zarr:
     """The store with what belongs to no block as it was made."""
     if found.shared or found.unlabelled or not found.recorded:
         draft = folder.path / ".states.part.zarr"
@@ -347,7 +347,7 @@ def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, objec
     step = 1 if plan.reduction is None else _parts(plan)
     for first in range(0, plan.count, step):
         parts = (_load_part(folder.part_file(number)) for number in range(first, first + step))
-        arrays = next(parts) if plan.reduction is None else _reduced(plan.reduction, parts)
+        arrays = next(parts) if plan.reduction is None else _reduce_parts(plan.reduction, parts)
         store.write(_where(plan, first), arrays)
     store.label(attrs)
     store.close()

@@ -51,7 +51,7 @@ from .samples import (
     columns_of_loads,
     critical_of,
     crowded_samples,
-    evaluated,
+    evaluate_samples,
     output_of,
     outputs_of,
     points_of,
@@ -290,7 +290,7 @@ class Propagation(Record):
             if about_loads(names) and not critical:
                 critical = critical_of(self.contact, self.load, vary, count)
                 self._critical_at_ends[probabilities] = critical
-            solved = evaluated(self.contact, self.load, load, vary, count, names, critical)
+            solved = evaluate_samples(self.contact, self.load, load, vary, count, names, critical)
         out = {
             name: {
                 label: (float(solved[name][2 * j]), float(solved[name][2 * j + 1]))
@@ -364,7 +364,7 @@ class Propagation(Record):
         asked = about_loads(names)
         with roughly():
             critical = critical_of(self.contact, self.load, vary, len(u)) if asked else {}
-            solved = evaluated(self.contact, self.load, load, vary, len(u), names, critical)
+            solved = evaluate_samples(self.contact, self.load, load, vary, len(u), names, critical)
         out: dict[str, dict[str, dict[str, float]]] = {}
         for name in names:
             values = solved[name]
@@ -556,7 +556,7 @@ def propagate(
         tell_of_range(sentence)
     fixed = {name for name in names if name in CRITICAL}
 
-    def shaped(table: Mapping[str, Sequence[object]]) -> dict[str, object]:
+    def shape_columns(table: Mapping[str, Sequence[object]]) -> dict[str, object]:
         flat = {n for n in table if one or n in fixed}
         return {n: part[0] if n in flat else np.array(part) for n, part in table.items()}
 
@@ -569,11 +569,11 @@ def propagate(
         critical_samples=first_few.size if sought else 0,
         seed=int(seed),
         probabilities=probabilities,
-        nominal=shaped(found.nominal),
-        bands=shaped(found.bands),
-        error=shaped(found.errors),
-        mode_probability=shaped(found.modes),
-        mode_error=shaped(found.mode_errors),
+        nominal=shape_columns(found.nominal),
+        bands=shape_columns(found.bands),
+        error=shape_columns(found.errors),
+        mode_probability=shape_columns(found.modes),
+        mode_error=shape_columns(found.mode_errors),
         critical_status=found.critical.statuses,
         solved=found.solved[0] if one else np.array(found.solved),
         crowded=found.crowded[0] if one else np.array(found.crowded),

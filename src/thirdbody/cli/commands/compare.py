@@ -79,7 +79,7 @@ class Options:
 
 def command(options: Options) -> None:
     """A study under every asperity law, beside its own."""
-    from ...analysis.compare import Persson, compared
+    from ...analysis.compare import Persson, comparison_of
     from ..own_files import refuse_strangers
 
     problems: list[str] = []
@@ -98,7 +98,7 @@ def command(options: Options) -> None:
     if not options.force:
         refuse_strangers(options.out, "compare.csv", "compare.png", "compare.svg")
     with heartbeat("compare"):
-        found = compared(asked.contact, **_equal_loads(asked), laws=_words(options.names))
+        found = comparison_of(asked.contact, **_equal_loads(asked), laws=_words(options.names))
     warn_of(filter(None, found.attrs["warnings"].splitlines()))
     reasons = found.columns["status"]
     of_laws = [law != Persson.name for law in found.laws]

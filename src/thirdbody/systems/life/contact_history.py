@@ -129,7 +129,7 @@ def steady_states(loop: Loop, y: Array) -> tuple[SteadyContact, ...]:
     """Every state in which the numbers no longer change, with roughness and wear as in a state."""
     from scipy.optimize import brentq
 
-    low, high = _scanned(loop, y)
+    low, high = _scan_ends(loop, y)
     places = np.linspace(low, high, NODES + 1)
     values = np.array([_imbalance(loop, y, place) for place in places])
     out = []
@@ -143,7 +143,7 @@ def steady_states(loop: Loop, y: Array) -> tuple[SteadyContact, ...]:
     return tuple(out)
 
 
-def _scanned(loop: Loop, y: Array) -> tuple[float, float]:
+def _scan_ends(loop: Loop, y: Array) -> tuple[float, float]:
     """Ends of the scan, in the unknown of the gap: from no particles on."""
     clean = y.copy()
     clean[loop.layout[loop.pool]] = 0.0

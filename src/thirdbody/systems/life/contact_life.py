@@ -13,7 +13,7 @@ from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.say import number
 from ..conjunctions import Line, Oil, Point
 from ..film_formulas import AbstractFilm
-from ..mixed_film import FEW, MOST, lubricated
+from ..mixed_film import FEW, MOST, check_lubricated
 from .breeding import births_and_losses
 from .circuit import OilCircuit
 from .contact_course import DRAINED, ContactCourse, Visited
@@ -248,7 +248,7 @@ def run_film_history(
     others = () if debris is None else (debris.diameter,)
     classes = oil.size_classes(*others)
     terms = oil.terms(classes=classes, materials=more_materials)
-    bodies = lubricated(
+    bodies = check_lubricated(
         contact, conjunction, lubricant, np.array([load]), film, slide_roll, hertz, (FEW, MOST)
     )
     names = list(terms.materials)

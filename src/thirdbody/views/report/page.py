@@ -8,7 +8,7 @@ from functools import cached_property
 from html import escape
 
 from ...analysis.assessment import WORDS as ASSESSMENT_WORDS
-from ...analysis.inputs import declared, words_of
+from ...analysis.inputs import declared_quantity, words_of
 from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import LEAST, costly, enough
 from ...contact.contact import Contact
@@ -249,7 +249,7 @@ def _slopes(report: Found) -> list[str]:
     for label in order[:10]:
         value = report.slopes.inputs[label]
         unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
-        unit = unit or declared(report.contact, label.split("+")[0])["unit"]
+        unit = unit or declared_quantity(report.contact, label.split("+")[0])["unit"]
         each = (float(report.slopes.elasticity[name][label]) for name in (of, *others))
         slopes = (signed_number(slope, 3) for slope in each)
         rows.append([words_of(report.contact, label), value_of(float(value), unit), *slopes])
