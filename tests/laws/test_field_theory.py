@@ -85,7 +85,7 @@ class ByMaximisation:
 
     def at(self, tau, h, chi):
         """Φ and ⟨f⟩ with one filter."""
-        c = self.series.filtered(tau)[0]
+        c = self.series.filtered_correlations(tau)[0]
         k = self.series.integrals(tau, self.TERMS)
         last = 0.6 * k[-1]
         part = np.concatenate([[-last], k[1:] - last])

@@ -237,7 +237,7 @@ class _Outputs:
                     f"{duration(whole)}"
                 )
             self.said = True
-        self.progress.moved(int(self.done), self.total, "states with outputs")
+        self.progress.report_progress(int(self.done), self.total, "states with outputs")
 
 
 class _Work:
@@ -259,7 +259,7 @@ class _Work:
             self.critical = min(count, MOST_CRITICAL)
         self.tell: Callable[[str], None] = lambda sentence: None
         if isinstance(progress, Stages):
-            self.progress, self.within = progress, progress.within
+            self.progress, self.within = progress, progress.report_contacts
             alone = costly(contact, vary)
             progress.expect((count if alone else 0) + self.ends + self.ways)
             if alone:
@@ -277,7 +277,7 @@ class _Work:
                 return
             done += count
             if self.progress is not None and states and not why:
-                self.progress.moved(int(done), states, "states")
+                self.progress.report_progress(int(done), states, "states")
 
         with count_contacts(expected, self.within), solving(more):
             yield

@@ -115,9 +115,9 @@ class FieldSpots(AsperitySpots):
     stiffness: Array
     regimes: Array
 
-    def thinned(self, factor: Array) -> Self:
+    def thin_spots(self, factor: Array) -> Self:
         return replace(
-            super().thinned(factor),
+            super().thin_spots(factor),
             stiffness=self.stiffness * factor,
             regimes=self.regimes * factor[:, None],
         )

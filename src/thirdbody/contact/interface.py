@@ -140,17 +140,17 @@ def interface(contact: Contact) -> Interface:
 def carrying(contact: Contact) -> Contact:
     """The contact by what decides how it carries load: no outputs, no labels, no conductivities."""
     pair, given = contact.surfaces, contact.particles
-    surfaces = pair.unchecked(first=pair.first.carrying, second=pair.second.carrying)
+    surfaces = pair.replace_unchecked(first=pair.first.carrying, second=pair.second.carrying)
     particles: Particles | tuple[Particles, ...] | None = None
     if isinstance(given, tuple):
         particles = tuple(_carrying(each) for each in given)
     elif given is not None:
         particles = _carrying(given)
-    return contact.unchecked(surfaces=surfaces, particles=particles, outputs=())
+    return contact.replace_unchecked(surfaces=surfaces, particles=particles, outputs=())
 
 
 def _carrying(each: Particles) -> Particles:
-    return each.unchecked(material=each.material.carrying, name="")
+    return each.replace_unchecked(material=each.material.carrying, name="")
 
 
 @lru_cache(maxsize=512)

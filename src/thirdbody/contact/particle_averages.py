@@ -72,7 +72,7 @@ class SizeAverage:
     @cached_property
     def upper(self) -> PiecewiseChebyshev:
         """P/u^powers as a function of u, above the join."""
-        return PiecewiseChebyshev(self._reduced, self.rises, tolerance=1e-13, kinds=KINDS)
+        return PiecewiseChebyshev(self._reduced_columns, self.rises, tolerance=1e-13, kinds=KINDS)
 
     @cached_property
     def lower(self) -> PiecewiseChebyshev | None:
@@ -86,7 +86,7 @@ class SizeAverage:
             kinds=KINDS,
         )
 
-    def _reduced(self, u: Array) -> Array:
+    def _reduced_columns(self, u: Array) -> Array:
         return self.average(self.top - u * u, u * u) / u[:, None] ** self.powers
 
     def average(self, gap: Array, rise: Array) -> Array:

@@ -236,7 +236,7 @@ class LoadScan:
     def solve(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
         """Separation, number of evaluations and status of every load."""
         d, iterations, status = self.solve_across_jumps(target, branch)
-        d[~status.solved] = np.nan
+        d[~status.is_solved] = np.nan
         return d, iterations, status
 
     def solve_across_jumps(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:

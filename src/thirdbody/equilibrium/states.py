@@ -102,7 +102,7 @@ def solve_states(
         cost = Cost(total, report, "" if progress else "states")
         with solving(cost):
             columns = _columns(contact, arrays, load, loads, fewest_of(contact))
-        cost.finished(total)
+        cost.report_finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 
 

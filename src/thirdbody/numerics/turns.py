@@ -33,7 +33,7 @@ BESIDE = 0.05
 class Walk(Protocol):
     """What a search for turns asks of a walk along a branch."""
 
-    def near(self, guess: Array, direction: Array) -> Array | None:
+    def find_point(self, guess: Array, direction: Array) -> Array | None:
         """The point of the branch in the plane through a guess across a direction."""
         ...
 
@@ -131,7 +131,7 @@ def _split_stretch(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[
     alone = [(a, b)] if (a.slope < 0) != (b.slope < 0) else []
     if length < FINEST * step:
         return alone
-    middle = walk.near(0.5 * (a.y + b.y), way / length)
+    middle = walk.find_point(0.5 * (a.y + b.y), way / length)
     if middle is None:
         return alone
     m = _Place(middle, walk.slope(middle, way))

@@ -147,7 +147,7 @@ class Stages:
         self.expected, self.start = contacts, time.monotonic()
         self.counted_from, self.uncounted = self.start, 0
 
-    def within(self, done: int, total: int) -> None:
+    def report_contacts(self, done: int, total: int) -> None:
         """Report the number of contacts done in the present part, of about so many."""
         if done == 1:
             self.counted_from, self.uncounted = time.monotonic(), 1
@@ -155,9 +155,9 @@ class Stages:
             each = (time.monotonic() - self.counted_from) / (done - self.uncounted)
             self.cost(self.expected, each, "contacts")
             self.said = True
-        self.moved(done, total)
+        self.report_progress(done, total)
 
-    def moved(self, done: int, total: int, what: str = "") -> None:
+    def report_progress(self, done: int, total: int, what: str = "") -> None:
         """Report the progress of the present part; it is shown from the first second on."""
         if time.monotonic() - self.start > SURE:
             words = f"{done:,} of about {max(done, total):,} {what}".rstrip()
@@ -412,7 +412,7 @@ class Cost:
     done : int
         States of earlier runs.
     early : bool
-        Whether states are told before they are `finished`: not where each number must be one
+        Whether states are told before they are `report_finished`: not where each number must be one
         that lasts, as every time the same.
     """
 
@@ -436,13 +436,13 @@ class Cost:
             self.what = ""
         if self.early and now - self.shown > 0.5:
             self.shown = now
-            self._tell(min(int(self.done), self.total))
+            self._report_count(min(int(self.done), self.total))
 
-    def finished(self, states: int) -> None:
+    def report_finished(self, states: int) -> None:
         """Report the number of states that are solved for good."""
-        self._tell(states)
+        self._report_count(states)
 
-    def _tell(self, states: int) -> None:
+    def _report_count(self, states: int) -> None:
         """Report a number if it is higher than all before: no state is reported twice."""
         if states > self.told:
             self.told = states

@@ -385,7 +385,7 @@ class Value:
             warn_of_slips(out, before=self)
         return out
 
-    def unchecked(self, **changes: object) -> Self:
+    def replace_unchecked(self, **changes: object) -> Self:
         """A copy with some fields changed to what needs no check and no warning."""
         out = object.__new__(type(self))
         for item in dataclasses.fields(self):  # type: ignore[arg-type]

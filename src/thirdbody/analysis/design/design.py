@@ -433,7 +433,9 @@ def _band(
     place = int(np.searchsorted(grid, own))
 
     def good(some: NDArray[np.intp]) -> NDArray[np.bool_]:
-        rows = task.judged([{**best.numbers, name: float(grid[i])} for i in some], best.materials)
+        rows = task.judge_points(
+            [{**best.numbers, name: float(grid[i])} for i in some], best.materials
+        )
         lost = np.array([point.costs[label] for point in rows]) - value
         return (lost <= part * abs(value)) & np.array([not point.reason for point in rows])
 

@@ -121,7 +121,7 @@ class Folder:
         return self.path / ("states.zarr" if self.format == "zarr" else "states.nc")
 
     @property
-    def finished(self) -> dict[str, Any] | None:
+    def finished_summary(self) -> dict[str, Any] | None:
         """The summary of a finished run: states, and how many of them are unsolved."""
         found = read_record(self.path / "finished.json", FINISHED)
         right = found and {"states", "unsolved", "A_t", "shadow"} <= set(found.data)
@@ -275,7 +275,7 @@ class Folder:
         out.recorded = shared is not None
         files, blocks = shared or ({}, 0)
         out.wanted = blocks or None
-        finished = self.finished is not None
+        finished = self.finished_summary is not None
         for name, told in files.items():
             problems = self._misfit(name, told)
             if name == ROOT and problems and not finished:
@@ -424,7 +424,7 @@ class Folder:
         )
 
     @contextmanager
-    def locked(self) -> Iterator[None]:
+    def lock_folder(self) -> Iterator[None]:
         """The folder for one run alone; the system lets go of it when the process ends."""
         with (self.path / "lock").open("a+", encoding="utf-8") as file:
             try:
@@ -526,7 +526,7 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
         name = min(names)
     found = folder.look(name, progress)
     problems += found.problems
-    finished = folder.finished is not None
+    finished = folder.finished_summary is not None
     if (place / "finished.json").exists() and not finished:
         problems.append(damage(place / "finished.json", "is damaged, or the data are missing"))
     if problems:

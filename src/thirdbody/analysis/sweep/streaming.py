@@ -72,7 +72,7 @@ def in_memory(
             else:
                 rows[number] = arrays
             done += summary["states"]
-            cost.finished(done)
+            cost.report_finished(done)
     if plan.reduction is not None:
         for row in range(plan.count // _parts(plan)):
             numbers = range(row * _parts(plan), (row + 1) * _parts(plan))
@@ -115,7 +115,7 @@ def _parts(plan: Plan) -> int:
 
 
 def _reduce_parts(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
-    return reduction.result(reduction.merged(list(parts)))
+    return reduction.result(reduction.merge_parts(list(parts)))
 
 
 def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
@@ -207,7 +207,7 @@ def run(
     study = {**plan.to_dict(), "format": format}
     folder.refuse_others(study)
     shown = progress is True
-    if folder.finished is not None:
+    if folder.finished_summary is not None:
         found = folder.look(name_of(study), shown)
         if not found.problems and folder.says(study):
             folder.remove_parts()  # of a run killed at the very end
@@ -222,7 +222,7 @@ def run(
             )
     notes = plan.notes()  # refuses inputs before anything is written
     make_folder(folder.path)
-    with folder.locked():
+    with folder.lock_folder():
         folder.refuse_others(study)
         results = partial(_results, plan, coded=True, workers=workers, client=client)
         _carry_out(plan, folder, study, notes, results, progress)
@@ -301,7 +301,7 @@ def _carry_out(
             folder.mark(number, name, summary, files)
             done[number] = summary
             states += summary["states"]
-            cost.finished(states)
+            cost.report_finished(states)
     total = _summary(done.values())
     attrs: dict[str, object] = dict(_attributes(plan, notes, total))
     if direct:

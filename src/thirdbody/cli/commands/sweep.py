@@ -234,7 +234,7 @@ def _answer(data: xarray.Dataset) -> list[str]:
 
 def _tell(folder: Folder) -> None:
     """What a finished sweep warns of, and how many states it has."""
-    summary = folder.finished
+    summary = folder.finished_summary
     assert summary is not None
     unsolved = f", {summary['unsolved']:,} without equilibrium" if summary["unsolved"] else ""
     with folder.open() as data:

@@ -174,7 +174,7 @@ class Panels:
         load = load.reshape(*load.shape[:2], -1)
         return self.add((id(function), shadow), function, load, len(COLUMNS))
 
-    def laid(self) -> tuple[Records, Records]:
+    def all_panels(self) -> tuple[Records, Records]:
         """All panels, and all inverses."""
         panels = np.concatenate([*self._panels, np.zeros(1, PANEL)])
         return panels, np.concatenate([*self._inverses, np.zeros(0, INVERSE)])
@@ -241,6 +241,6 @@ class Rules:
         self._count += rows.size
         return out
 
-    def laid(self) -> Array:
+    def all_rules(self) -> Array:
         """All rules."""
         return np.concatenate([*self._rules, np.zeros(0)])

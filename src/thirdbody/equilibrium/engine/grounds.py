@@ -222,7 +222,9 @@ def _numbers(alpha: float, apart: float) -> Array:
     plain, _, weight = _near_integrals(spectrum, apart)
     near = integrals_of_powers(plain, weight, MOMENTS)
     plain, once, weight = _near_integrals(spectrum, 0.5 * apart)
-    other = integrals_of_powers(spectrum.mixed(plain, once, _filters()), weight, MOMENTS)
+    other = integrals_of_powers(
+        spectrum.cross_correlation(plain, once, _filters()), weight, MOMENTS
+    )
     near[0], other[:, 0] = apart, 0.5 * apart
     rows = transform @ (mixed - other), transform @ mixed
     return np.concatenate([own - near, rows[0].ravel(), rows[1].ravel()])

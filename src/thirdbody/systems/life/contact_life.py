@@ -144,11 +144,13 @@ def _ledger(loop: Loop, seen: Visited, came: Sequence[str], went: Sequence[str])
 
     pool = np.array(
         [
-            float(loop.shaped(y[loop.layout[loop.pool]] * loop.volumes).sum(axis=1) @ density)
+            float(
+                loop.shape_numbers(y[loop.layout[loop.pool]] * loop.volumes).sum(axis=1) @ density
+            )
             for y in states
         ]
     )
-    stored = np.array([float(loop.stored(y) @ density) for y in states])
+    stored = np.array([float(loop.stored_volumes(y) @ density) for y in states])
     columns_in = {name: flow(name) for name in (*came, "worn 1", "worn 2")}
     columns_out = {name: flow(name) for name in (*went, FINER)}
     if FRESH in columns_in:
@@ -288,7 +290,7 @@ def run_film_history(
     notes = _notes(loop, columns, debris, worn_area=worn_area, entry_ratio=entry_ratio)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
     moments = np.array(seen.times)
-    numbers = np.array([loop.shaped(y[loop.layout["oil"]]).T for y in seen.states])
+    numbers = np.array([loop.shape_numbers(y[loop.layout["oil"]]).T for y in seen.states])
     volume = loop.volume + loop.growth * moments
     numbers = numbers / volume[:, None, None]
     events, warned = course.events, tuple(oil.notes())
@@ -397,7 +399,9 @@ def run_dry_history(
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
-    numbers = np.array([loop.shaped(y[loop.layout["contact"]]).T for y in seen.states]) / area
+    numbers = (
+        np.array([loop.shape_numbers(y[loop.layout["contact"]]).T for y in seen.states]) / area
+    )
     absent = ("film_share", *(f"{name}_{side}" for name in ("dents", "thrown") for side in (1, 2)))
     return DryHistory(
         loop=loop,

@@ -194,7 +194,7 @@ def _slopes(
     names = ["A_t", "h"]
     if not contact.two_body:
         names.insert(0, "particle_load_share")
-    within = progress.within if isinstance(progress, Stages) else None
+    within = progress.report_contacts if isinstance(progress, Stages) else None
     try:
         with count_contacts(4 * len(inputs(contact)), within):
             return sensitivity(contact, of=names, **given, quick=True)
