@@ -412,8 +412,8 @@ class Cost:
     done : int
         States of earlier runs.
     early : bool
-        Whether states are told before they are `report_finished`: not where each number must be one
-        that lasts, as every time the same.
+        Whether states are told before `report_finished`: not where each number must be one that
+        lasts, as every time the same.
     """
 
     def __init__(
