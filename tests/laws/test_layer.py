@@ -204,7 +204,7 @@ def test_radius_out_of_range(a_t):
 def test_table_is_the_solution(case):
     a = np.concatenate([[1e-6], np.geomspace(1e-3, 1000, 25)])
     Phi, Delta, s = layer(case).contact(a)
-    F, A, S = layer(case).reduced_contact(Delta * a**2)
+    F, A, S = layer(case).reduced(Delta * a**2)
     assert_allclose(F, Phi * a**3, rtol=2e-11)
     assert_allclose(A, a**2, rtol=2e-11)
     assert_allclose(S, s * a, rtol=2e-11)
@@ -215,14 +215,12 @@ def test_beyond_the_table(case):
     """Continued without a step or a bend towards the substrate alone."""
     one = layer(case)
     y = 1024.0**2 * float(one.contact(1024.0)[1])
-    below, above = (np.array(one.reduced_contact(y * (1 + e))) for e in (-1e-9, 1e-9))
+    below, above = (np.array(one.reduced(y * (1 + e))) for e in (-1e-9, 1e-9))
     assert_allclose(above, below, rtol=5e-9)
     far = np.geomspace(y, 1e14, 200)
-    F, A, S = one.reduced_contact(far)
+    F, A, S = one.reduced(far)
     h = 1e-4
-    rise = (
-        one.reduced_contact(far[1:] * (1 + h))[0] - one.reduced_contact(far[1:] * (1 - h))[0]
-    ) / (2 * h)
+    rise = (one.reduced(far[1:] * (1 + h))[0] - one.reduced(far[1:] * (1 - h))[0]) / (2 * h)
     assert_allclose(rise / far[1:], S[1:], rtol=1e-8)
     hertz = one.thin_modulus * 4 / 3 * far**1.5
     distance = np.abs(F / hertz - 1)
@@ -232,8 +230,8 @@ def test_beyond_the_table(case):
 
 
 def test_no_contact_and_shapes():
-    assert [float(q) for q in layer(STIFF).reduced_contact(-1.0)] == [0, 0, 0]
-    assert layer(STIFF).reduced_contact(np.ones((2, 3)))[0].shape == (2, 3)
+    assert [float(q) for q in layer(STIFF).reduced(-1.0)] == [0, 0, 0]
+    assert layer(STIFF).reduced(np.ones((2, 3)))[0].shape == (2, 3)
 
 
 # ------------------------------------------------------------------------ the law

@@ -56,7 +56,7 @@ def _fill_pieces() -> None:
 _fill_pieces()
 mean_pressure = scalar(reduced.mean_pressure)
 remainder_at = scalar(reduced.remainder_at)
-pressed = scalar(reduced.real_pressure)
+real_pressure = scalar(reduced.real_pressure)
 
 
 @scalar
@@ -143,7 +143,7 @@ def add_field(skin, held, h, out):
     touched = normal_cdf(-top, math.exp(-0.5 * top * top))
     ratio = min(carried / (chi * touched), 1.0) if touched > 0 else 1.0
     remains = remainder_at(skin[0, ABOVE_FIELD], bearing)
-    ratio = pressed(ratio, skin[0, WIDER] * remains)
+    ratio = real_pressure(ratio, skin[0, WIDER] * remains)
     whole = carried * (1 + remains)
     area = whole / (chi * ratio)
     plastic = 1.0 if ratio >= 1 else min(max(yielded, 0.0), 1.0)

@@ -70,11 +70,11 @@ summed = njit(
 
 
 elastic = scalar(formulas.elastic)
-doubled = scalar(formulas.fully_plastic)
+fully_plastic = scalar(formulas.fully_plastic)
 zmc_spread = scalar(formulas._spread)
 plastic_ceb = scalar(formulas.plastic_ceb)
 kogut = scalar(formulas.kogut)
-pulled = scalar(formulas.hertz_less_pull)
+hertz_less_pull = scalar(formulas.hertz_less_pull)
 green_middle = scalar(formulas.green_middle)
 HALVINGS, STEEPEST = 60, 1e-15
 ROUNDED = 2e-15
@@ -187,7 +187,7 @@ def law_at(rows, i, y):
         if y < 1:
             return elastic(y, k, r)
         if y >= rho:
-            return doubled(y, full)
+            return fully_plastic(y, full)
         if code == HERMITE:
             return hermite_middle(y, k, rho, r, full)
         return zmc_middle(y, k, rho, r, full)
@@ -205,9 +205,9 @@ def law_at(rows, i, y):
             return kogut(y, 2 / 3 * first, 1.03, 1.425, 0.93, 1.136)
         if y < 110:
             return kogut(y, 2 / 3 * first, 1.40, 1.263, 0.94, 1.146)
-        return doubled(y, 2.0)
+        return fully_plastic(y, 2.0)
     if code == DMT:
-        return pulled(y, first)
+        return hertz_less_pull(y, first)
     if y < 1.9:
         return elastic(y, 2 / 3 * first / rows[i, LAW_4], 1.0)
     return green_middle(y, first, rows[i, LAW_2], rows[i, LAW_3], rows[i, LAW_4])

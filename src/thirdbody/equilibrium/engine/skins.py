@@ -51,7 +51,7 @@ NEAREST, CLOSEST = 0.3, 1e-5
 """First panel over heights [σ_s], and over the distance to the lower end of the heights."""
 
 
-adhesive, stretched = scalar(formulas.adhesive), scalar(formulas.y_of_stretch)
+adhesive, y_of_stretch = scalar(formulas.adhesive), scalar(formulas.y_of_stretch)
 stretched_from, coated_beyond = scalar(formulas.stretched_from), scalar(formulas.coated_beyond)
 
 
@@ -127,7 +127,7 @@ def _fill_stretched(skin, row, heights, count, gauss, weights, nodes, a, b):
     for j in range(nodes):
         e = low + half * (1 + gauss[j])
         load, area = adhesive(e, skin[row, LAW_1])
-        heights[T, count] = stretched(e)
+        heights[T, count] = y_of_stretch(e)
         heights[4, count] = half * weights[j] * e * (3 + e * (3 + e))
         heights[OF_LOAD, count], heights[OF_AREA, count] = load, area
         count += 1

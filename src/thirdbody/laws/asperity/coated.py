@@ -128,7 +128,7 @@ class Coated(AbstractAsperityLaw):
         from scipy.optimize import brentq
 
         def excess(log_y: float) -> float:
-            force, area, _ = (float(v) for v in self.layer.reduced_contact(math.exp(log_y)))
+            force, area, _ = (float(v) for v in self.layer.reduced(math.exp(log_y)))
             return math.log(self._unit * force / area / 0.4)
 
         # the pressure grows like √y before and after the coating is felt
@@ -149,8 +149,8 @@ class Coated(AbstractAsperityLaw):
         layer, scale = self.layer, self._unit
         one = Branch(
             "elastic",
-            lambda y: scale * layer.reduced_contact(y)[0],
-            lambda y: layer.reduced_contact(y)[1],
-            lambda y: scale * layer.reduced_contact(y)[2],
+            lambda y: scale * layer.reduced(y)[0],
+            lambda y: layer.reduced(y)[1],
+            lambda y: scale * layer.reduced(y)[2],
         )
         return (one, one)

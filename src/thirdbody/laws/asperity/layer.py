@@ -132,7 +132,7 @@ class ElasticLayer(Value):
         """k_0 = ∫(M − 1)dx [1]: Δ = 1 + (4k_0/3π)(a/t) for a ≪ t and a rigid indenter."""
         return float(_transform(self, np.zeros(1))[0])
 
-    def reduced_contact(self, y: ArrayLike) -> tuple[Array, Array, Array]:
+    def reduced(self, y: ArrayLike) -> tuple[Array, Array, Array]:
         r"""Load, area and stiffness against y = ωR/t², from a table built on first use.
 
         Returns
