@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thirdbody.laws.field.programme import Edges, Pressed, pressed
+from thirdbody.laws.field.programme import Edges, Pressed, solve_programme
 from thirdbody.laws.field.spectrum import HURST, rolled_off
 from thirdbody.laws.field.table import plastic_energy
 from thirdbody.version import __version__
@@ -49,7 +49,7 @@ def first(alpha: float) -> Edges:
     edges = Edges(h + 0.27, np.array([-1.2]), np.array([0.2]), none)
     count = 1 + int(abs(np.log(alpha / 5.0)) / 0.25)
     for a in np.geomspace(5.0, alpha, count + 1).tolist():
-        edges = pressed(rolled_off(a, HURST).series(TERMS), h, START, edges).edges
+        edges = solve_programme(rolled_off(a, HURST).series(TERMS), h, START, edges).edges
     return edges
 
 
@@ -68,7 +68,7 @@ def spread(series, h: np.ndarray, edges: Edges) -> Edges:
                     ratio = (x - x1) / (x1 - x0)
                     step = [ratio * (a - b) for a, b in zip(e1[:3], e0[:3], strict=True)]
                     guess = guess.plus(np.stack(step, axis=1))
-                known.append((x, pressed(series, np.array([x]), START, guess).edges))
+                known.append((x, solve_programme(series, np.array([x]), START, guess).edges))
             out[goal] = known[-1][1]
     return Edges(*(np.concatenate([out[float(x)][i] for x in h]) for i in range(4)))
 
@@ -79,7 +79,7 @@ def alpha_of(series) -> float:
 
 def march(series, h: np.ndarray, chis: list[float], edges: Edges) -> dict[float, Pressed]:
     """States at every χ, each begun from those of its neighbours."""
-    found = {START: pressed(series, h, START, spread(series, h, edges))}
+    found = {START: solve_programme(series, h, START, spread(series, h, edges))}
     for way in ([c for c in chis if c > START], [c for c in chis if c < START][::-1]):
         before, now, at = None, found[START].edges, START
         pending = list(way)
@@ -95,7 +95,7 @@ def march(series, h: np.ndarray, chis: list[float], edges: Edges) -> dict[float,
                 step[:, 1] = np.clip(step[:, 1], -1.0, 1.0)
                 guess = now.plus(np.where(now.elastic[:, None], 0.0, step))
             try:
-                state = pressed(series, h, chi, guess)
+                state = solve_programme(series, h, chi, guess)
             except Exception as error:
                 print(alpha_of(series), chi, error, flush=True)
                 if abs(np.log(chi / at)) < 0.02:

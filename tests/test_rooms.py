@@ -105,8 +105,6 @@ BARE = (
 LEFT = {
     "of": 12,
     "at": 4,
-    "part": 1,
-    "held": 1,
     "met": 1,
 }
 """How often each is left."""

@@ -29,7 +29,7 @@ from scipy.special import ndtr
 from .errors import NoEquilibrium
 from .laws.asperity.jg import JG
 from .laws.base import REGIMES, AbstractAsperityLaw
-from .laws.particle.tension import confined
+from .laws.particle.tension import confined_tension
 from .populations.distributions import Distribution, Monodisperse
 from .populations.materials import Material, reduced_modulus
 from .populations.particles import Particles
@@ -563,7 +563,7 @@ class Cascade:
         if self.strength.confinement == "none":
             return load
         s = [np.minimum(2 * np.sqrt(a / np.pi), 1.0) for a in (np.sum(areas, axis=0), second)]
-        return load * 0.5 * (confined(s[0], self.nu) + confined(s[1], self.nu))
+        return load * 0.5 * (confined_tension(s[0], self.nu) + confined_tension(s[1], self.nu))
 
     def survival(self, x: Array, eps: Array) -> Array:
         """P_s of particles of sizes x [m] that are squeezed by ε."""

@@ -20,7 +20,7 @@ from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody.cli import app
-from thirdbody.quantities.sharing import connected
+from thirdbody.quantities.sharing import connect_client
 
 distributed = pytest.importorskip(
     "distributed", reason="needs the extra: pip install 'thirdbody[cluster]'"
@@ -59,7 +59,7 @@ def cluster():
 
 @pytest.fixture
 def client(cluster):
-    with connected(cluster.scheduler_address) as one:
+    with connect_client(cluster.scheduler_address) as one:
         one.wait_for_workers(2, timeout=60)
         yield one
 
@@ -209,7 +209,7 @@ def test_a_bad_address_has_one_message(command, address, tmp_path, monkeypatch):
 
 def test_nobody_there(tmp_path):
     with refuses(Mistake.ABSENT, "", says="tcp://127.0.0.1:9"):
-        connected("tcp://127.0.0.1:9", timeout=1)
+        connect_client("tcp://127.0.0.1:9", timeout=1)
 
 
 @pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:no", "foo://127.0.0.1:9", ""])
@@ -218,7 +218,7 @@ def test_no_client_is_made_for_what_is_no_address(address, monkeypatch):
     made = []
     monkeypatch.setattr(distributed, "Client", lambda *_, **__: made.append(1))
     with refuses(Mistake.ABSENT, ""):
-        connected(address)
+        connect_client(address)
     assert made == []
 
 
@@ -246,7 +246,7 @@ def test_who_listens_there_may_be_no_scheduler(answer, timeout, why):
         callers = []
         threading.Thread(target=serve, daemon=True).start()
         with refuses(Mistake.ABSENT, "", says=why):
-            connected(f"tcp://127.0.0.1:{server.getsockname()[1]}", timeout=timeout)
+            connect_client(f"tcp://127.0.0.1:{server.getsockname()[1]}", timeout=timeout)
     for one in callers:
         one.close()
 
@@ -254,4 +254,4 @@ def test_who_listens_there_may_be_no_scheduler(answer, timeout, why):
 def test_missing_package_has_one_message(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with refuses(Mistake.ABSENT, "", says="'thirdbody[cluster]'"):
-        connected("tcp://127.0.0.1:8786")
+        connect_client("tcp://127.0.0.1:8786")

@@ -246,7 +246,7 @@ def test_a_new_folder_is_not_damaged(kind, tmp_path):
         carry_out(kind, tmp_path / "o", progress=stop_after(4))
     with quiet():
         assert len(check_folder(tmp_path / "o").splitlines()) == 1
-        assert Folder(tmp_path / "o", KINDS[kind][1], ()).finished is None
+        assert Folder(tmp_path / "o", KINDS[kind][1], ()).finished_summary is None
         carry_out(kind, tmp_path / "o")
         carry_out(kind, tmp_path / "o")
 

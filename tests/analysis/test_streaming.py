@@ -292,7 +292,7 @@ def test_codes_say_why_there_is_no_state(tmp_path):
         "no_equilibrium_below",
     ]
     assert_array_equal(np.isnan(stored.A_t), [False, True, True])
-    assert streaming.Folder(tmp_path / "o", "zarr", ()).finished["unsolved"] == 2
+    assert streaming.Folder(tmp_path / "o", "zarr", ()).finished_summary["unsolved"] == 2
 
 
 def test_warnings_are_those_of_solve():

@@ -364,7 +364,10 @@ def test_a_folder_is_judged_before_the_work_and_replaced_by_force(tmp_path, word
     main = next(each for each in wanted if each.endswith(("csv", "json")))
     (out / main).write_text("mine")
     with monkeypatch.context() as patch:
-        for place in ("analysis.compare.compared", "populations.measured.topography.read_surface"):
+        for place in (
+            "analysis.compare.comparison_of",
+            "populations.measured.topography.read_surface",
+        ):
             patch.setattr(f"thirdbody.{place}", None, raising=False)  # nothing is worked out
         done = run(*words, "--out", out)
     assert done.exit_code == 2

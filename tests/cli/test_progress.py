@@ -108,5 +108,5 @@ def test_no_state_is_told_twice(early, told, monkeypatch):
     for counts, written in (((1, 0.5, 0.5, 1), 3), ((0, 2, 1), 6)):
         for count in counts:
             cost(count)
-        cost.finished(written)
+        cost.report_finished(written)
     assert heard == told

@@ -13,7 +13,7 @@ from thirdbody.contact.broken_averages import BrokenAverage, roughly
 from thirdbody.contact.interface import interface
 from thirdbody.laws.base import OneParticle, Squeezed
 from thirdbody.laws.particle.breakage import Breakage, crush_embed_size
-from thirdbody.laws.particle.tension import at_centre, at_equator, confined, tension
+from thirdbody.laws.particle.tension import at_centre, at_equator, confined_tension, tension
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
@@ -57,7 +57,7 @@ def pressure_of(contact, h):
 def library(case):
     q, inputs = case["quantity"], case["inputs"]
     if q.startswith(("T_c", "T_e", "G")):
-        f = {"T_c": at_centre, "T_e": at_equator, "G": confined}[q.split()[0]]
+        f = {"T_c": at_centre, "T_e": at_equator, "G": confined_tension}[q.split()[0]]
         return f(np.array([inputs["s"]]), inputs["nu"])[0]
     if q.startswith("running"):
         return tension(ONE, QUARTZ.nu, "sphere")(np.array([inputs["eps"]]))[0]
@@ -121,7 +121,7 @@ def test_tension_of_small_caps_and_where_it_ends():
         small = at_centre(np.zeros(1), nu)[0]
         assert small == pytest.approx(4 / math.pi * (5 * K / 4 - 0.5), rel=1e-14)
         assert small == pytest.approx(familiar, abs=6e-4)
-        assert confined(np.array([1e-6]), nu)[0] == pytest.approx(1, abs=1e-9)
+        assert confined_tension(np.array([1e-6]), nu)[0] == pytest.approx(1, abs=1e-9)
         # T_c = 0 where 5/4 K c (1 + c) = 1
         c = 0.5 * (math.sqrt(1 + 3.2 / K) - 1)
         assert at_centre(np.array([math.sqrt(1 - c * c)]), nu)[0] == pytest.approx(0, abs=1e-14)
@@ -133,7 +133,7 @@ def test_tension_of_small_caps_and_where_it_ends():
 )
 def test_largest_tension_under_the_pressure_of_plastic_contacts(nu, g, s):
     at = np.linspace(0.01, 1, 4001)
-    load = at**2 * confined(at, nu)  # F/x² = πH s²/4
+    load = at**2 * confined_tension(at, nu)  # F/x² = πH s²/4
     assert load.max() == pytest.approx(g, abs=6e-4)
     assert at[load.argmax()] == pytest.approx(s, abs=0.01)
 
@@ -145,7 +145,7 @@ def test_running_maximum_from_its_definition():
         inside = tension(one, 0.2, "sphere")
         found = one.at(eps)
         s = [np.minimum(2 * np.sqrt(area / np.pi), 1.0) for area in found.areas]
-        now = found.load * 0.5 * (confined(s[0], 0.2) + confined(s[1], 0.2))
+        now = found.load * 0.5 * (confined_tension(s[0], 0.2) + confined_tension(s[1], 0.2))
         np.testing.assert_allclose(inside(eps), np.maximum.accumulate(now), rtol=1e-6)
         assert inside(np.zeros(1))[0] == 0
         # in front of the kink where the equator takes over, the tension falls by 1e-4
@@ -380,7 +380,11 @@ def closing(rng, sizes, gaps, strength):
             eps = np.maximum(1 - gap / x, 1e-12)
             found = ONE.at(eps)
             s = [np.minimum(2 * np.sqrt(area / np.pi), 1.0) for area in found.areas]
-            stress = found.load * 0.5 * (confined(s[0], QUARTZ.nu) + confined(s[1], QUARTZ.nu))
+            stress = (
+                found.load
+                * 0.5
+                * (confined_tension(s[0], QUARTZ.nu) + confined_tension(s[1], QUARTZ.nu))
+            )
             broken = (x > gap) & (stress > limit)
             if not broken.any():
                 break

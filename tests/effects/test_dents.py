@@ -370,7 +370,7 @@ def test_percentile_of_sizes_is_that_of_their_integral(seat):
     from scipy.stats import norm, qmc
 
     from thirdbody.effects.curves import Curve
-    from thirdbody.effects.quantiles import Values, exceeded
+    from thirdbody.effects.quantiles import Values, exceeded_values
 
     sizes = tb.LogNormal(median=300e-9, gsd=1.4)
     dust = tb.Particles(material=SILICA, areal_density=1e10, diameter=sizes)
@@ -386,7 +386,7 @@ def test_percentile_of_sizes_is_that_of_their_integral(seat):
     values = spots.depths[0] + spots.depths[1]
     curve = Curve(lambda eps: eps, [])
     for part in (0.05, 1e-2, 1e-3):
-        (found,) = exceeded([Values(spots, values, curve=curve)], [np.array([part * 1e10])])
+        (found,) = exceeded_values([Values(spots, values, curve=curve)], [np.array([part * 1e10])])
         assert found[0] == pytest.approx(
             squeeze[int(part * 2**18)], rel=1e-2 if part < 1e-2 else 3e-3
         )

@@ -607,7 +607,7 @@ def test_states_whose_materials_vary_alike():
     assert set(together["status"]) == {"ok"}
     assert set(together["engine"]) == {"compiled"}
     for i in (0, 100, 300, 599):
-        one = states.varied(default(), {name: values[i] for name, values in vary.items()})
+        one = states.vary_contact(default(), {name: values[i] for name, values in vary.items()})
         alone = tb.solve(one, pressure=pressure[i])
         for name in ("A_t", "F_sa_star", "A_sa2", "d"):
             assert getattr(alone, name) == pytest.approx(together[name][i], rel=1e-10), name

@@ -334,7 +334,7 @@ class TestSeveralSeparations:
         """The sufficient condition asked of states holds for the scan of each of them."""
         pytest.importorskip("numba")
         from thirdbody.contact.interface import interface
-        from thirdbody.equilibrium.states import varied
+        from thirdbody.equilibrium.states import vary_contact
 
         rng = np.random.default_rng(7)
         count = 60
@@ -356,7 +356,7 @@ class TestSeveralSeparations:
         fast = np.flatnonzero(found == "compiled")
         assert len(fast) > 10
         for i in fast:
-            one = varied(contact, {name: float(values[i]) for name, values in vary.items()})
+            one = vary_contact(contact, {name: float(values[i]) for name, values in vary.items()})
             assert load_scan(interface(one)).monotone, i
 
 

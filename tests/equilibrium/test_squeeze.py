@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 import thirdbody as tb
 from thirdbody.contact.particle_averages import SizeAverage
-from thirdbody.equilibrium.states import state_columns, varied
+from thirdbody.equilibrium.states import state_columns, vary_contact
 from thirdbody.laws.asperity import ZMC, Hermite
 from thirdbody.laws.particle.one_particle import Side, SqueezedParticle
 from thirdbody.populations.materials import reduced_modulus
@@ -126,7 +126,7 @@ def test_materials_side_by_side_are_each_their_own(law, name):
     for column in ("d", "F_sa_star", "A_t", "A_sa2"):
         np.testing.assert_array_equal(others[column], states[column][::-1][:25])
     for i in (0, 39):
-        own = varied(contact, {key: float(values[i]) for key, values in vary.items()})
+        own = vary_contact(contact, {key: float(values[i]) for key, values in vary.items()})
         alone = tb.solve(own, F_star=1e-5)
         assert abs(states["d"][i] - alone.d) < 1e-10 * SIGMA
         assert states["F_sa_star"][i] == pytest.approx(alone.F_sa_star, abs=1e-15)

@@ -12,7 +12,7 @@ from twins import base, material
 import thirdbody as tb
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.compiled import batch as engine
-from thirdbody.equilibrium.crowding import chi_of, crowded
+from thirdbody.equilibrium.crowding import chi_of, is_crowded
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.equilibrium.status import SENTENCES, WORDS, Status
 from thirdbody.errors import code_of
@@ -118,7 +118,7 @@ def test_real_areas_above_one_are_not_ok():
     found = tb.solve(contact, d=np.linspace(-4, 3, 60) * contact.roughness.sigma_s)
     assert found.A_t.max() > 1
     assert np.array_equal(found.status == "ok", found.A_t <= 0.5)
-    assert np.array_equal(crowded(contact, found.A_t), found.A_t > 0.5)
+    assert np.array_equal(is_crowded(contact, found.A_t), found.A_t > 0.5)
 
 
 def test_the_laws_give_no_number_is_no_large_load(tmp_path):

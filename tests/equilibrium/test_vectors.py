@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("numba")
-from thirdbody.equilibrium.engine.vectors import ln, padded
+from thirdbody.equilibrium.engine.vectors import ln, padded_length
 
 
 def test_the_logarithm_holds_to_that_of_the_library():
@@ -23,4 +23,4 @@ def test_the_logarithm_holds_to_that_of_the_library():
 
 
 def test_rows_are_whole_vectors():
-    assert [padded.py_func(count) for count in (1, 8, 9, 24)] == [8, 8, 16, 24]
+    assert [padded_length.py_func(count) for count in (1, 8, 9, 24)] == [8, 8, 16, 24]

@@ -13,7 +13,7 @@ from scipy.special import j0, ndtr
 import thirdbody as tb
 from thirdbody.errors import InvalidValue
 from thirdbody.laws.field.formulas import area, hardness_ratio, load, remainder
-from thirdbody.laws.field.programme import Edges, pressed
+from thirdbody.laws.field.programme import Edges, solve_programme
 from thirdbody.laws.field.spectrum import rolled_off
 from thirdbody.laws.field.table import field_of
 
@@ -85,7 +85,7 @@ class ByMaximisation:
 
     def at(self, tau, h, chi):
         """Φ and ⟨f⟩ with one filter."""
-        c = self.series.filtered(tau)[0]
+        c = self.series.filtered_correlations(tau)[0]
         k = self.series.integrals(tau, self.TERMS)
         last = 0.6 * k[-1]
         part = np.concatenate([[-last], k[1:] - last])
@@ -127,7 +127,7 @@ def test_the_table_is_the_programme_between_its_points():
     alpha, chi, h = 6.3, 0.34, np.array([1.33, 2.61])
     series = rolled_off(alpha).series(400)
     start = Edges(h + 0.2, np.full(2, -1.5), np.array([0.25, 0.12]), np.zeros(2, bool))
-    direct, surface = pressed(series, h, chi, start), field_of(chi, alpha)
+    direct, surface = solve_programme(series, h, chi, start), field_of(chi, alpha)
     assert surface.energy(h) == pytest.approx(direct.energy, rel=2e-4)
     assert surface.load(h)[:, 0] == pytest.approx(direct.moments[:, 0], rel=5e-4)
     columns = surface.columns(h)

@@ -72,7 +72,7 @@ def test_against_the_indentations_of_both_sides(law, name):
         held |= (eps > begin) & (eps < end)
     assert held.any()
     # while both stay at their jumps ε tells no load
-    jumps = [side.around(y) for side in made.sides for y in side.law.breakpoints]
+    jumps = [side.loads_around(y) for side in made.sides for y in side.law.breakpoints]
     inside = sum((loads >= below) & (loads <= at) for below, at in jumps)
     known = inside < 2
     np.testing.assert_allclose(made(eps)[known, 0], loads[known], rtol=1e-9)

@@ -10,7 +10,7 @@ from scipy import integrate
 from thirdbody.populations.measured.clean_room import (
     airborne,
     read_class,
-    settled,
+    settled_particles,
     settling_speed,
 )
 from thirdbody.study import check
@@ -44,7 +44,7 @@ def test_the_speed_of_a_falling_grain_is_that_of_stokes():
 
 @pytest.mark.parametrize("ends", [(0.5e-6, 5e-6), (2e-6, 40e-6)])
 def test_what_settles_is_the_integral_of_speed_and_concentration(ends):
-    number, sizes = settled(
+    number, sizes = settled_particles(
         6, exposure=3600.0, particle_density=2000.0, smallest=ends[0], largest=ends[1]
     )
 
@@ -63,7 +63,7 @@ def test_what_settles_is_the_integral_of_speed_and_concentration(ends):
 
 def test_ten_times_the_dust_a_class_higher_and_twice_in_twice_the_time():
     def number(iso_class, hours):
-        return settled(iso_class, exposure=3600.0 * hours, particle_density=2650.0)[0]
+        return settled_particles(iso_class, exposure=3600.0 * hours, particle_density=2650.0)[0]
 
     assert number(7, 1) == pytest.approx(10 * number(6, 1), rel=1e-12)
     assert number(6, 2) == pytest.approx(2 * number(6, 1), rel=1e-12)
@@ -90,7 +90,7 @@ def particles(**changes):
 
 def test_a_study_file_takes_the_class():
     dust = particles().contact.populations[0]
-    number, sizes = settled(7, exposure=86400.0, particle_density=2650.0)
+    number, sizes = settled_particles(7, exposure=86400.0, particle_density=2650.0)
     assert dust.areal_density == number
     assert dust.diameter == sizes
     assert "settles from still air" in " ".join(particles().assumed)

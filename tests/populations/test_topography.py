@@ -272,13 +272,13 @@ def test_form_is_removed(detrend, form):
 
 
 def test_gaps_are_filled_harmonically_for_the_spectrum():
-    from thirdbody.populations.measured.spectra import filled
+    from thirdbody.populations.measured.spectra import fill_missing
 
     x, y = np.meshgrid(np.arange(40.0), np.arange(30.0), indexing="ij")
     h = x**2 - y**2 + 3 * x * y
     gap = h.copy()
     gap[10:20, 8:15] = gap[0, 3:5] = np.nan
-    whole = filled(gap)
+    whole = fill_missing(gap)
     np.testing.assert_allclose(whole[10:20, 8:15], h[10:20, 8:15], rtol=1e-4, atol=1e-2)
     assert np.array_equal(whole[~np.isnan(gap)], h[~np.isnan(gap)])
 

@@ -134,7 +134,7 @@ def test_parts_of_a_work_tell_what_is_done_of_each(clock, capsys):
     with progress.stages("assess", 2) as work:
         work("samples")
         work.expect(40)
-        with progress.counted(30, work.within):
+        with progress.count_contacts(30, work.report_contacts):
             for _ in range(30):
                 clock.now += 2.0
                 progress.advance()
@@ -151,7 +151,7 @@ def test_what_is_compiled_before_is_no_cost_of_a_contact(clock, capsys):
         work("samples")
         work.expect(4000)
         clock.now += 60.0
-        with progress.counted(30, work.within):
+        with progress.count_contacts(30, work.report_contacts):
             for _ in range(30):
                 clock.now += 0.1
                 progress.advance()
@@ -163,7 +163,7 @@ def test_what_is_quick_says_nothing(capsys):
     with progress.stages("assess", 1) as work:
         work("samples")
         work.expect(40)
-        with progress.counted(30, work.within):
+        with progress.count_contacts(30, work.report_contacts):
             for _ in range(30):
                 progress.advance()
     assert capsys.readouterr().err == ""
@@ -179,7 +179,7 @@ def test_a_part_of_another_work_moves_its_bar():
     outer = Outer("report")
     outer("states")
     outer("error bars")
-    inner = progress.nested(outer, 2)
+    inner = progress.nested_stages(outer, 2)
     inner("samples")
     inner.show(0.5, "half")
     inner("ends")

@@ -20,7 +20,7 @@ from thirdbody.analysis.inputs import words_of
 from thirdbody.contact.output import AbstractOutput, Column
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.errors import Mistake
-from thirdbody.quantities.say import number, percent, signed
+from thirdbody.quantities.say import number, percent, signed_number
 from thirdbody.study import load_study
 from thirdbody.study.one_surface import one_surface
 from thirdbody.views.explicit_words import comparison_table, headline
@@ -175,7 +175,7 @@ def test_two_bodies_have_no_modes(two_body):
     order = tb.sensitivity(found.contact, of="A_t", pressure=5e6).elasticity["A_t"]
     strongest = max(order, key=lambda label: abs(order[label]))
     assert words_of(found.contact, strongest) in found.sentences()[2]
-    assert signed(order[strongest], 2, "%") in found.sentences()[2]
+    assert signed_number(order[strongest], 2, "%") in found.sentences()[2]
     assert "Critical loads" not in page.tables
     assert not re.search(r"\b(nan|inf|None)\b", page.whole)
 

@@ -14,7 +14,7 @@ from random_studies import draw
 import thirdbody as tb
 from thirdbody.analysis.inputs import words_of
 from thirdbody.equilibrium.modes import EPS_1, EPS_2
-from thirdbody.quantities.say import number, percent, signed, value_of
+from thirdbody.quantities.say import number, percent, signed_number, value_of
 from thirdbody.study import check
 from thirdbody.views.report import report
 from thirdbody.views.report.sentences import ranked_inputs
@@ -285,7 +285,7 @@ class Held:
         sizes = {k: abs(v) for k, v in slopes.items() if math.isfinite(v)}
         alike = [k for k in sizes if words_of(self.found.contact, k) == told["label"]]
         (label,) = (k for k in alike if sizes[k] == max(sizes.values()))
-        assert told["slope"] == signed(slopes[label], 2, "%")
+        assert told["slope"] == signed_number(slopes[label], 2, "%")
         assert (told["F"] is None) == (len(self.known) == 1)
         if told["F"]:
             assert told["F"] == number(self.states["F_star"][self.found.at])

@@ -87,7 +87,7 @@ def test_what_is_no_number_has_a_word(value):
         say.percent,
         say.times,
         lambda x: say.value_of(x, "m"),
-        lambda x: say.signed(x, 1),
+        lambda x: say.signed_number(x, 1),
     ]
     assert [of(value).removesuffix(" times") for of in each] == [say.NOT_KNOWN] * 5
 
@@ -96,7 +96,7 @@ def test_a_negative_zero_has_no_sign():
     assert say.number(-0.0) == "0"
     assert say.percent(-0.0) == "0 %"
     assert say.value_of(-0.0, "Pa") == "0 Pa"
-    assert say.signed(-1e-9, 2) == "+0.00"
+    assert say.signed_number(-1e-9, 2) == "+0.00"
 
 
 @pytest.mark.parametrize(

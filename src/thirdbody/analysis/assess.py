@@ -19,10 +19,10 @@ from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
 from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.states import OWN_SPOTS, varied
+from ..equilibrium.states import OWN_SPOTS, vary_contact
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
 from ..quantities.carried import takes_units
-from ..quantities.progress import LONG, SURE, Cost, Stages, counted, duration, solving
+from ..quantities.progress import LONG, SURE, Cost, Stages, count_contacts, duration, solving
 from ..quantities.say import number, percent, value_of
 from ..quantities.value import problem_with
 from .assessment import (
@@ -41,7 +41,7 @@ from .assessment import (
 )
 from .attempts import columns_tried
 from .differences import QUICK
-from .inputs import declared, words_of
+from .inputs import declared_quantity, words_of
 from .inputs import inputs as all_inputs
 from .sensitivity import moves, sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
@@ -237,7 +237,7 @@ class _Outputs:
                     f"{duration(whole)}"
                 )
             self.said = True
-        self.progress.moved(int(self.done), self.total, "states with outputs")
+        self.progress.report_progress(int(self.done), self.total, "states with outputs")
 
 
 class _Work:
@@ -259,7 +259,7 @@ class _Work:
             self.critical = min(count, MOST_CRITICAL)
         self.tell: Callable[[str], None] = lambda sentence: None
         if isinstance(progress, Stages):
-            self.progress, self.within = progress, progress.within
+            self.progress, self.within = progress, progress.report_contacts
             alone = costly(contact, vary)
             progress.expect((count if alone else 0) + self.ends + self.ways)
             if alone:
@@ -277,9 +277,9 @@ class _Work:
                 return
             done += count
             if self.progress is not None and states and not why:
-                self.progress.moved(int(done), states, "states")
+                self.progress.report_progress(int(done), states, "states")
 
-        with counted(expected, self.within), solving(more):
+        with count_contacts(expected, self.within), solving(more):
             yield
 
     def price(
@@ -537,7 +537,7 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tupl
 
     def alone(way: Way) -> bool:
         start = {name: float(v) for name, v in every[way][0].moved_numbers([steps[way][0]]).items()}
-        return costly(varied(one.contact, start), start)
+        return costly(vary_contact(one.contact, start), start)
 
     halved = {way for way in steps if alone(way)}
     for counts, some in (
@@ -577,7 +577,7 @@ def _usual(contact: Contact) -> dict[str, Uncertain]:
     sizes: dict[str, list[str]] = {}
     for name in own:
         owner, found, _ = name.rpartition(".diameter.")
-        if found and declared(contact, name)["unit"] == "m":
+        if found and declared_quantity(contact, name)["unit"] == "m":
             sizes.setdefault(owner, []).append(name)
     labels += ["+".join(names) for names in sizes.values()]
     labels += [name for name in own if name.endswith(".material.H")]
@@ -603,7 +603,8 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int
     def fits(value: float) -> bool:
         at = moved.numbers_at((value - moved.values[0]) / moved.scales[0])
         return all(
-            problem_with(declared(contact, name), float(v)) is None for name, v in at.items()
+            problem_with(declared_quantity(contact, name), float(v)) is None
+            for name, v in at.items()
         )
 
     good = [fits(float(value)) for value in values]
@@ -636,11 +637,11 @@ def _departures(
             vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = moved
     loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
 
-    def solved(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
+    def solve_some(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
         some = {name: values[which] for name, values in vary.items()}
         return columns_at(one.contact, one.load, loads[which], some, len(which))
 
-    states, refused = columns_tried(solved, int(ends[-1]))
+    states, refused = columns_tried(solve_some, int(ends[-1]))
     out, stops = {}, {}
     for (way, (_, values)), piece in zip(ways.items(), pieces, strict=True):
         modes = [str(word) for word in states["mode"][piece]]

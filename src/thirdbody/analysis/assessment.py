@@ -26,12 +26,12 @@ from ..quantities import notebook
 from ..quantities.plain_data import plain_data
 from ..quantities.say import join_words, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
-from .inputs import declared, words_of
+from .inputs import declared_quantity, words_of
 from .inputs import inputs as all_inputs
 from .uncertainty.propagation import OUTPUTS, Propagation, about_result
 from .uncertainty.samples import crowded_samples
 
-__all__ = ["WORDS", "Assessment", "Change", "Section", "Stop", "printed"]
+__all__ = ["WORDS", "Assessment", "Change", "Section", "Stop", "terminal_page"]
 
 SHOWN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
 """What the page tells of the state."""
@@ -407,14 +407,14 @@ class Assessment:
     def page(self, more: str = WIDER) -> Any:
         """The page for a terminal, to print by rich; ``more`` is how to see what has no room."""
         legend = {"elasticity": ELASTICITY.format(self.called)}
-        return printed(self.title or "Assessment", self.sections(), more, legend)
+        return terminal_page(self.title or "Assessment", self.sections(), more, legend)
 
 
 WORDS = ("where", "result", "input", "what alone changes")
 """Columns of words, which may break."""
 
 
-def printed(title: str, sections: list[Section], more: str, legend: dict[str, str]) -> object:
+def terminal_page(title: str, sections: list[Section], more: str, legend: dict[str, str]) -> object:
     """A page for a terminal."""
     from rich.console import Group
 
@@ -472,7 +472,7 @@ def _error(error: float, name: str) -> str:
 def unit_of(contact: Contact, label: str) -> str:
     """The unit of an uncertain input."""
     units = {"pressure": "Pa", "F_star": "1", "d": "m"}
-    return units.get(label) or declared(contact, label.split("+")[0])["unit"]
+    return units.get(label) or declared_quantity(contact, label.split("+")[0])["unit"]
 
 
 def _nominal(found: Propagation, label: str) -> float:

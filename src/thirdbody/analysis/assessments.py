@@ -11,7 +11,7 @@ from ..contact.citations import cite
 from ..equilibrium.words import load_of, mode_path
 from ..quantities.say import number, percent, plural, value_of
 from ..quantities.tables import WIDER
-from .assessment import NO_RANGES, RARE, Assessment, Section, _nominal, printed, unit_of
+from .assessment import NO_RANGES, RARE, Assessment, Section, _nominal, terminal_page, unit_of
 from .inputs import words_of
 
 __all__ = ["Assessments"]
@@ -162,7 +162,7 @@ class Assessments:
     # ------------------------------------------------------------------ terminal
     def page(self, more: str = WIDER) -> Any:
         """The page for a terminal, to print by rich; ``more`` is how to see what has no room."""
-        return printed(self.title or "Assessment", self.sections(), more, LEGEND)
+        return terminal_page(self.title or "Assessment", self.sections(), more, LEGEND)
 
 
 LEGEND = {

@@ -69,12 +69,12 @@ def columns_tried(solve: Callable[[Which], Columns], count: int) -> tuple[Column
     if first is not None and not parts:
         raise first
     if not refused:
-        parts = parts if len(parts) == 1 else [_joined(count, parts)]
+        parts = parts if len(parts) == 1 else [_join_columns(count, parts)]
         return parts[0][1], {}
-    return _joined(count, parts)[1], refused
+    return _join_columns(count, parts)[1], refused
 
 
-def _joined(count: int, parts: list[tuple[Which, Columns]]) -> tuple[Which, Columns]:
+def _join_columns(count: int, parts: list[tuple[Which, Columns]]) -> tuple[Which, Columns]:
     """Columns of all states; those that none of the parts holds are not known."""
     out: Columns = {}
     for which, columns in parts:

@@ -150,7 +150,7 @@ def compare(
     >>> table.A_t_difference.sel(law="ceb").values.round(0).tolist()
     [29.0, 35.0]
     """
-    return compared(contact, pressure=pressure, F_star=F_star, laws=laws).dataset()
+    return comparison_of(contact, pressure=pressure, F_star=F_star, laws=laws).dataset()
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -200,7 +200,7 @@ class Comparison:
         )
 
 
-def compared(
+def comparison_of(
     contact: Contact,
     *,
     pressure: ArrayLike | None = None,
@@ -218,9 +218,13 @@ def compared(
         given = values
         loads = {"pressure": values, "F_star": values / contact.E_ss}
     rows = _rows(contact, laws)
-    solved = [_solved(contact, law, as_force_load(load, given)) for law in rows.values()]
+    solved = [_solve_law(contact, law, as_force_load(load, given)) for law in rows.values()]
     notes, common = _without_repeats(solved)
-    used = [_under(contact, law) for law in rows.values() if isinstance(law, AbstractAsperityLaw)]
+    used = [
+        _contact_with_law(contact, law)
+        for law in rows.values()
+        if isinstance(law, AbstractAsperityLaw)
+    ]
     cited = "\n".join(cite(each) for each in used)
     if any(isinstance(law, Persson) for law in rows.values()):
         cited += f"\n{Persson.citation}"
@@ -263,7 +267,7 @@ def _columns(contact: Contact, solved: list[_Solved], load: Array) -> dict[str, 
             elif name == "status":
                 column[i] = note[0]
         data[name] = column
-    data |= _derived(data, load)
+    data |= _derived_columns(data, load)
     if contact.two_body:
         for name in ("particle_load_share", "particle_load_share_difference"):
             data.pop(name)
@@ -349,7 +353,7 @@ def _options(law: AbstractAsperityLaw | Persson | type) -> str:
     return "" if isinstance(law, type | Persson) else json.dumps(law.to_dict(), ensure_ascii=False)
 
 
-def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
+def _contact_with_law(contact: Contact, law: AbstractAsperityLaw) -> Contact:
     """The contact with another law; a law of one shape has tips of the same R all alike."""
     rough = contact.roughness
     if getattr(law, "ratio", None) != 1:
@@ -357,7 +361,7 @@ def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
     return contact.replace(roughness=rough, asperity_law=law)
 
 
-def _solved(
+def _solve_law(
     contact: Contact, law: AbstractAsperityLaw | Persson | type, load: ForceLoad[Array]
 ) -> _Solved:
     if isinstance(law, Persson):
@@ -370,7 +374,7 @@ def _solved(
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore", RangeWarning)
-            changed = _under(contact, law)
+            changed = _contact_with_law(contact, law)
             state = solve(changed, **load)
             note = _outside(changed, state)
     except Exception as error:  # a law can be anybody's: whatever it does, the others stand
@@ -386,7 +390,7 @@ def _solved(
     return _Solved(state, note, heard)
 
 
-def _derived(data: dict[str, Array], load: Array) -> dict[str, Array]:
+def _derived_columns(data: dict[str, Array], load: Array) -> dict[str, Array]:
     """Mean pressure, regime shares, and differences against the first row."""
     with np.errstate(divide="ignore", invalid="ignore"):
         area = data["A_t"]

@@ -209,7 +209,7 @@ class Places:
         assert best is not None
         return values[:, self.rule.reach], best
 
-    def along(self, moved: Sequence[Input], slope_of_held: Array) -> list[Slope]:
+    def slopes_on_paths(self, moved: Sequence[Input], slope_of_held: Array) -> list[Slope]:
         """Derivatives with every input moved on a path on which what is held stays nearly."""
         found: dict[int, Slope] = {}
         pending = list(range(len(moved)))
@@ -271,7 +271,7 @@ class Places:
             error=(columns.error + np.abs(ratio.value) * own.error) / np.abs(steep)
         )
         out = {}
-        partial = self.along(moved, slope.value[:, -1])
+        partial = self.slopes_on_paths(moved, slope.value[:, -1])
         for each, (of_columns, of_held) in zip(moved, map(_last_apart, partial), strict=True):
             total = of_columns.less(ratio, of_held)
             out[each.label] = self._entries_of(total, size, each.scales[0])

@@ -12,7 +12,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.output import AbstractOutput
 from ..equilibrium.columns import COLUMNS
-from ..equilibrium.states import carries, unknown_inputs, varied
+from ..equilibrium.states import carries, unknown_inputs, vary_contact
 from ..errors import InvalidValue, Mistake, Problem
 from ..populations.roughness import ETA_R_SIGMA
 from ..quantities.say import join_words
@@ -102,7 +102,7 @@ def input_of(contact: Contact, label: str, where: str = "vary[{!r}]") -> Input:
 
 def _scale(contact: Contact, name: str, value: float, where: str) -> float:
     """By how much an input changes when it changes a lot."""
-    about = declared(contact, name)
+    about = declared_quantity(contact, name)
     if value > 0 and 0 in (about["gt"], about["ge"]):
         return value
     usual = {"1": 1.0, "m": contact.roughness.sigma}.get(about["unit"], 0.0)
@@ -112,7 +112,7 @@ def _scale(contact: Contact, name: str, value: float, where: str) -> float:
     return scale
 
 
-def declared(contact: Contact, name: str) -> Quantity:
+def declared_quantity(contact: Contact, name: str) -> Quantity:
     """Symbol, unit and range of an input."""
     path, _, last = name.rpartition(".")
     owner = contact.value_at(path)
@@ -165,7 +165,7 @@ def _words_and_owner(contact: Contact, name: str) -> tuple[str, str]:
     if name in WHOLE:
         return WHOLE[name], ""
     try:
-        meaning = str(declared(contact, name)["meaning"])
+        meaning = str(declared_quantity(contact, name)["meaning"])
     except (InvalidValue, ValueError, TypeError):
         return name, ""
     first, _, place = name.partition(".")
@@ -215,7 +215,7 @@ def _room(contact: Contact, moved: Input, step: float, reach: int = FULL_REACH) 
     for offsets in places_of(reach):
         try:
             for end in (offsets[0], offsets[-1]):
-                varied(contact, moved.numbers_at(float(step * end)))
+                vary_contact(contact, moved.numbers_at(float(step * end)))
         except InvalidValue as refused:
             why = why or str(refused)
         else:

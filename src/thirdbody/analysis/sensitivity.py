@@ -30,9 +30,9 @@ from ..errors import InvalidValue, Mistake, Problem
 from ..quantities import notebook
 from ..quantities.arguments import is_empty, need_place
 from ..quantities.carried import takes_units
-from ..quantities.progress import watched
+from ..quantities.progress import watch_contacts
 from ..quantities.record import Record
-from ..quantities.uncertain import is_uncertain, shifted
+from ..quantities.uncertain import is_uncertain, shift_value
 from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
@@ -213,7 +213,7 @@ class Sensitivity(Record):
                 raise InvalidValue(
                     f"{of} has no slope to {unknown[0]}: {told}", code=Mistake.BEYOND
                 )
-            return shifted(as_float(self.value[of]), slopes)
+            return shift_value(as_float(self.value[of]), slopes)
 
         return {
             of: one(of, None) if np.ndim(value) == 0 else [one(of, i) for i in range(len(value))]
@@ -361,8 +361,8 @@ def sensitivity(
     moved = [input_of(contact, name, TO) for name in dict.fromkeys(labels) if name != load]
 
     rule = QUICK if quick else FULL
-    with watched("sensitivity", 2 * rule.reach * len(moved), progress):
-        value, entries = _derived(contact, results, given, moved, load, rule)
+    with watch_contacts("sensitivity", 2 * rule.reach * len(moved), progress):
+        value, entries = _values_and_slopes(contact, results, given, moved, load, rule)
 
     start: dict[str, Any] = {each.label: each.values[0] for each in moved}
     if load in labels:
@@ -428,7 +428,7 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     return names
 
 
-def _derived(
+def _values_and_slopes(
     contact: Contact,
     results: Sequence[str],
     given: Mapping[str, ArrayLike],

@@ -364,12 +364,12 @@ def error_bars(
         report(0.9 * min(done / expected, 1.0) / (1 if critical else len(loads)))
 
     for number, value in enumerate([] if critical else loads):
-        with progress.counted(samples, None if number else report_part):
+        with progress.count_contacts(samples, None if number else report_part):
             found = states_under(value)
         rows.append(found.bands[of])
         nominal.append(found.nominal[of])
         report(0.9 * (number + 1) / len(loads))
-    with progress.counted(samples, report_part if critical else None):
+    with progress.count_contacts(samples, report_part if critical else None):
         point = states_under(at)
     report(0.95)
     found_at = {

@@ -124,12 +124,12 @@ def _about_few(state: Solved) -> list[str]:
     if not concerned or not max(areas) or not len(state.d):
         return []
 
-    def pressed(spots: AsperitySpots | ParticleSpots) -> NDArray[np.bool_]:
+    def has_load(spots: AsperitySpots | ParticleSpots) -> NDArray[np.bool_]:
         return spots.load > 0
 
     kinds = {
-        "asperities": max(areas) * state.total(pressed),
-        "particles": max(areas) * state.total_of_particles(pressed),
+        "asperities": max(areas) * state.total(has_load),
+        "particles": max(areas) * state.total_of_particles(has_load),
     }
     count = kinds["asperities"] + kinds["particles"]
     out: list[str] = []
@@ -198,7 +198,7 @@ def particles_of(
         }
         found = response.spots(d, sorted(splits))
         particles += [replace(spots, material=each.material, population=each) for spots in found]
-    return particles if crowd is None else [spots.thinned(crowd) for spots in particles]
+    return particles if crowd is None else [spots.thin_spots(crowd) for spots in particles]
 
 
 def touching(bound: Interface, d: Array, crowd: Array | None = None) -> Array:
@@ -219,7 +219,7 @@ def spots_of(
 
 def asperities_of(bound: Interface, d: Array, shadow: Array) -> list[AsperitySpots]:
     """Every asperity in contact of the states at d, out of the shadow of particles."""
-    return [spots.thinned(1 - shadow) for spots in bound.asperities.spots(d)]
+    return [spots.thin_spots(1 - shadow) for spots in bound.asperities.spots(d)]
 
 
 @lru_cache(maxsize=256)

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Ground", "GroundedPart", "LiftedSum", "grounded"]
+__all__ = ["Ground", "GroundedPart", "LiftedSum", "put_on_ground"]
 
 STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
@@ -233,7 +233,7 @@ class Ground:
         width = min(1.0, *(seat.width for seat in seats))
         count = int(rows_between(lowest, reach, width))
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
-        self.u, self.w = self._solved()
+        self.u, self.w = self._solve_separations()
 
     def _of_asperities(self, h: Array) -> tuple[Array, Array]:
         """k_n^zs a_n and k_n^as a_n′/a_0′ at h: (N, 13) each."""
@@ -278,20 +278,20 @@ class Ground:
             before, w = w, w + np.where(short, chord, miss)
         return found
 
-    def _solved(self) -> tuple[Array, Array]:
+    def _solve_separations(self) -> tuple[Array, Array]:
         """Solve all separations at once; those that fail, one by one from the ones above."""
         count = len(self.h)
         u, w, kept = (np.zeros((count, more)) for more in (MOMENTS + 1, 1, MOMENTS + 2))
-        rest = self._iterated(np.arange(count), u, w, kept)
+        rest = self._iterate_states(np.arange(count), u, w, kept)
         for row in rest[::-1]:
             if row + 2 >= count:
                 return self._above(count, u, w)
             kept[row] = 2 * kept[row + 1] - kept[row + 2]
-            if len(self._iterated(np.array([row]), u, w, kept)):
+            if len(self._iterate_states(np.array([row]), u, w, kept)):
                 return self._above(row + 1, u, w)
         return u, w[:, 0]
 
-    def _iterated(
+    def _iterate_states(
         self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array
     ) -> NDArray[np.intp]:
         """Iteration after Anderson from the states kept; fills in rows, gives those not found."""
@@ -313,7 +313,7 @@ class Ground:
                 break
             states = [each[more] for each in states]
             misses = [each[more] for each in misses]
-            state = _accelerated(states, misses)
+            state = _next_state(states, misses)
         return rest[left == MORE]
 
     def _above(self, first: int, u: Array, w: Array) -> tuple[Array, Array]:
@@ -356,7 +356,7 @@ def field_offset(seat: Seat, field: FieldSum) -> float:
     return (field.rough.y_s - field.centre - seat.part.offset) / field.sigma
 
 
-def _accelerated(states: list[Array], misses: list[Array]) -> Array:
+def _next_state(states: list[Array], misses: list[Array]) -> Array:
     """The next state: the combination of the last ones that misses least, row by row."""
     if len(states) == 1:
         return states[0] + 0.5 * misses[0]
@@ -445,7 +445,7 @@ class GroundedPart(Part):
         sigma = self.ground.field.sigma
         return self.factor / sigma ** np.arange(3) * self._derivatives(d, (0, shadow))
 
-    def reduced(self, d: Array) -> Array:
+    def reduced_columns(self, d: Array) -> Array:
         """Columns per factor inside the table, areas with what its splines overshoot: (N, 7)."""
         spline, last = self._spline
         value = spline(np.clip(self._h(d), self.ground.h[0], max(last, self.ground.h[0])))
@@ -455,7 +455,7 @@ class GroundedPart(Part):
 
     def columns(self, d: Array) -> Array:
         _, last = self._spline
-        h, value = self._h(d), np.maximum(self.reduced(d), 0.0)
+        h, value = self._h(d), np.maximum(self.reduced_columns(d), 0.0)
         value[h > last] = 0.0
         value[h < self.ground.h[0]] = np.nan
         return self.factor * value
@@ -490,7 +490,7 @@ class GroundedPart(Part):
         spots = average.spots_in(gaps, rise, splits, share, 1.0)
         spots = spots.of_size(self.scale, self.density)
         total, wanted = spots.total(spots.load), self.columns(d)[:, 0]
-        return spots.thinned(np.divide(wanted, total, out=np.ones_like(total), where=total > 0))
+        return spots.thin_spots(np.divide(wanted, total, out=np.ones_like(total), where=total > 0))
 
 
 class LiftedSum(FieldSum):
@@ -513,31 +513,31 @@ class LiftedSum(FieldSum):
         out = self._lift[derivative](np.clip(h, low, high))
         return np.where(h > high, 0.0, out)
 
-    def _lifted(self, d: Array) -> Array:
+    def _lift_separations(self, d: Array) -> Array:
         return d + self.sigma * self._lift_at(d)
 
-    def lifted(self, h: Array) -> Array:
+    def lifted_separations(self, h: Array) -> Array:
         """Separations over σ that asperities see at h (N,)."""
         return h + self._lift_at(self.sigma * h - self.rough.y_s + self.centre)
 
     def load(self, d: Array) -> Array:
-        F = self.plain.load(self._lifted(d))
+        F = self.plain.load(self._lift_separations(d))
         first = 1 + self._lift_at(d, 1)
         second = self._lift_at(d, 2) / self.sigma
         bend = F[:, 2] * first**2 + F[:, 1] * second
         return np.stack([F[:, 0], F[:, 1] * first, bend], axis=-1)
 
     def fields(self, d: Array) -> Array:
-        return self.plain.fields(self._lifted(d))
+        return self.plain.fields(self._lift_separations(d))
 
     def stiffness(self, d: Array) -> Array:
-        return self.plain.stiffness(self._lifted(d))
+        return self.plain.stiffness(self._lift_separations(d))
 
     def spots(self, d: Array) -> list[AsperitySpots]:
-        return self.plain.spots(self._lifted(d))
+        return self.plain.spots(self._lift_separations(d))
 
 
-def grounded(
+def put_on_ground(
     field: FieldSum,
     populations: Sequence[SeatedParticles],
     laws: Sequence[SeatedLaw],

@@ -115,9 +115,9 @@ class FieldSpots(AsperitySpots):
     stiffness: Array
     regimes: Array
 
-    def thinned(self, factor: Array) -> Self:
+    def thin_spots(self, factor: Array) -> Self:
         return replace(
-            super().thinned(factor),
+            super().thin_spots(factor),
             stiffness=self.stiffness * factor,
             regimes=self.regimes * factor[:, None],
         )
@@ -130,17 +130,17 @@ class FieldSpots(AsperitySpots):
         if share is None:
             number = np.broadcast_to(spots.number, (len(count), spots.number.shape[1]))
 
-        def flattened(values: NDArray[Any]) -> NDArray[Any]:
+        def flatten_values(values: NDArray[Any]) -> NDArray[Any]:
             flat = values if share is None else values[:, 0]
             return np.broadcast_to(flat, number.shape)
 
         return cls(
             share=None,
             number=number * count[:, None],
-            load=flattened(spots.load),
-            area=flattened(spots.area) * size[:, None],
-            regime=flattened(spots.regime),
-            depth=flattened(spots.depth),
+            load=flatten_values(spots.load),
+            area=flatten_values(spots.area) * size[:, None],
+            regime=flatten_values(spots.regime),
+            depth=flatten_values(spots.depth),
             R=spots.R,
             law=spots.law,
             E_star=spots.E_star,

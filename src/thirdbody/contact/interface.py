@@ -18,7 +18,7 @@ from ..quantities.progress import advance
 from .asperity_sums import asperity_sum
 from .broken_averages import is_rough
 from .contact import Contact
-from .field_ground import grounded
+from .field_ground import put_on_ground
 from .field_sums import FieldSum
 from .particle_sums import SeatedParticles, particle_sum, together_in
 
@@ -43,7 +43,7 @@ class Interface:
             for law, each in zip(laws, contact.populations, strict=True)
         ]
         if self.populations and isinstance(self.asperities, FieldSum):
-            self.asperities, found = grounded(
+            self.asperities, found = put_on_ground(
                 self.asperities,
                 [each for each in self.populations if isinstance(each, SeatedParticles)],
                 [law for law in laws if isinstance(law, SeatedLaw)],
@@ -140,17 +140,17 @@ def interface(contact: Contact) -> Interface:
 def carrying(contact: Contact) -> Contact:
     """The contact by what decides how it carries load: no outputs, no labels, no conductivities."""
     pair, given = contact.surfaces, contact.particles
-    surfaces = pair.unchecked(first=pair.first.carrying, second=pair.second.carrying)
+    surfaces = pair.replace_unchecked(first=pair.first.carrying, second=pair.second.carrying)
     particles: Particles | tuple[Particles, ...] | None = None
     if isinstance(given, tuple):
         particles = tuple(_carrying(each) for each in given)
     elif given is not None:
         particles = _carrying(given)
-    return contact.unchecked(surfaces=surfaces, particles=particles, outputs=())
+    return contact.replace_unchecked(surfaces=surfaces, particles=particles, outputs=())
 
 
 def _carrying(each: Particles) -> Particles:
-    return each.unchecked(material=each.material.carrying, name="")
+    return each.replace_unchecked(material=each.material.carrying, name="")
 
 
 @lru_cache(maxsize=512)

@@ -72,7 +72,7 @@ class SizeAverage:
     @cached_property
     def upper(self) -> PiecewiseChebyshev:
         """P/u^powers as a function of u, above the join."""
-        return PiecewiseChebyshev(self._reduced, self.rises, tolerance=1e-13, kinds=KINDS)
+        return PiecewiseChebyshev(self._reduced_columns, self.rises, tolerance=1e-13, kinds=KINDS)
 
     @cached_property
     def lower(self) -> PiecewiseChebyshev | None:
@@ -86,7 +86,7 @@ class SizeAverage:
             kinds=KINDS,
         )
 
-    def _reduced(self, u: Array) -> Array:
+    def _reduced_columns(self, u: Array) -> Array:
         return self.average(self.top - u * u, u * u) / u[:, None] ** self.powers
 
     def average(self, gap: Array, rise: Array) -> Array:
@@ -283,7 +283,7 @@ class SizeAverage:
         weight: Array | float,
     ) -> ParticleSpots:
         """Spots of all particles in gaps (M, 1), each gap counted with its weight."""
-        x, delta, number = _counted(*self.of_sizes(gap, rise, splits, SIZE_NODES))
+        x, delta, number = _drop_empty_nodes(*self.of_sizes(gap, rise, splits, SIZE_NODES))
         return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
 
     @property
@@ -293,7 +293,7 @@ class SizeAverage:
         return np.concatenate([below, self.top - self.upper.edges**2])
 
 
-def _counted(x: Array, delta: Array, number: Array) -> tuple[Array, Array, Array]:
+def _drop_empty_nodes(x: Array, delta: Array, number: Array) -> tuple[Array, Array, Array]:
     """The same without nodes that stand for nothing, on panels that have no room in their row.
 
     Rows with fewer nodes than others repeat their last one, for nothing.

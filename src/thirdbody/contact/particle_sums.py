@@ -166,13 +166,13 @@ class ParticlesTogether(ParticleSum):
         return np.sum(loads, axis=0), np.sum(shadows, axis=0)
 
     def fields(self, d: Array) -> dict[str, Array]:
-        return self._added([each.fields(d) for each in self.sums])
+        return self._add_parts([each.fields(d) for each in self.sums])
 
     def direct_fields(self, d: Array) -> dict[str, Array]:
-        return self._added([each.direct_fields(d) for each in self.sums])
+        return self._add_parts([each.direct_fields(d) for each in self.sums])
 
     @staticmethod
-    def _added(parts: Sequence[dict[str, Array]]) -> dict[str, Array]:
+    def _add_parts(parts: Sequence[dict[str, Array]]) -> dict[str, Array]:
         return {name: np.sum([part[name] for part in parts], axis=0) for name in parts[0]}
 
     def touching(self, d: Array) -> Array:

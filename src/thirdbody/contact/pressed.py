@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["about_pressed", "buried", "most_buried"]
+__all__ = ["about_pressed", "buried_share", "most_buried"]
 
 OTHER_FRICTION = (
     "solve again with particle_law.friction_factor = 0.05 and 1 to see what the friction does"
@@ -43,7 +43,7 @@ TOLD = 0.01
 """Share of the particles' load from which such particles are told of."""
 
 
-def buried(contact: Contact, d: Array) -> Array:
+def buried_share(contact: Contact, d: Array) -> Array:
     """Share of the particles' load on those that sink in deeper than their radius: (N,).
 
     Zero where the particle law knows no single particles.
@@ -175,7 +175,8 @@ def _about_computed(contact: Contact, d: Array) -> list[str]:
         f"up to {percent(min(far / total, 1.0), digits=2)} of the particles' load is on particles "
         f"squeezed by more than {TABLE_BEGINS:g} of their radius on each side: their law agrees "
         "with a computation there within ±10 %, but with no measurement; friction of their faces, "
-        f"from smooth to rough, changes their load by {_signed(less)} to {_signed(more)} %"
+        f"from smooth to rough, changes their load by {_signed_percent(less)} to "
+        f"{_signed_percent(more)} %"
     )
     action = OTHER_FRICTION
     if min(collars / total, 1.0) > TOLD:
@@ -210,7 +211,7 @@ def _computed_squeezes(
     return first(begins), first(touch)
 
 
-def _signed(part: float) -> str:
+def _signed_percent(part: float) -> str:
     """A part of one in whole per cent with its sign."""
     return f"{100 * part:+.0f}".replace("-", "−").replace("+0", "0").replace("−0", "0")
 
@@ -295,11 +296,11 @@ def _radius_squeeze(
 ) -> tuple[float, ...]:
     """Squeeze over diameter at which a particle sits as deep as its radius."""
 
-    def beyond(eps: Array) -> Array:
+    def sink_past_radius(eps: Array) -> Array:
         one = law.probe(eps, surfaces=surfaces, particle=particle)
         return np.ravel(np.maximum(*one.sinks) - one.half)
 
-    found = bracketed_root(beyond, np.array([1e-6]), np.array([4.0]), xrtol=1e-12)
+    found = bracketed_root(sink_past_radius, np.array([1e-6]), np.array([4.0]), xrtol=1e-12)
     return tuple(found[np.isfinite(found)].tolist())
 
 

@@ -66,8 +66,8 @@ class AsperitySpots(Spots):
     lowest: Array
     density: Array
 
-    def thinned(self, factor: Array) -> Self:
-        return replace(super().thinned(factor), density=self.density * factor)
+    def thin_spots(self, factor: Array) -> Self:
+        return replace(super().thin_spots(factor), density=self.density * factor)
 
     def deeper(self, omega: Array) -> Array:
         """Asperities pressed deeper than ω [m] per nominal area; broadcasts with (N,)."""

@@ -70,7 +70,7 @@ def _through_asperities(
         R = spot_resistance(b, rho_1=rho_1, rho_2=rho_2, film=film, mean_free_path=mean_free_path)
         return np.where(touches, 1 / R, 0.0)
 
-    def summed(film: float, mean_free_path: float) -> Array:
+    def total_conductance(film: float, mean_free_path: float) -> Array:
         return state.total(lambda spots: conductance(spots, film, mean_free_path))
 
     if patches := [each for each in state.asperities if isinstance(each, FieldSpots)]:
@@ -78,12 +78,12 @@ def _through_asperities(
         found = 2 / (rho_1 + rho_2) * whole
         if film or mean_free_path:  # in series, as spots have them
             with np.errstate(divide="ignore", invalid="ignore"):
-                more = 1 / summed(film, mean_free_path) - 1 / summed(0.0, 0.0)
+                more = 1 / total_conductance(film, mean_free_path) - 1 / total_conductance(0.0, 0.0)
                 found = np.where(found > 0, 1 / (1 / found + more), 0.0)
         return found
     A_ss = state.total(lambda spots: spots.area)
     psi = spreading(np.sqrt(np.minimum(A_ss, 1.0)), form=form)
-    return summed(film, mean_free_path) / psi
+    return total_conductance(film, mean_free_path) / psi
 
 
 def _through_particles(

@@ -12,7 +12,7 @@ from ..contact.output import AbstractOutput, Column
 from ..errors import Advice, Mistake
 from ..laws.particle.breakage import Breakage, crush_embed_size
 from ..quantities.value import quantity
-from .quantiles import Values, exceeded
+from .quantiles import Values, exceeded_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -120,7 +120,7 @@ class Crushing(AbstractOutput):
         for spots in state.particles:
             bears = spots.load > 0
             counted = replace(spots, layout=None)  # sizes do not change as a gap closes
-            was, survival = _before(spots)
+            was, survival = _numbers_before(spots)
             broken = bears * was * (1 - survival)
             number = np.where(spots.number > 0, spots.number, 1.0)
             piece = bears * np.clip(1 - was * survival / number, 0.0, 1.0)
@@ -142,8 +142,8 @@ class Crushing(AbstractOutput):
             sizes.append(Values(counted, bears * spots.x, bears.astype(float)))
             fragments.append(Values(counted, (piece > 0) * spots.x, piece * mass))
         pieces = sums["pieces"] > ROUNDING * sums["borne"]
-        (median,) = exceeded(fragments, [0.5 * sums["pieces"]])
-        (largest,) = exceeded(sizes, [nothing + math.log(2) / self.A_n])
+        (median,) = exceeded_values(fragments, [0.5 * sums["pieces"]])
+        (largest,) = exceeded_values(sizes, [nothing + math.log(2) / self.A_n])
         with np.errstate(invalid="ignore", divide="ignore"):
             return {
                 "broken_share": sums["broken"] / sums["caught"],
@@ -161,7 +161,7 @@ ROUNDING = 1e-12
 """Part of the pieces of a size that is rounding where all are whole particles."""
 
 
-def _before(spots: ParticleSpots) -> tuple[Array, Array]:
+def _numbers_before(spots: ParticleSpots) -> tuple[Array, Array]:
     """Numbers before any broke, and P_s."""
     if spots.parents is None or spots.survival is None:
         return spots.number, np.ones_like(spots.number)

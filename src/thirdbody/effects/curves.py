@@ -62,7 +62,7 @@ class _Run:
     def squeeze(self, f: Array) -> Array:
         """Squeeze ε at which f passes a value; the end of the run if f never does."""
         begin, end = self.ends if self.rises else self.ends[::-1]
-        out = np.where(f < self.low, begin, _read(self.roots, self.cubics, np.sqrt(f)))
+        out = np.where(f < self.low, begin, _read_cubics(self.roots, self.cubics, np.sqrt(f)))
         return np.where(f >= self.high, end, out)
 
 
@@ -87,7 +87,7 @@ class Curve:
                 edges.append(kink)
         edges.append(4 * edges[-1])
         top = float(np.max(f(np.array(edges))))
-        eps, values = _tabulated(f, np.array(edges), top)
+        eps, values = _tabulate_curve(f, np.array(edges), top)
         seams = np.searchsorted(eps, edges)[1:-1]
         self.runs = tuple(_runs(eps, values, seams))
         found_at = [values[0], values[-1], *values[seams - 1], *values[seams]]
@@ -111,7 +111,7 @@ class Curve:
         return out
 
 
-def _tabulated(f: Callable[[Array], Array], edges: Array, top: float) -> tuple[Array, Array]:
+def _tabulate_curve(f: Callable[[Array], Array], edges: Array, top: float) -> tuple[Array, Array]:
     """Squeezes between edges, dense where f bends, and f there; no cubic crosses an edge."""
     eps = np.concatenate([_first_nodes(a, b) for a, b in pairwise(edges)])
     values = np.maximum(f(eps), 0.0)
@@ -207,7 +207,7 @@ def _horner(cubics: Array, roots: Array, at: NDArray[np.intp], wanted: Array) ->
     return np.clip(out, np.minimum(a, far), np.maximum(a, far))
 
 
-def _read(roots: Array, cubics: Array, wanted: Array) -> Array:
+def _read_cubics(roots: Array, cubics: Array, wanted: Array) -> Array:
     at = np.clip(np.searchsorted(roots, wanted, side="right") - 1, 0, len(roots) - 2)
     return _horner(cubics[at], roots, at, wanted)
 

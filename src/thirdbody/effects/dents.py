@@ -18,7 +18,7 @@ from ..populations.materials import BULK, Material, MaterialPair, softer_hardnes
 from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .curves import Curve
-from .quantiles import Values, exceeded, number_above
+from .quantiles import Values, exceeded_values, number_above
 from .single.dent import Debris, dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
@@ -183,7 +183,7 @@ class Dents(AbstractOutput):
         names = [
             each.name or each.material.name or "particles"
             for each in contact.populations
-            if any(_squashed(contact.law_of(each), contact.surfaces, each.material))
+            if any(_is_squashed(contact.law_of(each), contact.surfaces, each.material))
         ]
         return [
             self.problem(
@@ -230,7 +230,7 @@ class Dents(AbstractOutput):
             side=side,
             particle=particle,
             debris=self.debris,
-            squashed=_squashed(law, surfaces, particle)[side],
+            squashed=_is_squashed(law, surfaces, particle)[side],
         )
         widest = _widest(law, surfaces, particle, side)
         if math.isinf(widest):
@@ -371,7 +371,7 @@ class Dents(AbstractOutput):
         for name, count, classes, values in of_all:
             few = np.nan_to_num(count)
             largest = np.log(2 / (1 + np.exp(-few * self.A_n))) / self.A_n
-            p95, most = exceeded(values, [P95 * few, largest])
+            p95, most = exceeded_values(values, [P95 * few, largest])
             with np.errstate(invalid="ignore", divide="ignore"):
                 mean = sums[name] / np.where((count > 0) & (classes > 0), classes, np.nan)
                 most = np.where(count * self.A_n >= ONE, np.fmax(most, mean), np.nan)
@@ -518,7 +518,7 @@ def _curve(
     return dents._of_one(name, side, law, surfaces, particle)
 
 
-def _squashed(
+def _is_squashed(
     law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
 ) -> tuple[bool, ...]:
     """Whether the law of a particle squashes it against each surface."""
@@ -535,7 +535,7 @@ def _widest(
     law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material, side: int
 ) -> float:
     """Largest mark of a flattened particle over its size; infinite where the law bounds it."""
-    if _squashed(law, surfaces, particle)[side]:
+    if _is_squashed(law, surfaces, particle)[side]:
         return math.inf
     friction = (law if isinstance(law, Series) else Series()).friction_factor
     H = (surfaces.first, surfaces.second)[side].H

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Rows = NDArray[np.intp]
 
-__all__ = ["Values", "exceeded", "number_above"]
+__all__ = ["Values", "exceeded_values", "number_above"]
 
 PER_DECADE = 60
 """Levels at which pieces are counted, evenly over their logarithm."""
@@ -75,7 +75,7 @@ class Values(NamedTuple):
     """Another value of a particle that counts, and what it exceeds."""
 
 
-def exceeded(groups: Sequence[Values], counts: Sequence[Array]) -> list[Array]:
+def exceeded_values(groups: Sequence[Values], counts: Sequence[Array]) -> list[Array]:
     """The value that so many (N,) spots per area exceed; 0 where fewer have any value.
 
     Parameters
@@ -123,7 +123,10 @@ def _where_so_many(
 
 
 def number_above(groups: Sequence[Values], value: float, *, states: int) -> Array:
-    """Number of spots per area whose value exceeds a limit ≥ 0: (N,), as exact as `exceeded`."""
+    """Number of spots per area whose value exceeds a limit ≥ 0: (N,).
+
+    As exact as `exceeded_values`.
+    """
     top = _largest(groups)
     if top <= value:
         return np.zeros(states)

@@ -131,18 +131,18 @@ def single_contacts(
     # where the estimate of the rest failed, and matters little, the least is given
     out[closed] = np.where(known & np.isnan(out[closed]), low, out[closed])
 
-    def placed(values: Array) -> Array:
+    def place_few(values: Array) -> Array:
         full = np.full_like(state.d, np.nan)
         full[few] = values
         return full
 
     return SingleContacts(
         concerned=np.isin(np.arange(len(state.d)), few),
-        values={name: placed(values) for name, values in out.items()},
-        low=placed(low),
-        high=placed(high),
-        without=placed(without),
-        clean=placed(clean[closed]),
+        values={name: place_few(values) for name, values in out.items()},
+        low=place_few(low),
+        high=place_few(high),
+        without=place_few(without),
+        clean=place_few(clean[closed]),
     )
 
 

@@ -235,11 +235,11 @@ class StaticFriction(AbstractOutput):
             return []
         plastic = REGIMES.index("plastic")
 
-        def gone(spots: ParticleSpots) -> Array:
+        def plastic_load(spots: ParticleSpots) -> Array:
             return spots.load * (np.maximum(*spots.regimes) == plastic)
 
         F_sa = state.total_of_particles(lambda spots: spots.load)
-        F_p = state.total_of_particles(gone)
+        F_p = state.total_of_particles(plastic_load)
         share = np.max(np.divide(F_p, F_sa, out=np.zeros_like(F_p), where=F_sa > 0), initial=0)
         if share <= 0.01:
             return []

@@ -283,7 +283,7 @@ class FlashTemperature(AbstractOutput):
         T_sa = [self.of_particles(spots, state) for spots in state.particles]
         out = self._summary("ss", state.asperities, T_ss, len(state.d))
         out |= self._summary("sa", state.particles, T_sa, len(state.d))
-        if self._sorted(state):
+        if self._is_sorted(state):
             out |= self._exact(state)
         out["dT_peak"] = np.fmax(out["dT_ss_peak"], out["dT_sa_peak"])
         out["T_bulk"] = self._bulk(state)
@@ -322,7 +322,7 @@ class FlashTemperature(AbstractOutput):
         out[f"dT_{group}_peak"] = counted.inverse(np.full(states, math.log(2) / self.A_n))
         return out
 
-    def _sorted(self, state: Solved) -> bool:
+    def _is_sorted(self, state: Solved) -> bool:
         """Whether a deeper asperity is a hotter one, and all are of one shape."""
         one, two = self._colder()
         return len(state.asperities) == 1 and one == two

@@ -262,16 +262,16 @@ class Wear(AbstractOutput):
         """Squeezes at which the severity crosses the threshold."""
         from scipy.optimize import brentq
 
-        def over(log_eps: float) -> float:
+        def log_severity_ratio(log_eps: float) -> float:
             spots = probe(np.exp([log_eps]))
             softer, harder = sorted(spots.hardness)
             S = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)[0, 0]
             return float(np.log(S / threshold(softer, H_b=harder)))
 
         low, high = math.log(1e-9), math.log(2.0)
-        if over(low) >= 0 or over(high) <= 0:
+        if log_severity_ratio(low) >= 0 or log_severity_ratio(high) <= 0:
             return ()
-        return (math.exp(brentq(over, low, high, xtol=1e-15)),)
+        return (math.exp(brentq(log_severity_ratio, low, high, xtol=1e-15)),)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         out: list[str] = []

@@ -15,7 +15,7 @@ from ..quantities.carried import takes_units
 from .load_scan import load_scan
 from .modes import WINDOW, CriticalStatus
 from .share_splines import LEVEL_1, LEVEL_2, PROBES, Likeness, SplineLoads, expected_ends
-from .states import FEWEST, carries, state_columns, varied
+from .states import FEWEST, carries, state_columns, vary_contact
 from .status import DEEPEST
 
 if TYPE_CHECKING:
@@ -164,7 +164,8 @@ class Shares:
         for i in which.tolist():
             own = {name: values[i].item() for name, values in self.vary.items()}
             out[i] = (
-                interface(varied(self.contact, own)).lowest + 1e-9 * self.contact.roughness.sigma
+                interface(vary_contact(self.contact, own)).lowest
+                + 1e-9 * self.contact.roughness.sigma
             )
         return out
 

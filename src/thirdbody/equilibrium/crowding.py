@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["AREA", "about_area", "chi_of", "crowded", "crowded_places"]
+__all__ = ["AREA", "about_area", "chi_of", "crowded_places", "is_crowded"]
 
 CLOSE = 0.05
 """Real area above which summits grow together that this model counts one by one; the numbers are
@@ -72,7 +72,7 @@ def chi_of(contact: Contact) -> float:
     return hardness_ratio(contact.roughness, E_star=contact.E_ss, H=contact.surfaces.H)
 
 
-def crowded(contact: Contact, A_t: Array) -> NDArray[np.bool_]:
+def is_crowded(contact: Contact, A_t: Array) -> NDArray[np.bool_]:
     """Mask of real areas (N,) too large for a model that counts contacts one by one.
 
     Examples
@@ -81,7 +81,7 @@ def crowded(contact: Contact, A_t: Array) -> NDArray[np.bool_]:
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> crowded(contact, np.array([0.2, 0.6, np.nan])).tolist()
+    >>> is_crowded(contact, np.array([0.2, 0.6, np.nan])).tolist()
     [False, True, False]
     """
     if not _counts_summits(contact):
@@ -115,7 +115,7 @@ def crowded_places(contact: Contact, A_t: Array, load: Array) -> tuple[float, st
     >>> crowded_places(contact, np.array([0.2, 0.6]), np.array([3.0, 1.0]))[0]
     0.25
     """
-    close = crowded(contact, A_t)
+    close = is_crowded(contact, A_t)
     if not np.any(close):
         return 0.0, Status.OK.sentence
     share = float(np.sum(load[close]) / np.sum(load))

@@ -27,7 +27,7 @@ RISE = 1e-6
 HALVINGS = 64
 
 
-def explained(F: Array, slope: Array, target: Array, ulp: float) -> NDArray[np.bool_]:
+def is_carried(F: Array, slope: Array, target: Array, ulp: float) -> NDArray[np.bool_]:
     """Whether a load is carried: to `RESIDUAL` of it, or to what `ULPS` ulp of d change."""
     steep = np.where(np.isfinite(slope), ULPS * ulp * np.abs(slope), 0.0)  # infinite at a jump
     return np.abs(F - target) <= RESIDUAL * target + steep
@@ -220,8 +220,8 @@ class LoadScan:
             low, high = np.where(right, middle, low), np.where(right, high, middle)
         carries, less = (low, high) if falling else (high, low)
         (F, slope, _), (F_less, slope_less, _) = (self.bound.load(x).T for x in (carries, less))
-        good = explained(F, slope, target, self.ulp)
-        other = explained(F_less, slope_less, target, self.ulp)
+        good = is_carried(F, slope, target, self.ulp)
+        other = is_carried(F_less, slope_less, target, self.ulp)
         closer = other & (~good | (np.abs(F_less - target) < np.abs(F - target)))
         E = self.bound.contact.E_ss
         jumps = {
@@ -236,7 +236,7 @@ class LoadScan:
     def solve(self, target: Array, branch: str) -> tuple[Array, Index, Statuses]:
         """Separation, number of evaluations and status of every load."""
         d, iterations, status = self.solve_across_jumps(target, branch)
-        d[~status.solved] = np.nan
+        d[~status.is_solved] = np.nan
         return d, iterations, status
 
     def solve_across_jumps(self, target: Array, branch: str) -> tuple[Array, Index, Statuses]:

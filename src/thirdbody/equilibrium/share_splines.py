@@ -151,7 +151,7 @@ class SplineLoads:
         self.x = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINE)
         self.known = np.ones(self.count, bool)
         self.loads: Loads = {}
-        self._read()
+        self._read_splines()
 
     # ------------------------------------------------------------------ the splines
     def _terms(self, k: int, rows: Rows, x: Array, slope: int) -> Array:
@@ -189,7 +189,7 @@ class SplineLoads:
         return np.asarray(0.5 * (low + high))
 
     # ------------------------------------------------------------------ critical loads
-    def _read(self) -> None:
+    def _read_splines(self) -> None:
         """Fill in what is known: from splines alone, then from states at what they tell."""
         passages = []
         for name, what, level in PASSAGES:

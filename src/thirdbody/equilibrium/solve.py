@@ -26,9 +26,9 @@ from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
-from .crowding import about_area, crowded
+from .crowding import about_area, is_crowded
 from .doubts import BEYOND, SHADOW, about_elastic, about_particles
-from .load_scan import RESIDUAL, explained, load_scan
+from .load_scan import RESIDUAL, is_carried, load_scan
 from .status import DEEPEST, Status, Statuses
 
 __all__ = ["pull_off", "roots", "solve"]
@@ -267,7 +267,7 @@ def _result(
         )
     else:
         try:
-            places = _compiled(bound, values)
+            places = _solve_compiled(bound, values)
         except NotCompiled as why:
             places = _Separations(*load_scan(bound).solve(values, branch), path=f"numpy: {why}")
     return _state(contact, bound, loads, places)
@@ -410,7 +410,7 @@ def pull_off(contact: Contact) -> tuple[float, float]:
     return -float(found.fun), float(found.x)
 
 
-def _compiled(bound: Interface, target: Array) -> _Separations:
+def _solve_compiled(bound: Interface, target: Array) -> _Separations:
     """Separations, evaluations, status and columns by the compiled engine, where it pays."""
     if len(target) < engine.FEWEST:
         raise NotCompiled(f"fewer than {engine.FEWEST} loads of one contact")
@@ -492,13 +492,13 @@ def _only_carried(
     raw = bound.fields(d[where]) if places.raw is None else places.raw
     F, at = raw["F_ss"] + raw["F_sa"], d[where]
     known = np.isfinite(F + raw["A_t"])
-    good, close = known.copy(), crowded(bound.contact, raw["A_t"])
+    good, close = known.copy(), is_crowded(bound.contact, raw["A_t"])
     if target is not None:
         load = target[where]
         good &= np.abs(F - load) <= RESIDUAL * load
         if len(loose := np.flatnonzero(known & ~good)):
             slope, ulp = bound.load(at[loose])[:, 1], load_scan(bound).ulp
-            good[loose] = explained(F[loose], slope, load[loose], ulp)
+            good[loose] = is_carried(F[loose], slope, load[loose], ulp)
     if good.all() and not close.any():
         return d, status, raw
     d, status = d.copy(), status.copy()

@@ -18,11 +18,11 @@ from ..errors import InvalidValue, Mistake, NotCompiled, Problem
 from ..populations.materials import BULK
 from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
-from ..quantities.progress import Cost, reporting, solved, solving, weighed
+from ..quantities.progress import Cost, report_solved, reporting, solving, weigh_states
 from ..quantities.value import paths_of, warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
-from .crowding import crowded
+from .crowding import is_crowded
 from .engine.columns import Numbers
 from .engine.run import DOUBTS, own_columns
 from .solve import SOLVER, given_load, solve_untold
@@ -31,7 +31,7 @@ from .status import SENTENCES, TABLE_ENDS, Status
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["OWN_SPOTS", "solve_states", "state_columns", "unknown_inputs", "varied"]
+__all__ = ["OWN_SPOTS", "solve_states", "state_columns", "unknown_inputs", "vary_contact"]
 
 OWN_SPOTS = "each has spots of its own"
 """Why states with outputs take long."""
@@ -102,7 +102,7 @@ def solve_states(
         cost = Cost(total, report, "" if progress else "states")
         with solving(cost):
             columns = _columns(contact, arrays, load, loads, fewest_of(contact))
-        cost.finished(total)
+        cost.report_finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 
 
@@ -144,7 +144,9 @@ def direct_columns(contact: Contact, d: NDArray[np.float64], vary: Arrays) -> Co
                 return found
     out: Columns = {}
     for which in _alike(vary, len(d)):
-        own = varied(contact, {name: values[which[0]].item() for name, values in vary.items()})
+        own = vary_contact(
+            contact, {name: values[which[0]].item() for name, values in vary.items()}
+        )
         bound = Interface(own)
         places, back = np.unique(d[which], return_inverse=True)
         raw = {name: column[back] for name, column in bound.direct_fields(places).items()}
@@ -249,7 +251,7 @@ def _columns(
     if not absent.all():
         parts.append((contact, arrays, np.flatnonzero(~absent)))
     parts.append((contact.replace(particles=None), bare, np.flatnonzero(absent)))
-    return _joined(
+    return _join_columns(
         len(loads),
         [
             (which, _solve(base, _take_states(inputs, which), load, loads[which], fewest))
@@ -284,7 +286,7 @@ def _take_states(arrays: Arrays, which: Which) -> Columns:
     return {name: values[which] for name, values in arrays.items()}
 
 
-def _joined(count: int, parts: Iterable[tuple[Which, Columns]]) -> Columns:
+def _join_columns(count: int, parts: Iterable[tuple[Which, Columns]]) -> Columns:
     """Columns of all states, put together from subsets in their order."""
     out: Columns = {}
     for which, columns in parts:
@@ -307,7 +309,7 @@ def _with_outputs(
 ) -> Columns:
     """Columns of the states, with those of the outputs of each contact."""
     inputs = {name: v for name, v in arrays.items() if carries(name)}
-    with weighed(0.5):
+    with weigh_states(0.5):
         out = _columns(contact.replace(outputs=()), inputs, load, loads, fewest)
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
@@ -318,7 +320,9 @@ def _with_outputs(
     many = engine.available() and _differ(inputs, len(loads), fewest)
     solver = Solver(_separation, _outputs_at) if many else SOLVER
     for which in _alike(alike, len(loads)):
-        own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
+        own = vary_contact(
+            contact, {name: values[which[0]].item() for name, values in arrays.items()}
+        )
         crowd = count[which] / (count[which[0]] or 1.0)
         values, _ = evaluate(
             own,
@@ -329,7 +333,7 @@ def _with_outputs(
         )
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
-        solved(0.5 * len(which), OWN_SPOTS)
+        report_solved(0.5 * len(which), OWN_SPOTS)
     return out
 
 
@@ -388,11 +392,13 @@ def _solve(
                 return _by_groups(contact, arrays, load, loads, str(other))
         odd = np.zeros(len(loads), bool)
         for name, values in numbers.items():
-            if _unnumbered(name).startswith(DEMANDING):
+            if _unnumbered_name(name).startswith(DEMANDING):
                 odd |= values != _value_in(contact, name)
     parts = []
     if len(even := np.flatnonzero(~odd)):
-        plain = {k: v[even] for k, v in numbers.items() if not _unnumbered(k).startswith(DEMANDING)}
+        plain = {
+            k: v[even] for k, v in numbers.items() if not _unnumbered_name(k).startswith(DEMANDING)
+        }
         try:
             parts.append((even, _by_nodes(contact, plain, load, loads[even])))
         except NotCompiled as error:
@@ -401,7 +407,7 @@ def _solve(
     if len(rest := np.flatnonzero(odd)):
         some = _take_states(arrays, rest)
         parts.append((rest, _by_groups(contact, some, load, loads[rest], why)))
-    return _joined(len(loads), parts)
+    return _join_columns(len(loads), parts)
 
 
 def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
@@ -413,7 +419,7 @@ def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     if contact.asperity_law.of_surface:  # any input that carries is one of the whole surface
         names = [name for name in names if carries(name)]
         return bool(names) and not solves_each(contact, names)
-    if not any(_unnumbered(name).startswith(DEMANDING) for name in names):
+    if not any(_unnumbered_name(name).startswith(DEMANDING) for name in names):
         return False
     breaks = any(each.strength is not None for each in contact.populations)
     if not breaks and solves_each(contact, names):
@@ -453,7 +459,7 @@ def _value_in(contact: Contact, name: str) -> Any:
     return np.nan if value is None else value
 
 
-def _unnumbered(name: str) -> str:
+def _unnumbered_name(name: str) -> str:
     """The name of an input without the number of its population."""
     return ".".join(part for part in name.split(".") if not part.isdigit())
 
@@ -478,7 +484,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
         rest = pool.map(solve_part, (slice(start, start + at_once) for start in starts))
         parts = chain([(here, columns)], (found[:2] for found in rest))
-        out = _joined(len(loads), _with_progress(parts))
+        out = _join_columns(len(loads), _with_progress(parts))
 
     def solve_again(which: NDArray[np.intp], why: str) -> Columns:
         try:
@@ -503,7 +509,7 @@ def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float
     def solve_again(which: NDArray[np.intp], why: str) -> Columns:
         return _by_groups(contact, _take_states(arrays, which), load, loads[which], why)
 
-    out = _joined(len(loads), _with_progress(map(solve_from, range(0, len(loads), at_once))))
+    out = _join_columns(len(loads), _with_progress(map(solve_from, range(0, len(loads), at_once))))
     return _without_doubts(out, DOUBTS, solve_again)
 
 
@@ -511,7 +517,7 @@ def _with_words(contact: Contact, columns: Columns) -> Columns:
     """Columns of a compiled engine with status and path in words; its doubts stand as the path."""
     doubt = columns.pop("doubt")
     code = columns["status"].astype(np.int8)
-    code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
+    code[(code == Status.OK) & is_crowded(contact, columns["A_t"])] = Status.CROWDED
     code[doubt != ""] = Status.UNSOLVED
     path = np.where(doubt, doubt, "compiled")
     words = SENTENCES[code]
@@ -533,7 +539,7 @@ def _without_doubts(
 
 def _with_progress(parts: Iterable[tuple[Which, Columns]]) -> Iterator[tuple[Which, Columns]]:
     for here, columns in parts:
-        solved(len(columns["status"]))
+        report_solved(len(columns["status"]))
         yield here, columns
 
 
@@ -547,13 +553,15 @@ def _by_groups(
     """Columns of one contact after another; ``why`` says what kept the compiled engine away."""
     parts = []
     for which in _alike(arrays, len(loads)):
-        state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
+        state = vary_contact(
+            contact, {name: values[which[0]].item() for name, values in arrays.items()}
+        )
         result = solve_untold(state, load, loads[which])
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
         more = {"engine": _all(len(which), path), CODE: np.atleast_1d(result.status_code)}
         parts.append((which, result.columns() | more))
-        solved(len(which), why)
-    return _joined(len(loads), parts)
+        report_solved(len(which), why)
+    return _join_columns(len(loads), parts)
 
 
 def _differ(arrays: Arrays, count: int, fewest: int) -> bool:
@@ -575,7 +583,7 @@ def _groups(arrays: Arrays, count: int) -> NDArray[np.intp]:
     return group
 
 
-def varied(contact: Contact, changes: Mapping[str, object]) -> Contact:
+def vary_contact(contact: Contact, changes: Mapping[str, object]) -> Contact:
     """The contact with some inputs changed; a size or density of zero removes the particles."""
     if any(changes.get(name, 1) == 0 for name in ABSENT):
         kept = {name: v for name, v in changes.items() if not name.startswith("particles.")}

@@ -130,6 +130,6 @@ class Statuses:
         return Statuses(self.codes.copy(), self.words.copy())
 
     @property
-    def solved(self) -> NDArray[np.bool_]:
+    def is_solved(self) -> NDArray[np.bool_]:
         """Which states are ok (N,)."""
         return self.codes == Status.OK

@@ -16,7 +16,6 @@ __all__ = [
     "MOST_MEET_NONE",
     "NO_CONTACT",
     "RARE",
-    "carried",
     "critical_load",
     "critical_name",
     "happens",
@@ -27,8 +26,9 @@ __all__ = [
     "mode_of",
     "mode_path",
     "not_met",
+    "particle_share_text",
     "two_bodies",
-    "unsolved",
+    "unsolved_sentences",
 ]
 
 NO_CONTACT = "no contact"
@@ -120,10 +120,12 @@ def load_of(pressure: float | None, F_star: float | None) -> str:
     return f"{value_of(pressure, 'Pa')} (F* = {number(F_star)})"
 
 
-def carried(share: float | None, parts: Mapping[str, float | None] | None = None) -> str:
+def particle_share_text(
+    share: float | None, parts: Mapping[str, float | None] | None = None
+) -> str:
     """How much of the load is on particles, and on each population.
 
-    >>> carried(0.884, {"dust": 0.8, "debris": 0.084})
+    >>> particle_share_text(0.884, {"dust": 0.8, "debris": 0.084})
     'particles carry 88.4 % of the load (dust 80 %, debris 8.4 %)'
     """
     each = ", ".join(f"{name} {percent(part)}" for name, part in (parts or {}).items())
@@ -230,10 +232,10 @@ def not_met(name: str, value: float | None, status: str = "") -> str:
     return f"{name} lies {word} every load searched: {THERE[name, side]}."
 
 
-def unsolved(statuses: Collection[str]) -> list[str]:
+def unsolved_sentences(statuses: Collection[str]) -> list[str]:
     """How many states have no number, and why: a sentence for each reason.
 
-    >>> unsolved(["ok", "no equilibrium"])
+    >>> unsolved_sentences(["ok", "no equilibrium"])
     ['1 of 2 states unsolved: no equilibrium']
     """
     return [

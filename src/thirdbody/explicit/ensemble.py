@@ -35,9 +35,9 @@ from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
 from ..quantities.plain_data import plain_data
 from ..quantities.progress import reporting
-from ..quantities.run_files import read_record, sealed
+from ..quantities.run_files import read_record, sealed_text
 from ..quantities.say import number, percent, plural
-from ..quantities.sharing import connected, need_version, shared
+from ..quantities.sharing import connect_client, need_version, share_parts
 from ..quantities.value import Value
 from ..version import __version__
 from .interface import Map, cap_of, map_of
@@ -274,7 +274,7 @@ def ensemble(
             max_iterations=max_iterations, version=__version__,
         )  # fmt: skip
 
-    with nullcontext() if scheduler is None else connected(scheduler) as client:
+    with nullcontext() if scheduler is None else connect_client(scheduler) as client:
         first = task(0, np.empty(0)).map()
         measured = heights_of_seats(contact, rule, first, seed)
         grid = _separations(counterpart(contact, measured), loads, first.sigma)
@@ -283,7 +283,7 @@ def ensemble(
         kept = None if folder is None else Path(folder)
         records = {} if kept is None else _read_surfaces(kept, total, key)
         left = [(i, task(i, grid)) for i in range(total) if i not in records]
-        results = shared(
+        results = share_parts(
             left, workers=workers, client=client, part="surface", smaller="a smaller size"
         )
         with (
@@ -292,7 +292,7 @@ def ensemble(
         ):
             for i, record in results:
                 if kept is not None:
-                    write_text(_file(make_folder(kept), i), sealed(record | {"key": key}))
+                    write_text(_file(make_folder(kept), i), sealed_text(record | {"key": key}))
                 records[i] = record
                 report(len(records))
     return _ensemble(

@@ -233,7 +233,7 @@ class AbstractAsperityLaw(Law):
         return out
 
     # ---------------------------------------------------------------- one contact
-    def _scaled(
+    def _evaluate_bound(
         self,
         of: Callable[[Self, Array], Any],
         omega: ArrayLike,
@@ -274,17 +274,23 @@ class AbstractAsperityLaw(Law):
             Tip radius [m], contact modulus [Pa], hardness of the softer body [Pa]; arrays are
             broadcast with ``omega``.
         """
-        f, omega_1 = self._scaled(lambda law, y: law.reduced("force", y), omega, R, E_star, H)
+        f, omega_1 = self._evaluate_bound(
+            lambda law, y: law.reduced("force", y), omega, R, E_star, H
+        )
         return np.pi * R * omega_1 * H * f
 
     def area(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Contact area A [m²] of one contact; arguments as in `force`."""
-        a, omega_1 = self._scaled(lambda law, y: law.reduced("area", y), omega, R, E_star, H)
+        a, omega_1 = self._evaluate_bound(
+            lambda law, y: law.reduced("area", y), omega, R, E_star, H
+        )
         return np.pi * R * omega_1 * a
 
     def stiffness(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """dF/dω [N/m] of one contact; arguments as in `force`."""
-        slope, _ = self._scaled(lambda law, y: law.reduced("stiffness", y), omega, R, E_star, H)
+        slope, _ = self._evaluate_bound(
+            lambda law, y: law.reduced("stiffness", y), omega, R, E_star, H
+        )
         return np.pi * R * H * slope
 
     def contact_radius(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
@@ -299,7 +305,7 @@ class AbstractAsperityLaw(Law):
 
     def energy(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Work ∫F dω [J] done in one loading to ω; arguments as in `force`."""
-        work, omega_1 = self._scaled(AbstractAsperityLaw._reduced_work, omega, R, E_star, H)
+        work, omega_1 = self._evaluate_bound(AbstractAsperityLaw._reduced_work, omega, R, E_star, H)
         return np.pi * R * omega_1**2 * H * work
 
     def _reduced_work(self, y: Array) -> Array:
@@ -313,7 +319,7 @@ class AbstractAsperityLaw(Law):
 
     def regime(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> NDArray[np.str_]:
         """One of `REGIMES`, or ``"none"`` without contact; arguments as in `force`."""
-        return self._scaled(AbstractAsperityLaw._reduced_regime, omega, R, E_star, H)[0]
+        return self._evaluate_bound(AbstractAsperityLaw._reduced_regime, omega, R, E_star, H)[0]
 
     def _reduced_regime(self, y: Array) -> NDArray[np.str_]:
         names = np.array([branch.regime for branch in self.branches])

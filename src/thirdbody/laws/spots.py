@@ -62,7 +62,7 @@ class Spots:
         over = np.cumsum(counts[:, ::-1], axis=1)[:, -2::-1]
         return over if self.share is None else self.share @ over
 
-    def thinned(self, factor: Array) -> Self:
+    def thin_spots(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""
         if self.share is None:
             return replace(self, number=self.number * factor[:, None])
@@ -196,9 +196,9 @@ class ParticleSpots(Spots):
         cap = np.divide(a**2 + d**2, 2 * d, out=np.zeros_like(d), where=d > 0)
         return np.maximum(self.radius, np.where(d < a, cap, a))
 
-    def thinned(self, factor: Array) -> Self:
+    def thin_spots(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""
-        thin = Spots.thinned(self, factor)
+        thin = Spots.thin_spots(self, factor)
         if self.layout is not None:
             thin = replace(thin, layout=replace(self.layout, density=self.layout.density * factor))
         if self.share is None and self.parents is not None:

@@ -69,7 +69,7 @@ class Branch(NamedTuple):
         y = np.column_stack([self.x, self.parameter])
         over = self.parameter >= value
         turns = np.flatnonzero(over[1:] != over[:-1])
-        return [_between(residual, y[i], y[i + 1], value)[:-1] for i in turns]
+        return [_point_at_value(residual, y[i], y[i + 1], value)[:-1] for i in turns]
 
 
 @dataclass
@@ -80,7 +80,7 @@ class _Walk:
     jacobian: Array
     points: list[Array] = field(default_factory=list)
 
-    def corrected(
+    def correct_guess(
         self, guess: Array, direction: Array, close: float = CLOSE
     ) -> tuple[Array, int] | None:
         """The point of the branch in the plane through a guess across a direction, and the
@@ -106,15 +106,15 @@ class _Walk:
                 return y, count
         return None
 
-    def near(self, guess: Array, direction: Array) -> Array | None:
+    def find_point(self, guess: Array, direction: Array) -> Array | None:
         """The point of the branch in the plane through a guess across a direction, by the Jacobian
         at hand or else one taken there; None where there is none near."""
         kept = self.jacobian
-        found = self.corrected(guess, direction, ROUGH)
+        found = self.correct_guess(guess, direction, ROUGH)
         if found is None:
             fresh = first_jacobian(self.residual, guess)
             self.jacobian = fresh if np.all(np.isfinite(fresh)) else kept
-            found = self.corrected(guess, direction, ROUGH)
+            found = self.correct_guess(guess, direction, ROUGH)
         return None if found is None else found[0]
 
     def slope(self, y: Array, direction: Array) -> float:
@@ -133,7 +133,7 @@ class _Walk:
         tangent = np.linalg.svd(jacobian)[2][-1]
         return float(tangent[-1] * (1.0 if tangent @ direction > 0 else -1.0))
 
-    def turned(self, first: Array, middle: Array, last: Array, *, highest: bool) -> Array:
+    def extreme_point(self, first: Array, middle: Array, last: Array, *, highest: bool) -> Array:
         """The point between three at which the parameter is highest, or lowest."""
         direction = (last - first) / np.linalg.norm(last - first)
         sign = 1.0 if highest else -1.0
@@ -144,7 +144,7 @@ class _Walk:
 
         def height(place: float) -> float:
             guess = through[0] * place**2 + through[1] * place + through[2]
-            found = self.corrected(guess, direction)
+            found = self.correct_guess(guess, direction)
             if found is None:
                 return np.inf
             if sign * found[0][-1] > sign * best["y"][-1]:
@@ -160,7 +160,7 @@ class _Walk:
         return best["y"]
 
 
-def _between(residual: Residual, one: Array, other: Array, value: float) -> Array:
+def _point_at_value(residual: Residual, one: Array, other: Array, value: float) -> Array:
     """The point between two of a branch at which the parameter has a value."""
     walk = _Walk(residual, first_jacobian(residual, one))
     direction = (other - one) / np.linalg.norm(other - one)
@@ -171,7 +171,7 @@ def _between(residual: Residual, one: Array, other: Array, value: float) -> Arra
         if part in (0.0, 1.0):
             last = one if part == 0 else other
             return float(last[-1] - value)
-        found = walk.corrected(one + part * (other - one), direction)
+        found = walk.correct_guess(one + part * (other - one), direction)
         if found is None:
             raise ValueError("the branch is lost between two of its points")
         last = found[0]
@@ -261,7 +261,7 @@ def follow_branch(
     walk = _Walk(residual, first_jacobian(residual, start))
     upright = np.zeros_like(start)
     upright[-1] = 1.0
-    found = walk.corrected(start, upright)
+    found = walk.correct_guess(start, upright)
     if found is None:
         raise ValueError("no solution near the first guess")
     walk.points.append(found[0])
@@ -275,7 +275,7 @@ def follow_branch(
             break
         here = walk.points[-1]
         kept = walk.jacobian
-        found = walk.corrected(_guess(walk.points, tangent, ahead), tangent, ROUGH)
+        found = walk.correct_guess(_guess(walk.points, tangent, ahead), tangent, ROUGH)
         if found is None or np.linalg.norm(found[0] - here) > 2 * ahead:
             walk.jacobian, ahead = kept, 0.5 * ahead
             continue
@@ -313,9 +313,9 @@ def _put_missed_folds(walk: _Walk, folds: list[int], step: float) -> list[int]:
             fold = known_turn(stretch, known)
             if fold is None:
                 way = (last - first) / np.linalg.norm(last - first)
-                middle = walk.near(0.5 * (first + last), way)
+                middle = walk.find_point(0.5 * (first + last), way)
                 three = first, first if middle is None else middle, last
-                fold = walk.turned(*three, highest=highest)
+                fold = walk.extreme_point(*three, highest=highest)
             out.append(len(points))
             points.append(fold)
             if last is not plain[i + 1]:
@@ -346,7 +346,7 @@ def _put_fold(walk: _Walk, folds: list[int]) -> None:
     """Put the turning point among the last three in its place."""
     first, middle, last = walk.points[-3:]
     highest = middle[-1] > max(first[-1], last[-1])
-    fold = walk.turned(first, middle, last, highest=highest)
+    fold = walk.extreme_point(first, middle, last, highest=highest)
     direction = last - first
     places = [float(direction @ (y - first)) for y in (fold, middle)]
     rest = [(places[0], fold, True)]

@@ -122,12 +122,12 @@ def latin(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     out = np.empty((len(index), width))
     for j in range(width):
         *keys, own = np.random.SeedSequence([seed, j]).generate_state(ROUNDS + 1, np.uint64)
-        inside = (_mixed(index ^ own) >> np.uint64(64 - bits)) * 2.0**-bits
-        out[:, j] = (_permuted(index, size, keys) + inside) / size
+        inside = (_mix_bits(index ^ own) >> np.uint64(64 - bits)) * 2.0**-bits
+        out[:, j] = (_permute_index(index, size, keys) + inside) / size
     return out
 
 
-def _permuted(index: NDArray[np.uint64], size: int, keys: list[Any]) -> NDArray[np.uint64]:
+def _permute_index(index: NDArray[np.uint64], size: int, keys: list[Any]) -> NDArray[np.uint64]:
     half = np.uint64(max(1, math.ceil(math.log2(size) / 2)))
     mask = (np.uint64(1) << half) - np.uint64(1)
     out = index.copy()
@@ -135,13 +135,13 @@ def _permuted(index: NDArray[np.uint64], size: int, keys: list[Any]) -> NDArray[
     while len(rest):
         left, right = out[rest] >> half, out[rest] & mask
         for key in keys:
-            left, right = right, left ^ (_mixed(right ^ key) & mask)
+            left, right = right, left ^ (_mix_bits(right ^ key) & mask)
         out[rest] = (left << half) | right
         rest = rest[out[rest] >= size]
     return out
 
 
-def _mixed(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
+def _mix_bits(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
     """The finaliser of splitmix64: every bit of x changes half of the bits that come out."""
     x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)

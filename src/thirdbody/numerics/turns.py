@@ -33,7 +33,7 @@ BESIDE = 0.05
 class Walk(Protocol):
     """What a search for turns asks of a walk along a branch."""
 
-    def near(self, guess: Array, direction: Array) -> Array | None:
+    def find_point(self, guess: Array, direction: Array) -> Array | None:
         """The point of the branch in the plane through a guess across a direction."""
         ...
 
@@ -117,12 +117,12 @@ def stretches_with_a_turn(walk: Walk, points: list[Array], step: float) -> list[
     ]
     out: list[Stretch] = []
     for i in np.flatnonzero(looked):
-        parts = _parted(walk, places[i], places[i + 1], step)
+        parts = _split_stretch(walk, places[i], places[i + 1], step)
         out += [Stretch(int(i), a.y, b.y, highest=a.slope > b.slope) for a, b in parts]
     return out
 
 
-def _parted(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[_Place, _Place]]:
+def _split_stretch(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[_Place, _Place]]:
     """Ends of the parts of a stretch in which the parameter turns once."""
     way = b.y - a.y
     length = float(np.linalg.norm(way))
@@ -131,7 +131,7 @@ def _parted(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[_Place,
     alone = [(a, b)] if (a.slope < 0) != (b.slope < 0) else []
     if length < FINEST * step:
         return alone
-    middle = walk.near(0.5 * (a.y + b.y), way / length)
+    middle = walk.find_point(0.5 * (a.y + b.y), way / length)
     if middle is None:
         return alone
     m = _Place(middle, walk.slope(middle, way))
@@ -139,7 +139,7 @@ def _parted(walk: Walk, a: _Place, b: _Place, step: float) -> list[tuple[_Place,
         return alone
     if _is_plain(a, m, b, step):
         return alone
-    return _parted(walk, a, m, step) + _parted(walk, m, b, step)
+    return _split_stretch(walk, a, m, step) + _split_stretch(walk, m, b, step)
 
 
 def _is_plain(a: _Place, m: _Place, b: _Place, step: float) -> bool:

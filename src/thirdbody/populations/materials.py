@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
-from ..quantities.nearest import Guess, guess, near
+from ..quantities.nearest import Guess, guess, nearest_word
 from ..quantities.value import Value, quantity
 
 __all__ = ["Material", "MaterialLibrary", "MaterialPair", "materials"]
@@ -315,7 +315,7 @@ class MaterialLibrary(Mapping[str, Material]):
             for other in entry.get("aliases", ()):
                 known.setdefault(other.casefold(), own)
                 known.setdefault(other.split()[-1].casefold(), own)
-        meant = near(str(name), known)
+        meant = nearest_word(str(name), known)
         return known[meant] if meant else None
 
     @names_arguments

@@ -193,7 +193,7 @@ class Particles(Value):
             cleanliness.concentration(concentration, by),
             diameter,
             particle_density=_optional("particle_density", particle_density, "kg/m^3"),
-            oil_density=_read("oil_density", oil_density, "kg/m^3"),
+            oil_density=_read_value("oil_density", oil_density, "kg/m^3"),
         )
         density = n * _gap(gap)
         return cls(material=material, diameter=diameter, areal_density=density, **others)
@@ -364,7 +364,7 @@ class Particles(Value):
             grade, limit=limit, smallest=_optional("smallest", smallest, "m")
         )
         if areal_density is not None and concentration is None and gap is None:
-            density = _read("areal_density", areal_density, "1/m^2")
+            density = _read_value("areal_density", areal_density, "1/m^2")
             return cls(material=material, diameter=diameter, areal_density=density, **others)
         if areal_density is not None or concentration is None or gap is None:
             raise InvalidValue(
@@ -411,7 +411,7 @@ class Particles(Value):
         )
 
 
-def _read(name: str, value: float | str, unit: str) -> float:
+def _read_value(name: str, value: float | str, unit: str) -> float:
     try:
         return to_si(value, unit)
     except InvalidValue as error:
@@ -419,11 +419,11 @@ def _read(name: str, value: float | str, unit: str) -> float:
 
 
 def _optional(name: str, value: float | str | None, unit: str) -> float | None:
-    return None if value is None else _read(name, value, unit)
+    return None if value is None else _read_value(name, value, unit)
 
 
 def _gap(value: float | str) -> float:
-    gap = _read("gap", value, "m")
+    gap = _read_value("gap", value, "m")
     if not (math.isfinite(gap) and gap > 0):
         raise InvalidValue(
             Problem(

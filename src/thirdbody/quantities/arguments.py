@@ -235,7 +235,7 @@ def misfits(
         parameter = signature.parameters[name]
         if parameter.kind is parameter.VAR_KEYWORD:
             continue  # another function takes them
-        node = _parsed(parameter.annotation)
+        node = _annotation_tree(parameter.annotation)
         if name in numbers and (node is None or _name(node) == "Any"):
             node = _tree("Number")
         if node is None or (value is parameter.default and value is not None):
@@ -250,7 +250,7 @@ def misfits(
     return problems
 
 
-def _parsed(annotation: object) -> ast.expr | None:
+def _annotation_tree(annotation: object) -> ast.expr | None:
     """The tree of an annotation; None where there is none."""
     if annotation is inspect.Parameter.empty:
         return None

@@ -26,7 +26,7 @@ import numpy as np
 
 from ..errors import InvalidValue, Mistake, Problem
 from .arguments import FAILURES, refuse_misfits
-from .kinds import kind_needed, kind_of, registry, spelled
+from .kinds import kind_needed, kind_of, library_unit, registry
 from .uncertain import is_uncertain
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
@@ -160,7 +160,7 @@ def in_si(value: Any, unit: str) -> Any:
 
 def _convert(value: Any, unit: str) -> Any:
     """A quantity of a library of units, by that library's own factor."""
-    wanted = spelled(unit)
+    wanted = library_unit(unit)
     if is_uncertain(getattr(value, "magnitude", None)):
         try:
             return value.to(wanted or "dimensionless").magnitude
@@ -194,7 +194,7 @@ def _scale(given: np.ndarray, factor: float) -> np.ndarray:
 def _factor(name: object, label: str, unit: str) -> float:
     """Factor from the unit of an array's label to the unit wanted."""
     own = "" if label == "1" else label.replace("^", "**")
-    wanted = spelled(unit) or "dimensionless"
+    wanted = library_unit(unit) or "dimensionless"
     try:
         return float(registry().convert(1.0, own or "dimensionless", wanted))
     except Exception:
@@ -492,4 +492,7 @@ def arguments_of(docstring: str) -> Iterator[tuple[str, str | None]]:
             units = units[:1] * len(names)
         known = units if len(units) == len(names) else [None] * len(names)
         for name, unit in zip(names, known, strict=True):
-            yield name.strip("*"), unit if unit is not None and spelled(unit) is not None else None
+            yield (
+                name.strip("*"),
+                unit if unit is not None and library_unit(unit) is not None else None,
+            )

@@ -15,9 +15,9 @@ __all__ = [
     "kind_needed",
     "kind_of",
     "kind_of_parsed",
+    "library_unit",
     "one_spelling",
     "registry",
-    "spelled",
 ]
 
 KINDS = {
@@ -112,12 +112,12 @@ def one_spelling(rest: str) -> str | None:
     return out
 
 
-def spelled(unit: str) -> str | None:
+def library_unit(unit: str) -> str | None:
     """A unit in SI as libraries of units read it, "" for a pure number; None if it is none.
 
-    >>> spelled("1/m²"), spelled("Pa m^0.5"), spelled("1"), spelled("N or N/m")
+    >>> library_unit("1/m²"), library_unit("Pa m^0.5"), library_unit("1"), library_unit("N or N/m")
     ('1/m**2', 'Pa*m**0.5', '', None)
-    >>> spelled("W/(m² K)")
+    >>> library_unit("W/(m² K)")
     'W/m**2/K'
     """
     if unit == "1":
@@ -155,7 +155,7 @@ def kind_needed(unit: str) -> str:
     """
     plain = unit.replace("^", "**")
     kind = KINDS.get("" if unit == "1" else plain) or KINDS.get(
-        spelled(unit) or plain, "a quantity"
+        library_unit(unit) or plain, "a quantity"
     )
     return f"{kind} is needed" if unit == "1" else f"{kind} [{unit}] is needed"
 

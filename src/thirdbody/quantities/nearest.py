@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Callable, Iterable
 from typing import Self
 
-__all__ = ["Guess", "guess", "near", "near_path"]
+__all__ = ["Guess", "guess", "near_path", "nearest_word"]
 
 
 class Guess(str):
@@ -27,10 +27,10 @@ class Guess(str):
         return type(self), (str(self), self.meant)
 
 
-def near(word: str, options: Iterable[str], *, cutoff: float = 0.6) -> str | None:
+def nearest_word(word: str, options: Iterable[str], *, cutoff: float = 0.6) -> str | None:
     """The option that is most like a word, whatever its case; None where none is.
 
-    >>> near("Sigm", ["R", "sigma"]), near("x", ["R", "sigma"])
+    >>> nearest_word("Sigm", ["R", "sigma"]), nearest_word("x", ["R", "sigma"])
     ('sigma', None)
     """
     folded = {option.casefold(): option for option in reversed(list(options))}
@@ -52,17 +52,17 @@ def near_path(name: str, paths: Iterable[str]) -> str | None:
     owner, _, last = name.rpartition(".")
     every = [(path, *path.rpartition(".")[::2]) for path in paths]
     beside = {own: path for path, above, own in every if above == owner}
-    if meant := near(last, beside):
+    if meant := nearest_word(last, beside):
         return beside[meant]
     if below := [path for path, _, _ in every if path.startswith(f"{name}.")]:
-        return near(name, below, cutoff=0.0)
+        return nearest_word(name, below, cutoff=0.0)
     start = owner.partition(".")[0]
     inside = [(path, own) for path, _, own in every if path.startswith(start)]
     same = [path for path, own in inside if own.casefold() == last.casefold()]
     if same:
-        return near(name, same, cutoff=0.0)
+        return nearest_word(name, same, cutoff=0.0)
     # names of one owner are alike by it alone
-    return near(name, (path for path, _, _ in every), cutoff=0.85 if beside else 0.6)
+    return nearest_word(name, (path for path, _, _ in every), cutoff=0.85 if beside else 0.6)
 
 
 def guess(
@@ -80,6 +80,6 @@ def guess(
     ('did you mean sigma?', 'it has R, sigma')
     """
     options = list(options)
-    if meant := meant or near(word, options, cutoff=cutoff):
+    if meant := meant or nearest_word(word, options, cutoff=cutoff):
         return Guess(f"did you mean {show(meant)}?", meant)
     return Guess("" if otherwise is None else f"{otherwise}{', '.join(options)}", None)

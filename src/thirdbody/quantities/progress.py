@@ -18,16 +18,16 @@ __all__ = [
     "Stages",
     "advance",
     "aside",
-    "counted",
+    "count_contacts",
     "duration",
     "heartbeat",
-    "nested",
+    "nested_stages",
+    "report_solved",
     "reporting",
-    "solved",
     "solving",
     "stages",
-    "watched",
-    "weighed",
+    "watch_contacts",
+    "weigh_states",
 ]
 
 EVERY = 30.0
@@ -147,7 +147,7 @@ class Stages:
         self.expected, self.start = contacts, time.monotonic()
         self.counted_from, self.uncounted = self.start, 0
 
-    def within(self, done: int, total: int) -> None:
+    def report_contacts(self, done: int, total: int) -> None:
         """Report the number of contacts done in the present part, of about so many."""
         if done == 1:
             self.counted_from, self.uncounted = time.monotonic(), 1
@@ -155,9 +155,9 @@ class Stages:
             each = (time.monotonic() - self.counted_from) / (done - self.uncounted)
             self.cost(self.expected, each, "contacts")
             self.said = True
-        self.moved(done, total)
+        self.report_progress(done, total)
 
-    def moved(self, done: int, total: int, what: str = "") -> None:
+    def report_progress(self, done: int, total: int, what: str = "") -> None:
         """Report the progress of the present part; it is shown from the first second on."""
         if time.monotonic() - self.start > SURE:
             words = f"{done:,} of about {max(done, total):,} {what}".rstrip()
@@ -244,7 +244,7 @@ _TALLY: ContextVar[_Tally | None] = ContextVar("tally", default=None)
 
 
 @contextmanager
-def counted(total: int, report: Callable[[int, int], None] | None) -> Iterator[None]:
+def count_contacts(total: int, report: Callable[[int, int], None] | None) -> Iterator[None]:
     """Every contact that is bound inside tells ``report`` how many there are, of about ``total``.
 
     Parameters
@@ -267,7 +267,7 @@ def advance() -> None:
         tally.add()
 
 
-def nested(outer: Callable[[str], None], count: int) -> Stages:
+def nested_stages(outer: Callable[[str], None], count: int) -> Stages:
     """Stages of a work that is itself one part of another."""
     inner = Stages("")
     if isinstance(outer, Stages):
@@ -285,7 +285,7 @@ def nested(outer: Callable[[str], None], count: int) -> Stages:
 
 
 @contextmanager
-def watched(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
+def watch_contacts(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
     """Contacts that are bound inside are shown, or a `SlowWarning` says how long they take.
 
     Nothing where somebody counts them already.
@@ -304,7 +304,7 @@ def watched(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
         return
     with reporting(what, total, 0, wanted, "contacts") as report:
         cost = Cost(total, report, "" if wanted else f"contacts of {what}")
-        with counted(total, lambda done, expected: cost(1.0)):
+        with count_contacts(total, lambda done, expected: cost(1.0)):
             yield
 
 
@@ -333,7 +333,7 @@ def heartbeat(title: str) -> Iterator[None]:
     thread = threading.Thread(target=beat, args=(words, ended), daemon=True)
     thread.start()
     try:
-        with counted(0, count):
+        with count_contacts(0, count):
             yield
     finally:
         ended.set()
@@ -370,14 +370,14 @@ def solving(report: Solving | None) -> Iterator[None]:
         _SOLVING.reset(before)
 
 
-def solved(count: float, why: str = "") -> None:
+def report_solved(count: float, why: str = "") -> None:
     """Report more solved states; ``why`` says what makes them go one by one."""
     if (report := _SOLVING.get()) is not None:
         report(count, why)
 
 
 @contextmanager
-def weighed(share: float) -> Iterator[None]:
+def weigh_states(share: float) -> Iterator[None]:
     """States solved inside count only so much: their outputs are still to come."""
     outer = _SOLVING.get()
     with solving(None if outer is None else lambda count, why: outer(share * count, why)):
@@ -412,8 +412,8 @@ class Cost:
     done : int
         States of earlier runs.
     early : bool
-        Whether states are told before they are `finished`: not where each number must be one
-        that lasts, as every time the same.
+        Whether states are told before `report_finished`: not where each number must be one that
+        lasts, as every time the same.
     """
 
     def __init__(
@@ -436,13 +436,13 @@ class Cost:
             self.what = ""
         if self.early and now - self.shown > 0.5:
             self.shown = now
-            self._tell(min(int(self.done), self.total))
+            self._report_count(min(int(self.done), self.total))
 
-    def finished(self, states: int) -> None:
+    def report_finished(self, states: int) -> None:
         """Report the number of states that are solved for good."""
-        self._tell(states)
+        self._report_count(states)
 
-    def _tell(self, states: int) -> None:
+    def _report_count(self, states: int) -> None:
         """Report a number if it is higher than all before: no state is reported twice."""
         if states > self.told:
             self.told = states

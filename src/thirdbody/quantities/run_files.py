@@ -29,7 +29,7 @@ __all__ = [
     "refuse_another",
     "refuse_replaced",
     "release_folder",
-    "sealed",
+    "sealed_text",
 ]
 
 SEAL = "sha256"
@@ -47,12 +47,12 @@ class Sealed(NamedTuple):
     """Whether a seal says that it is as it was written."""
 
 
-def sealed(data: Mapping[str, object]) -> str:
+def sealed_text(data: Mapping[str, object]) -> str:
     """Text of a record, with its digest.
 
     Examples
     --------
-    >>> text = sealed({"states": 3})
+    >>> text = sealed_text({"states": 3})
     >>> list(json.loads(text))
     ['states', 'sha256']
     """
@@ -182,7 +182,7 @@ def claim_folder(
         refuse_another(place, there, kept)
     make_folder(place)
     if record is None or differences(record.data, study):
-        write_text(place / MARK, sealed(study))
+        write_text(place / MARK, sealed_text(study))
     return place
 
 

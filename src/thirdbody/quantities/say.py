@@ -19,8 +19,8 @@ __all__ = [
     "percent",
     "plural",
     "powers",
-    "prefixed",
-    "signed",
+    "readable_unit",
+    "signed_number",
     "span",
     "times",
     "unbroken",
@@ -148,14 +148,14 @@ def value_of(value: float | None, unit: str, digits: int = 4) -> str:
     """
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
-    size, name = prefixed(value, unit, digits)
+    size, name = readable_unit(value, unit, digits)
     return f"{number(value / size, digits)} {name}".rstrip()
 
 
-def prefixed(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
+def readable_unit(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
     """Size and name of the unit in which people read a number.
 
-    >>> prefixed(3e-7, "m"), prefixed(1e11, "1/m^2"), prefixed(0.3, "1")
+    >>> readable_unit(3e-7, "m"), readable_unit(1e11, "1/m^2"), readable_unit(0.3, "1")
     ((1e-09, 'nm'), (1.0, 'm⁻²'), (1.0, ''))
     """
     if unit not in PREFIXED or not (value == 0 or SMALLEST < abs(value) < LARGEST):
@@ -203,10 +203,10 @@ def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: 
     return f"{text} (± {number(100 * error, tens if 100 * error >= 9.5 else 1)} %)"
 
 
-def signed(value: float | None, decimals: int, unit: str = "") -> str:
+def signed_number(value: float | None, decimals: int, unit: str = "") -> str:
     """A difference, always with its sign.
 
-    >>> signed(3.14, 1, "%"), signed(-0.5, 3), signed(-1e-9, 1)
+    >>> signed_number(3.14, 1, "%"), signed_number(-0.5, 3), signed_number(-1e-9, 1)
     ('+3.1 %', '−0.500', '+0.0')
     """
     if value is None or not math.isfinite(value):

@@ -21,7 +21,7 @@ from ..version import __version__
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["connected", "need_version", "shared"]
+__all__ = ["connect_client", "need_version", "share_parts"]
 
 TIMEOUT = 10.0
 """Seconds within which a scheduler has to answer."""
@@ -33,7 +33,7 @@ Parts = Iterable[tuple[int, Callable[[], Result]]]
 Results = Generator[tuple[int, Result], None, None]
 
 
-def shared(
+def share_parts(
     parts: Parts[Result],
     *,
     workers: int = 1,
@@ -69,7 +69,7 @@ def need_version(asked: str, what: str) -> None:
         )
 
 
-def connected(address: str, *, timeout: float | None = None) -> Client:
+def connect_client(address: str, *, timeout: float | None = None) -> Client:
     """A client of the scheduler at an address, e.g. ``tcp://10.0.0.1:8786``.
 
     Raises

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import InvalidValue, Mistake
 
-__all__ = ["HELD", "are_correlated", "is_uncertain", "shifted", "uncertain_number"]
+__all__ = ["HELD", "are_correlated", "is_uncertain", "shift_value", "uncertain_number"]
 
 HELD = Mistake.KIND.clause(
     "has an uncertainty, which is not held here; give its nominal_value, and the number itself in "
@@ -51,7 +51,7 @@ def uncertain_number(value: float, std: float) -> Any:
     return ufloat(value, std)
 
 
-def shifted(value: float, changes: list[tuple[float, Any]]) -> Any:
+def shift_value(value: float, changes: list[tuple[float, Any]]) -> Any:
     """A value that moves with others: slopes, and numbers with an uncertainty, to first order.
 
     It stays correlated with them, and is a plain number without any.

@@ -14,7 +14,7 @@ from typing import Any, NoReturn, NotRequired, TypedDict
 
 from ..errors import InvalidValue, Mistake, Problem
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
-from .nearest import near
+from .nearest import nearest_word
 
 __all__ = [
     *("EXAMPLES", "MICRONS", "Meant", "Quantity", "Range", "Usual", "comma_may_part_thousands"),
@@ -323,7 +323,7 @@ def _unknown(body: str, shown: str, unit: str) -> str:
                 f"{shown} is a hardness number, not a pressure; one unit of {word} is 1 kgf/mm^2, "
                 f"so write {shown.replace(word, 'kgf/mm^2')}"
             )
-        meant = near(word, _USUAL, cutoff=0.7)
+        meant = nearest_word(word, _USUAL, cutoff=0.7)
         hint = f"did you mean {meant}?" if meant else f"it must be {_need_text(unit)}"
         return f"{shown} has the unit {word}, which is not known (case matters); {hint}"
     return f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}"

@@ -340,7 +340,7 @@ class Value:
                 problems.append(Problem(name, why, shown, owner=owner))
         if not problems:
             try:
-                problems = [_placed(owner, each) for each in self._problems()]
+                problems = [_problem_of_class(owner, each) for each in self._problems()]
             except FAILURES as error:
                 kind = type(self)
                 held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]
@@ -385,7 +385,7 @@ class Value:
             warn_of_slips(out, before=self)
         return out
 
-    def unchecked(self, **changes: object) -> Self:
+    def replace_unchecked(self, **changes: object) -> Self:
         """A copy with some fields changed to what needs no check and no warning."""
         out = object.__new__(type(self))
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
@@ -488,7 +488,7 @@ def _each_with_arrays(
     return tuple(part.with_arrays(own[i]) if i in own else part for i, part in enumerate(parts))
 
 
-def _placed(owner: str, problem: str) -> str:
+def _problem_of_class(owner: str, problem: str) -> str:
     """A mistake at a field of a class, with the name of the class."""
     if isinstance(problem, Problem) and problem.path and not problem.owner:
         return problem.changed(owner=owner)

@@ -465,7 +465,7 @@ def _settled_particles(
     if density is None:
         rule = 'is missing: dust falls by its density, e.g. particle_density = "2650 kg/m^3"'
         raise InvalidValue(Problem("particle_density", rule, code=Mistake.MISSING))
-    number, sizes = clean_room.settled(iso_class, particle_density=density, **options)
+    number, sizes = clean_room.settled_particles(iso_class, particle_density=density, **options)
     return Particles(diameter=sizes, areal_density=number, **values)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.files import read_bytes
-from ..quantities.nearest import near
+from ..quantities.nearest import nearest_word
 from ..quantities.say import join_words
 from ..quantities.units import say
 from .reader import rivals
@@ -24,7 +24,7 @@ def read(path: Path) -> dict[str, object]:
         content = read_bytes(path, "a study file")
         text = content.decode("utf-8-sig")
     except FileNotFoundError:
-        meant = near(path.name, [p.name for p in _toml_files(path)], cutoff=0.75)
+        meant = nearest_word(path.name, [p.name for p in _toml_files(path)], cutoff=0.75)
         guess = f"; did you mean {path.with_name(meant)}?" if meant else ""
         raise InvalidValue(
             f"cannot read {path}: there is no such file{guess}", code=Mistake.UNREADABLE

@@ -42,4 +42,4 @@ def nearest_option(word: str, options: Iterable[str]) -> str | None:
     """The option that was probably meant."""
     options = list(options)
     known = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in options)
-    return nearest.near(next(known, word), options)
+    return nearest.nearest_word(next(known, word), options)

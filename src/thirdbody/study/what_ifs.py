@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..analysis.inputs import declared, input_of, inputs, words_of
+from ..analysis.inputs import declared_quantity, input_of, inputs, words_of
 from ..analysis.uncertainty.inputs import stated_ranges
 from ..analysis.uncertainty.samples import columns_at
 from ..contact.contact import Contact
@@ -191,7 +191,7 @@ def _range(
     moved = input_of(contact, label)
     value = moved.values[0]
     low, high = ends if isinstance(ends, tuple) else (value / ends, value * ends)
-    unit = declared(contact, moved.names[0])["unit"]
+    unit = declared_quantity(contact, moved.names[0])["unit"]
     at = [moved.numbers_at((end - value) / moved.scales[0]) for end in (low, high)]
     return _Ends(
         moved.names,

@@ -373,7 +373,7 @@ class _Kind:
         """Load of the largest particle, squeezed to its diameter [N]."""
         return self.most * float(self.high.max()) ** 2
 
-    def within(self, u: Array, of: int | EllipsisType = ...) -> Array:
+    def count_within(self, u: Array, of: int | EllipsisType = ...) -> Array:
         """Particles of each class, or of one, nearer than u = r²/(2 R_s x)."""
         inside = np.maximum(u, 0.0)
         if not self.aside:
@@ -383,7 +383,7 @@ class _Kind:
 
     def number(self, height: float) -> float:
         """Particles in the way while the contacts stand at this height [m]."""
-        return float(self.within(1 - height / self.x).sum())
+        return float(self.count_within(1 - height / self.x).sum())
 
     def number_below(self, loads: Array, height: float) -> Array:
         """Number of particles that carry at most these loads [N]."""
@@ -400,7 +400,7 @@ class _Kind:
         squeeze = np.empty(len(loads))
         for i, ends in enumerate(zip(self.low, self.high, strict=True)):
             fill_squeezes(sure, logs, *ends, self.table, squeeze)
-            out += self.within(reach[i], i) - self.within(reach[i] - squeeze, i)
+            out += self.count_within(reach[i], i) - self.count_within(reach[i] - squeeze, i)
         return out
 
 

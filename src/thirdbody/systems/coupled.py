@@ -167,7 +167,7 @@ class _Loop:
             surfaces=surfaces, particles=particles or None, outputs=tuple(outputs)
         )
 
-    def solved(
+    def solve_state(
         self, T: float, T_particles: float, v: float, p: float, *, told: bool = False
     ) -> Equilibrium | MixedFilm | None:
         """The contact at temperatures, sliding speed and load; None where it has no state."""
@@ -206,7 +206,7 @@ class _Loop:
         of_speed = v if self.flash or self.film is not None else 0.0
         key = (T, T_particles, of_speed, p)
         if key not in self.kept:
-            state = self.solved(T, T_particles, v, p)
+            state = self.solve_state(T, T_particles, v, p)
             self.kept[key] = _numbers(state, self.flash)
         return self.kept[key]
 
@@ -506,7 +506,7 @@ def _state(loop: _Loop, x: Array, v: float, p: float) -> CoupledState:
     contact = loop.warm_contact(T, T_particles, v)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        state = loop.solved(T, T_particles, v, p, told=True)
+        state = loop.solve_state(T, T_particles, v, p, told=True)
     if contact is None or state is None:
         raise NoEquilibrium("the contact has no state at this speed and load")
     known = loop.cooling is not None

@@ -106,7 +106,7 @@ class Walk:
             end, end_place = piece.x[-1], float(piece.parameter[-1])
             if not self.high - AT_JUMP < end[0]:
                 break
-            behind = self._behind(self.high, end, end_place)
+            behind = self._state_behind(self.high, end, end_place)
             if behind is None:
                 break
             sides = [
@@ -118,7 +118,9 @@ class Walk:
             self.low = self.high
             x, place, forward = behind
 
-    def _behind(self, jump: float, end: Array, place: float) -> tuple[Array, float, bool] | None:
+    def _state_behind(
+        self, jump: float, end: Array, place: float
+    ) -> tuple[Array, float, bool] | None:
         """The first state behind a jump, and whether the branch goes on to higher speed or load."""
         found = [self.state_with_rise(jump + far, end, place) for far in (BESIDE, 1e2 * BESIDE)]
         (x, here), (_, there) = found

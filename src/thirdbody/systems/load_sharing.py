@@ -217,7 +217,7 @@ def share_radial_load(
         shift = pressed + half
         return 0.5 * pressed / shift if shift > 0.5 * pressed / WIDEST else WIDEST
 
-    def carried(pressed: float) -> float:
+    def total_load(pressed: float) -> float:
         eps = zone(pressed)
         found = radial_integral(eps, exponent=exponent) if eps < WIDEST else 0.0
         return bodies * stiffness * pressed**exponent * found
@@ -225,7 +225,7 @@ def share_radial_load(
     # J_r is at most 0.25 or so, and 1/2 for a single body: start where it surely is too little
     low = max(-half, (force / (bodies * stiffness)) ** (1 / exponent))
     high = 2 * low
-    while carried(high) < force:
+    while total_load(high) < force:
         high *= 2
     angles = 2 * math.pi * np.arange(round(bodies)) / round(bodies)
     angles = np.where(angles > math.pi + 1e-12, angles - 2 * math.pi, angles)
@@ -234,7 +234,7 @@ def share_radial_load(
         level = np.maximum(1 - (1 - np.cos(angles)) / (2 * zone(pressed)), 0.0)
         return stiffness * (pressed * level) ** exponent
 
-    pressed = float(brentq(lambda x: carried(x) - force, low, high, xtol=1e-18, rtol=1e-13))
+    pressed = float(brentq(lambda x: total_load(x) - force, low, high, xtol=1e-18, rtol=1e-13))
     if half >= 0 and stiffness * pressed**exponent > force:
         upper, lower = pressed, 1e-3 * pressed
         pressed = float(

@@ -336,7 +336,7 @@ def mixed_film(
     ([0.01, 0.535], ['boundary', 'mixed'])
     """
     w, u, scalar = _loads_and_speeds(load, speed)
-    bodies = lubricated(contact, conjunction, oil, w, film, slide_roll, hertz, (few, most))
+    bodies = check_lubricated(contact, conjunction, oil, w, film, slide_roll, hertz, (few, most))
     sigma, p = contact.roughness.sigma, bodies.p
 
     def excess(x: Array) -> Array:
@@ -443,7 +443,7 @@ def _refuse_deep(contact: Contact, speed: float) -> None:
     )
 
 
-def lubricated(
+def check_lubricated(
     contact: Contact,
     conjunction: Point | Line,
     oil: Oil,

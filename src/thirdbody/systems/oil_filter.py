@@ -253,11 +253,11 @@ class Filter(Value):
 
         None where the β ratios rise slowly enough.
         """
-        tops = [b for a, b in self._clipped]
+        tops = [b for a, b in self._clipped_stretches]
         return max(tops) if tops else None
 
     @property
-    def _clipped(self) -> list[tuple[float, float]]:
+    def _clipped_stretches(self) -> list[tuple[float, float]]:
         """Stretches of size in which P would be above 1 [m]."""
         from scipy.optimize import brentq
 
@@ -287,7 +287,7 @@ class Filter(Value):
             Edges of the classes [m].
         """
         e = np.asarray(edges, float)
-        splits = [*self.sizes, *(end for _, end in self._clipped)]
+        splits = [*self.sizes, *(end for _, end in self._clipped_stretches)]
         x = np.unique([*e, *(s for s in splits if e[0] < s < e[-1])])
         nodes, weights = gauss_legendre(NODES)
         low, high = np.log(x[:-1])[:, None], np.log(x[1:])[:, None]

@@ -18,7 +18,7 @@ from .mixed_film import (
     FEW,
     MOST,
     _loads_and_speeds,
-    lubricated,
+    check_lubricated,
     mean_gap,
     mixed_film,
     zeros_of_falling,
@@ -204,7 +204,7 @@ def regime_speeds(
     0.01
     """
     w, _, _ = _loads_and_speeds(load, 1.0)
-    bodies = lubricated(contact, conjunction, oil, w, film, None, hertz, (few, most))
+    bodies = check_lubricated(contact, conjunction, oil, w, film, None, hertz, (few, most))
     bound, floor, sigma = interface(contact), bodies.floor, contact.roughness.sigma
 
     def share_at(t: Array) -> Array:

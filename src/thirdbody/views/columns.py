@@ -8,7 +8,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..equilibrium.words import RARE, is_rare
-from ..quantities.say import NOT_KNOWN, number, percent, prefixed
+from ..quantities.say import NOT_KNOWN, number, percent, readable_unit
 
 if TYPE_CHECKING:
     from ..contact.contact import Contact
@@ -46,7 +46,7 @@ class Shown(NamedTuple):
             return percent(value, least=self.least)
         if value is None or not math.isfinite(value):
             return NOT_KNOWN
-        size, unit = prefixed(value, self.unit)
+        size, unit = readable_unit(value, self.unit)
         return f"{number(value / size, least=self.least)} {unit}".rstrip()
 
     def column(self, values: Iterable[float | None]) -> tuple[str, list[Cell | str]]:
@@ -60,7 +60,7 @@ Cell(value=1200.0, text='1200')])
         sizes = sorted(abs(v) for v in known if v)
         size, unit = 1.0, ""
         if sizes and self.unit not in ("1", "share"):
-            size, unit = prefixed(sizes[len(sizes) // 2], self.unit)
+            size, unit = readable_unit(sizes[len(sizes) // 2], self.unit)
         head = f"{self.head} [{unit}]" if unit else self.head
         return head, [self._cell(value, size) for value in known]
 

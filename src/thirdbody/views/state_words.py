@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..equilibrium.words import (
-    carried,
     is_rare,
     load_of,
     meets,
     mode_among,
     mode_of,
     mode_path,
+    particle_share_text,
     two_bodies,
 )
 from ..quantities.say import number, percent, plural, value_of
@@ -106,7 +106,7 @@ def _at_one(result: StudyResult, i: int) -> str:
     if result.study.contact.two_body:
         return f"{at} {two_bodies()}; {gap}, {area}."
     parts = {part.name: part.load_share[i] for part in states.populations}
-    share = carried(states.particle_load_share[i], parts)
+    share = particle_share_text(states.particle_load_share[i], parts)
     mode, held = states.mode[i], result.particles_in(i)
     where = " of a wide surface" * is_rare(mode, held)
     return f"{at} {mode_among(mode, held)}, and {share}{where}; {gap}, {area}."

@@ -17,7 +17,7 @@ from ..equilibrium.words import (
 )
 from ..errors import Note, RangeWarning, rank_notes
 from ..populations.materials import NUMBERS
-from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
+from ..quantities.say import NOT_KNOWN, number, readable_unit, unit_of, value_of
 from ..version import __version__
 from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
 from .figure_files import png_of
@@ -263,7 +263,7 @@ def amount_cells(row: Row) -> tuple[Cell | str, str]:
     """A number in the unit in which it is read, and the unit; or words and none."""
     if row.amount is None:
         return row.value, ""
-    size, unit = prefixed(row.amount, row.unit)
+    size, unit = readable_unit(row.amount, row.unit)
     return Cell(in_unit(row.amount, size), number(row.amount / size)), unit
 
 

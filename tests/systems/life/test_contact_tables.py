@@ -57,7 +57,7 @@ def test_tables_are_the_contact_at_random_states(unlike, tables, sigma):
         exact = tb.solve(dirty, d=d)
     own = {name: [] for name in ("p", "wear_1", "wear_2", "V_2", "area", "force")}
     for each in d:
-        state = tables.pressed(float(each), eta=eta, sigma=sigma)
+        state = tables.press_at(float(each), eta=eta, sigma=sigma)
         total = np.tensordot(eta, state.each, 2)
         spots = state.asperities
         own["p"].append(tables.load(float(each), eta=eta, sigma=sigma)[0])
@@ -104,7 +104,7 @@ def test_dents_are_those_of_all_particles_beyond_first_yield(unlike, tables):
             lambda x, g=gap, w=weight: w * x**-4 * norm.cdf((x * (1 - high) - g) / 1e-7), x0, x1,
             epsabs=0, epsrel=1e-11,
         )[0]  # fmt: skip
-        state = tables.pressed(d, eta=np.zeros((2, CLASSES.count)), sigma=1e-7)
+        state = tables.press_at(d, eta=np.zeros((2, CLASSES.count)), sigma=1e-7)
         assert state.each[1, k, INDEX["dents_1"]] == pytest.approx(exact, rel=1e-5)
 
 
@@ -129,8 +129,8 @@ def test_slopes_of_the_load(tables):
 def test_exchanged_surfaces_exchange_what_they_lose(tables):
     eta = mixture(3)
     turned = ContactTables(contact(SOFT, STEEL, K_sa=1e-6), CLASSES, KINDS)
-    one = np.tensordot(eta, tables.pressed(2e-7, eta=eta, sigma=100e-9).each, 2)
-    two = np.tensordot(eta, turned.pressed(2e-7, eta=eta, sigma=100e-9).each, 2)
+    one = np.tensordot(eta, tables.press_at(2e-7, eta=eta, sigma=100e-9).each, 2)
+    two = np.tensordot(eta, turned.press_at(2e-7, eta=eta, sigma=100e-9).each, 2)
     for name, place in INDEX.items():
         if name in ("elastic", "elastoplastic", "plastic"):
             continue  # regimes are those on surface 1
@@ -145,8 +145,8 @@ def test_lengths_in_another_unit():
     one = ContactTables(contact(), CLASSES, KINDS[:1])
     two = ContactTables(contact(sigma=3e-7, R=8.4e-6), large, KINDS[:1])
     eta = mixture(2)[:1]
-    at = one.pressed(1.5e-7, eta=eta, sigma=1e-7).each[0]
-    there = two.pressed(4.5e-7, eta=eta / factor**2, sigma=3e-7).each[0]
+    at = one.press_at(1.5e-7, eta=eta, sigma=1e-7).each[0]
+    there = two.press_at(4.5e-7, eta=eta / factor**2, sigma=3e-7).each[0]
     powers = np.array(list(POWERS.values()))
     small = 1e-6 * np.abs(at).max(axis=0)
     np.testing.assert_allclose(there / factor**powers, at, rtol=1e-5, atol=float(small.min()))

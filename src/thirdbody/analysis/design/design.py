@@ -30,7 +30,7 @@ from ...quantities.carried import takes_units
 from ...quantities.plain_data import plain_data
 from ...quantities.progress import reporting
 from ...quantities.record import Column, Record
-from ..inputs import declared, words_of
+from ..inputs import declared_quantity, words_of
 from ..sensitivity import sensitivity
 from .front import front, hypervolume
 from .problem import Limit, Objective, Suspension
@@ -286,7 +286,7 @@ def design(
     local = len(objectives) == 1 and bool(task.variables)
     if points is not None:
         need_positive(points=points)
-    expected = _expected(task, points, local)
+    expected = _expected_points(task, points, local)
     with reporting("design", expected, 0, progress, "points") as task.report:
         for materials in task.choices():
             task.explore(materials, points)
@@ -295,7 +295,7 @@ def design(
         return _answer(task)
 
 
-def _expected(task: Task, points: int | None, local: bool) -> int:
+def _expected_points(task: Task, points: int | None, local: bool) -> int:
     """Points that will be tried, or a few less."""
     width = len(task.variables)
     if not width:
@@ -374,7 +374,10 @@ def _about_variable(task: Task, name: str) -> dict[str, str]:
     if name == AMOUNT and task.suspension is not None:
         by = task.suspension.by
         return {"units": CONCENTRATIONS[by], "long_name": f"{words} by {by}"}
-    return {"units": declared(task.contact, name.split("+")[0])["unit"], "long_name": words}
+    return {
+        "units": declared_quantity(task.contact, name.split("+")[0])["unit"],
+        "long_name": words,
+    }
 
 
 def _about_objective(each: Objective) -> dict[str, str]:
@@ -429,7 +432,9 @@ def _band(
     place = int(np.searchsorted(grid, own))
 
     def good(some: NDArray[np.intp]) -> NDArray[np.bool_]:
-        rows = task.judged([{**best.numbers, name: float(grid[i])} for i in some], best.materials)
+        rows = task.judge_points(
+            [{**best.numbers, name: float(grid[i])} for i in some], best.materials
+        )
         lost = np.array([point.costs[label] for point in rows]) - value
         return (lost <= part * abs(value)) & np.array([not point.reason for point in rows])
 

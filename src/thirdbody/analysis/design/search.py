@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...contact.contact import Contact
-from ...contact.pressed import buried, most_buried
+from ...contact.pressed import buried_share, most_buried
 from ...equilibrium.load import as_load
 from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
@@ -155,9 +155,9 @@ class Task:
         changes: dict[str, object] = {}
         for name, value in numbers.items():
             changes |= self.variables[name].changes(value)
-        return self._filled(self.contact.replace(**materials), changes)
+        return self._filled_contact(self.contact.replace(**materials), changes)
 
-    def _filled(self, contact: Contact, changes: Mapping[str, Any]) -> Contact:
+    def _filled_contact(self, contact: Contact, changes: Mapping[str, Any]) -> Contact:
         """The contact with these numbers, and as many particles as the fluid then brings."""
         plain = {name: float(value) for name, value in changes.items() if name != AMOUNT}
         if self.suspension is None:
@@ -206,7 +206,7 @@ class Task:
         covered, density = np.full((P, S), math.inf), np.full((P, S), math.nan)
         for i, j in np.ndindex(P, S):
             try:
-                one = self._filled(bare, {name: v[i, j] for name, v in vary.items()})
+                one = self._filled_contact(bare, {name: v[i, j] for name, v in vary.items()})
             except InvalidValue:
                 continue
             covered[i, j] = sum(each.coverage for each in one.populations)
@@ -231,8 +231,8 @@ class Task:
             for name, values in out.items():
                 values[possible] = np.asarray(states[name], float).reshape(count, J)
         nominal = {name: values[:, 0] for name, values in vary.items()}
-        buried_share = self._buried(bare, nominal, out)
-        return {**out, "coverage": covered, "buried_share": buried_share, "refused": refused}
+        buried = self._buried_share(bare, nominal, out)
+        return {**out, "coverage": covered, "buried_share": buried, "refused": refused}
 
     def _states(
         self, contact: Contact, vary: dict[str, Array], names: Iterable[str]
@@ -253,7 +253,9 @@ class Task:
             none = {name: np.full(count, math.nan) for name in (*names, "A_p")}
             return none, dict.fromkeys(range(count), why)
 
-    def _buried(self, contact: Contact, vary: dict[str, Array], found: dict[str, Array]) -> Array:
+    def _buried_share(
+        self, contact: Contact, vary: dict[str, Array], found: dict[str, Array]
+    ) -> Array:
         """Share of the load on particles deeper than their radius, nominal: (P, loads)."""
         d, share = found["d"][:, 0], found["particle_load_share"][:, 0]
         out = np.where(np.isnan(d), math.nan, 0.0)
@@ -274,7 +276,7 @@ class Task:
             known &= most > NOTHING * pressure
             part = np.zeros(known.shape)
             if known.any():
-                part[known] = buried(own, d[which][known])
+                part[known] = buried_share(own, d[which][known])
             out[which] += np.nan_to_num(part * share[which])
         return out
 
@@ -292,7 +294,7 @@ class Task:
                 self._report_more(before + states // each)
 
             with solving(Cost(each * len(some), count)):
-                rows += self.judged(some, materials)
+                rows += self.judge_points(some, materials)
             self._report_more(len(self.tried) + len(rows))
         self.tried += rows
         return rows
@@ -303,7 +305,7 @@ class Task:
             self.reported = points
             self.report(points)
 
-    def judged(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
+    def judge_points(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
         """Costs of points, and the limits that they break."""
         metric = self.metrics(numbers, materials)
         costs = {each.label: each.cost(metric[each.of], self.weights) for each in self.objectives}
@@ -371,7 +373,7 @@ class Task:
         rows = [point for point in self.tried if point.materials == materials]
         rows.sort(key=lambda point: point.rank)
         if len(self.variables) == 1:
-            self._along(rows, materials)
+            self._refine_variable(rows, materials)
             return
         starts: list[Array] = []
         apart = 1.5 * len(rows) ** (-1 / len(self.variables))
@@ -384,7 +386,7 @@ class Task:
         for u in starts:
             self._from(u, apart, rows[0], materials)
 
-    def _along(self, rows: list[Point], materials: Materials) -> None:
+    def _refine_variable(self, rows: list[Point], materials: Materials) -> None:
         """Points that vary one variable between the neighbours of the best point."""
         from scipy.optimize import minimize_scalar
 

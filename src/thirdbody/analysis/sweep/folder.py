@@ -42,7 +42,7 @@ from ...quantities.run_files import (
     read_json,
     read_record,
     refuse_another,
-    sealed,
+    sealed_text,
 )
 from ...quantities.say import plural
 
@@ -121,7 +121,7 @@ class Folder:
         return self.path / ("states.zarr" if self.format == "zarr" else "states.nc")
 
     @property
-    def finished(self) -> dict[str, Any] | None:
+    def finished_summary(self) -> dict[str, Any] | None:
         """The summary of a finished run: states, and how many of them are unsolved."""
         found = read_record(self.path / "finished.json", FINISHED)
         right = found and {"states", "unsolved", "A_t", "shadow"} <= set(found.data)
@@ -169,7 +169,7 @@ class Folder:
     ) -> None:
         """Say that a block is on the disk."""
         prints = {file.relative_to(self.path).as_posix(): fingerprint(file) for file in files}
-        text = sealed({"study": study, **summary, "files": prints})
+        text = sealed_text({"study": study, **summary, "files": prints})
         write_text(self.marker(number), text, tidy=False)
 
     def record(self, study: str, blocks: int, data: Path | None = None) -> None:
@@ -233,7 +233,7 @@ class Folder:
     def write_record(self, study: str, blocks: int, prints: Mapping[str, Fingerprint]) -> None:
         """Write ``files.json``."""
         told = {"study": study, "blocks": blocks, "files": dict(prints)}
-        write_text(self.path / "files.json", sealed(told))
+        write_text(self.path / "files.json", sealed_text(told))
 
     def shared_files(self, study: str | None) -> tuple[dict[str, Fingerprint], int] | None:
         """Content of ``files.json``: fingerprints, and the number of blocks."""
@@ -275,7 +275,7 @@ class Folder:
         out.recorded = shared is not None
         files, blocks = shared or ({}, 0)
         out.wanted = blocks or None
-        finished = self.finished is not None
+        finished = self.finished_summary is not None
         for name, told in files.items():
             problems = self._misfit(name, told)
             if name == ROOT and problems and not finished:
@@ -424,7 +424,7 @@ class Folder:
         )
 
     @contextmanager
-    def locked(self) -> Iterator[None]:
+    def lock_folder(self) -> Iterator[None]:
         """The folder for one run alone; the system lets go of it when the process ends."""
         with (self.path / "lock").open("a+", encoding="utf-8") as file:
             try:
@@ -526,7 +526,7 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
         name = min(names)
     found = folder.look(name, progress)
     problems += found.problems
-    finished = folder.finished is not None
+    finished = folder.finished_summary is not None
     if (place / "finished.json").exists() and not finished:
         problems.append(damage(place / "finished.json", "is damaged, or the data are missing"))
     if problems:

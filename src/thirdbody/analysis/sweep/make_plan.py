@@ -79,7 +79,7 @@ def make_plan(
     if problems:
         raise InvalidValue(*problems)
 
-    dims = _zipped(listed) if design == "zip" else _grid(listed)
+    dims = _zip_inputs(listed) if design == "zip" else _grid(listed)
     if spans:
         assert samples is not None
         dims.append(Sampled(spans, design, samples, seed, 0, samples))
@@ -128,7 +128,7 @@ def _inputs(
         if name == load:
             problems += _refused_loads(contact, load, entry, values)
         else:
-            problems += _refused(contact, label, name, values)
+            problems += _refused_numbers(contact, label, name, values)
     return listed, spans, problems
 
 
@@ -137,7 +137,7 @@ def _grid(listed: Arrays) -> list[Listed | Sampled]:
     return [Listed(name, {name: values}) for name, values in listed.items()]
 
 
-def _zipped(listed: Arrays) -> list[Listed | Sampled]:
+def _zip_inputs(listed: Arrays) -> list[Listed | Sampled]:
     """One dimension of all inputs; a single value goes with every state."""
     length = max(map(len, listed.values()))
     return [Listed("state", {name: np.broadcast_to(v, (length,)) for name, v in listed.items()})]
@@ -260,7 +260,7 @@ def _as_array(entry: object) -> NDArray[Any]:
     return out
 
 
-def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> list[str]:
+def _refused_numbers(contact: Contact, label: str, name: str, values: NDArray[Any]) -> list[str]:
     """Numbers that the field never takes; the rest is for the contact to judge."""
     about = quantity_of(contact, name)
     if about is None or values.dtype.kind not in "fiu" or not len(values):

@@ -24,7 +24,7 @@ from ...equilibrium.doubts import SHADOW, about_particles
 from ...equilibrium.load import as_load
 from ...equilibrium.modes import MODES
 from ...equilibrium.solve import solve
-from ...equilibrium.states import state_columns, varied
+from ...equilibrium.states import state_columns, vary_contact
 from ...equilibrium.status import WORDS as STATUS_WORDS
 from ...equilibrium.status import Status
 from ...errors import RangeWarning, code_of
@@ -145,7 +145,7 @@ class Block:
         numbers = {name: v for name, v in inputs.items() if v.dtype != object}
         out: Arrays = {}
         for changes, which in _alike(words, len(loads)):
-            contact = varied(self.contact, changes) if changes else self.contact
+            contact = vary_contact(self.contact, changes) if changes else self.contact
             given = as_load(self.load, loads[which])
             vary = {name: values[which] for name, values in numbers.items()}
             for name, column in state_columns(contact, **given, vary=vary or None).items():
@@ -371,7 +371,7 @@ class Plan:
             inputs = {name: values[0] for name, values in one.items()}
             inputs = {k: v.item() if isinstance(v, np.generic) else v for k, v in inputs.items()}
             load = inputs.pop(self.load)
-            yield load, varied(self.contact, inputs)
+            yield load, vary_contact(self.contact, inputs)
 
 
 OF_STATES = (AREA, SHADOW.code)

@@ -152,7 +152,7 @@ class Reduction:
         return out
 
     @staticmethod
-    def merged(parts: Sequence[Arrays]) -> Arrays:
+    def merge_parts(parts: Sequence[Arrays]) -> Arrays:
         """Parts of the same cells, put together."""
         if len(parts) == 1:
             return dict(parts[0])

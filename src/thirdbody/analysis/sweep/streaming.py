@@ -17,8 +17,8 @@ import numpy as np
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Cost, Report, reporting, solving
-from ...quantities.run_files import sealed
-from ...quantities.sharing import shared
+from ...quantities.run_files import sealed_text
+from ...quantities.sharing import share_parts
 from .folder import (
     STORE,
     Folder,
@@ -68,16 +68,16 @@ def in_memory(
         for number, (arrays, summary) in results(range(plan.count)):
             summaries.append(summary)
             if plan.reduction is None:
-                _into(data, layout, plan, number, arrays)
+                _write_block(data, layout, plan, number, arrays)
             else:
                 rows[number] = arrays
             done += summary["states"]
-            cost.finished(done)
+            cost.report_finished(done)
     if plan.reduction is not None:
         for row in range(plan.count // _parts(plan)):
             numbers = range(row * _parts(plan), (row + 1) * _parts(plan))
-            kept = _reduced(plan.reduction, (rows.pop(number) for number in numbers))
-            _into(data, layout, plan, numbers[0], kept)
+            kept = _reduce_parts(plan.reduction, (rows.pop(number) for number in numbers))
+            _write_block(data, layout, plan, numbers[0], kept)
     words &= set(data)
     data |= {name: data[name].astype(str) for name in words}
     flags = ("flag_values", "flag_meanings")
@@ -98,7 +98,7 @@ def _memory(name: str, kind: str) -> object:
     return np.int64 if name == "iterations" else np.dtype(kind)
 
 
-def _into(data: Arrays, layout: Layout, plan: Plan, number: int, arrays: Arrays) -> None:
+def _write_block(data: Arrays, layout: Layout, plan: Plan, number: int, arrays: Arrays) -> None:
     where = _where(plan, number)
     for name, values in arrays.items():
         data[name][tuple(where.get(dim, slice(None)) for dim in layout.variables[name][0])] = values
@@ -114,8 +114,8 @@ def _parts(plan: Plan) -> int:
     return math.prod(plan.grid[plan.outer :])
 
 
-def _reduced(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
-    return reduction.result(reduction.merged(list(parts)))
+def _reduce_parts(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
+    return reduction.result(reduction.merge_parts(list(parts)))
 
 
 def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
@@ -153,7 +153,7 @@ def _results(
         return task if client is not None else partial(_with_progress, task, cost)
 
     tasks = ((number, work(number)) for number in numbers)
-    return shared(tasks, workers=workers, client=client)
+    return share_parts(tasks, workers=workers, client=client)
 
 
 def _with_progress(task: Callable[[], Result], cost: Cost) -> Result:
@@ -207,7 +207,7 @@ def run(
     study = {**plan.to_dict(), "format": format}
     folder.refuse_others(study)
     shown = progress is True
-    if folder.finished is not None:
+    if folder.finished_summary is not None:
         found = folder.look(name_of(study), shown)
         if not found.problems and folder.says(study):
             folder.remove_parts()  # of a run killed at the very end
@@ -222,7 +222,7 @@ def run(
             )
     notes = plan.notes()  # refuses inputs before anything is written
     make_folder(folder.path)
-    with folder.locked():
+    with folder.lock_folder():
         folder.refuse_others(study)
         results = partial(_results, plan, coded=True, workers=workers, client=client)
         _carry_out(plan, folder, study, notes, results, progress)
@@ -281,7 +281,7 @@ def _carry_out(
     if found.problems or len(done) < plan.count:
         (path / "finished.json").unlink(missing_ok=True)
     if direct:
-        store = _mended(plan, folder, layout, name, found)
+        store = _mend_store(plan, folder, layout, name, found)
     elif not (intact and len(done) == plan.count):
         (path / "parts").mkdir(exist_ok=True)
         done = {n: one for n, one in done.items() if folder.part_file(n).exists()}
@@ -301,7 +301,7 @@ def _carry_out(
             folder.mark(number, name, summary, files)
             done[number] = summary
             states += summary["states"]
-            cost.finished(states)
+            cost.report_finished(states)
     total = _summary(done.values())
     attrs: dict[str, object] = dict(_attributes(plan, notes, total))
     if direct:
@@ -310,7 +310,7 @@ def _carry_out(
     elif more or not intact:
         _assemble(plan, folder, layout, attrs)
         folder.record(name, plan.count)
-    write_text(path / "finished.json", sealed({"study": name, **total}))
+    write_text(path / "finished.json", sealed_text({"study": name, **total}))
     folder.remove_parts()
 
 
@@ -324,7 +324,7 @@ def _make_store(plan: Plan, folder: Folder, layout: Layout, name: str) -> None:
     draft.rename(folder.data)
 
 
-def _mended(plan: Plan, folder: Folder, layout: Layout, name: str, found: Found) -> _Zarr:
+def _mend_store(plan: Plan, folder: Folder, layout: Layout, name: str, found: Found) -> _Zarr:
     """The store with what belongs to no block as it was made."""
     if found.shared or found.unlabelled or not found.recorded:
         draft = folder.path / ".states.part.zarr"
@@ -347,7 +347,7 @@ def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, objec
     step = 1 if plan.reduction is None else _parts(plan)
     for first in range(0, plan.count, step):
         parts = (_load_part(folder.part_file(number)) for number in range(first, first + step))
-        arrays = next(parts) if plan.reduction is None else _reduced(plan.reduction, parts)
+        arrays = next(parts) if plan.reduction is None else _reduce_parts(plan.reduction, parts)
         store.write(_where(plan, first), arrays)
     store.label(attrs)
     store.close()

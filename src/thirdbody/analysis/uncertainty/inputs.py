@@ -17,7 +17,7 @@ from ...quantities.carried import takes_units
 from ...quantities.uncertain import are_correlated, is_uncertain
 from ...quantities.value import problem_with
 from ..inputs import Input as Moved
-from ..inputs import declared, input_of, inputs
+from ..inputs import declared_quantity, input_of, inputs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -301,14 +301,14 @@ def as_uncertain(given: Any) -> Uncertain:
     """Distribution of an input from a distribution, two ends, or a ufloat."""
     if isinstance(given, Uncertain):
         return given
-    return Uncertain.from_ufloat(given) if is_uncertain(given) else _between(*given)
+    return Uncertain.from_ufloat(given) if is_uncertain(given) else _uniform_between(*given)
 
 
-def _between(low: float, high: float) -> Uncertain:
+def _uniform_between(low: float, high: float) -> Uncertain:
     return Uncertain.uniform(low=low, high=high)
 
 
-def _correlated(inputs: Mapping[str, object], where: str) -> list[str]:
+def _correlated_inputs(inputs: Mapping[str, object], where: str) -> list[str]:
     """Ufloats that rest on the same measurement, which no two inputs here may."""
     told = [(label, given) for label, given in inputs.items() if is_uncertain(given)]
     return [
@@ -360,7 +360,7 @@ def drawn_inputs(
     moved: list[Moved | str] = []
     known: list[Uncertain] = []
     taken: dict[str, str] = {}
-    problems = _correlated(inputs, where)
+    problems = _correlated_inputs(inputs, where)
     if not inputs:
         problems.append(
             is_empty("vary", 'say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}')
@@ -404,7 +404,8 @@ def drawn_inputs(
                 problems.append(Problem(place, rule, code=Mistake.CLASH))
             taken[name] = label
         problems += [
-            Problem(place, f": {text}", code=text.code) for text in _beyond(contact, each, one)
+            Problem(place, f": {text}", code=text.code)
+            for text in _range_problems(contact, each, one)
         ]
         moved.append(each)
         known.append(one)
@@ -413,7 +414,7 @@ def drawn_inputs(
     return Drawn(tuple(moved), tuple(known))
 
 
-def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[Clause]:
+def _range_problems(contact: Contact, moved: Moved | str, known: Uncertain) -> list[Clause]:
     """Why the ends of a distribution cannot stand for the input."""
     for end in (known.quantile(0.0), known.quantile(1.0)):
         if isinstance(moved, str):
@@ -421,7 +422,9 @@ def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[Clau
             why = Mistake.RANGE.clause("must be > 0") if low else None
         else:
             values = moved.numbers_at((end - moved.values[0]) / moved.scales[0])
-            found = (problem_with(declared(contact, n), float(v)) for n, v in values.items())
+            found = (
+                problem_with(declared_quantity(contact, n), float(v)) for n, v in values.items()
+            )
             why = next(filter(None, found), None)
         if why:
             cause = "; a lognormal stays positive" if known.kind == "normal" else ""

@@ -24,14 +24,14 @@ from ...contact.broken_averages import roughly
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.critical_loads import CRITICAL, critical_loads
-from ...equilibrium.crowding import crowded
+from ...equilibrium.crowding import is_crowded
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities import notebook
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
-from ...quantities.progress import watched
+from ...quantities.progress import watch_contacts
 from ...quantities.record import Record
 from ...quantities.say import percent
 from ...quantities.uncertain import uncertain_number
@@ -51,7 +51,7 @@ from .samples import (
     columns_of_loads,
     critical_of,
     crowded_samples,
-    evaluated,
+    evaluate_samples,
     output_of,
     outputs_of,
     points_of,
@@ -290,7 +290,7 @@ class Propagation(Record):
             if about_loads(names) and not critical:
                 critical = critical_of(self.contact, self.load, vary, count)
                 self._critical_at_ends[probabilities] = critical
-            solved = evaluated(self.contact, self.load, load, vary, count, names, critical)
+            solved = evaluate_samples(self.contact, self.load, load, vary, count, names, critical)
         out = {
             name: {
                 label: (float(solved[name][2 * j]), float(solved[name][2 * j + 1]))
@@ -364,7 +364,7 @@ class Propagation(Record):
         asked = about_loads(names)
         with roughly():
             critical = critical_of(self.contact, self.load, vary, len(u)) if asked else {}
-            solved = evaluated(self.contact, self.load, load, vary, len(u), names, critical)
+            solved = evaluate_samples(self.contact, self.load, load, vary, len(u), names, critical)
         out: dict[str, dict[str, dict[str, float]]] = {}
         for name in names:
             values = solved[name]
@@ -539,7 +539,7 @@ def propagate(
     first_few = np.arange(len(u)).reshape(REPLICATES, each)[:, :few]
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
-    with watched("propagate", len(u), progress):
+    with watch_contacts("propagate", len(u), progress):
         critical = _sought(contact, sought, some, first_few)
         found = _Bands(names, probabilities, first_few, critical, contact)
         of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
@@ -556,7 +556,7 @@ def propagate(
         tell_of_range(sentence)
     fixed = {name for name in names if name in CRITICAL}
 
-    def shaped(table: Mapping[str, Sequence[object]]) -> dict[str, object]:
+    def shape_columns(table: Mapping[str, Sequence[object]]) -> dict[str, object]:
         flat = {n for n in table if one or n in fixed}
         return {n: part[0] if n in flat else np.array(part) for n, part in table.items()}
 
@@ -569,11 +569,11 @@ def propagate(
         critical_samples=first_few.size if sought else 0,
         seed=int(seed),
         probabilities=probabilities,
-        nominal=shaped(found.nominal),
-        bands=shaped(found.bands),
-        error=shaped(found.errors),
-        mode_probability=shaped(found.modes),
-        mode_error=shaped(found.mode_errors),
+        nominal=shape_columns(found.nominal),
+        bands=shape_columns(found.bands),
+        error=shape_columns(found.errors),
+        mode_probability=shape_columns(found.modes),
+        mode_error=shape_columns(found.mode_errors),
         critical_status=found.critical.statuses,
         solved=found.solved[0] if one else np.array(found.solved),
         crowded=found.crowded[0] if one else np.array(found.crowded),
@@ -655,7 +655,7 @@ class _Bands:
             self.modes[mode].append(float(share.mean()))
             self.mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
         self.solved.append(float(np.mean(np.isfinite(state["d"]))))
-        self.crowded.append(float(np.mean(crowded(self.contact, state["A_t"]))))
+        self.crowded.append(float(np.mean(is_crowded(self.contact, state["A_t"]))))
 
 
 def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propagation]:
@@ -690,7 +690,7 @@ def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propaga
                 mode_error=dict.fromkeys(MODES_OR_NONE, 0.0),
                 critical_status=statuses,
                 solved=1.0,
-                crowded=float(crowded(contact, state["A_t"])[0]),
+                crowded=float(is_crowded(contact, state["A_t"])[0]),
             )
         )
     return out

@@ -218,7 +218,7 @@ def critical_of(contact: Contact, load: str, vary: Arrays, count: int) -> Arrays
     return {name: v[0] for name, v in critical_loads(contact, vary=rest, count=count).items()}
 
 
-def evaluated(
+def evaluate_samples(
     contact: Contact,
     load: str,
     value: float,

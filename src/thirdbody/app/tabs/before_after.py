@@ -11,7 +11,7 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ...quantities.say import number, percent, signed
+from ...quantities.say import number, percent, signed_number
 from ...study import Study, run_film
 from ...views.film_words import point as film_point
 from ..examples import EXAMPLES, example
@@ -144,7 +144,11 @@ def _change(points: tuple[tb.Equilibrium, tb.Equilibrium], column: str) -> str:
     old, new = (float(getattr(each, column)) for each in points)
     if not (np.isfinite(old) and np.isfinite(new)) or old <= 0 or old == new:
         return ""
-    return f"×{number(new / old, 3)}" if new > 2 * old else signed(100 * (new / old - 1), 1, "%")
+    return (
+        f"×{number(new / old, 3)}"
+        if new > 2 * old
+        else signed_number(100 * (new / old - 1), 1, "%")
+    )
 
 
 def _sentence(points: tuple[tb.Equilibrium, tb.Equilibrium]) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 from nicegui import ui
 
 from ...equilibrium.words import load_of
-from ...quantities.say import number, percent, signed, value_of
+from ...quantities.say import number, percent, signed_number, value_of
 from ..figures import AXES, SCALES, Figure, figure, line
 from ..state import Answer, State, loads_as
 from ..widgets import plot_place, set_attributes
@@ -124,7 +124,7 @@ def _table(found: Laws, place: ui.element) -> None:
             {
                 "law": law,
                 "A_t": number(one.get("A_t")),
-                "difference": signed(difference, 1, "%") if difference else "",
+                "difference": signed_number(difference, 1, "%") if difference else "",
                 "pressure": value_of(one.get("mean_pressure"), "Pa"),
                 "d": number(one.get("d_star")),
                 "plastic": percent(one.get("plastic_share")),

@@ -10,7 +10,7 @@ from nicegui import ui
 from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
 from ...quantities.plain_data import plain_data
-from ...quantities.say import number, prefixed
+from ...quantities.say import number, readable_unit
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, text_of, value_from
 from ..figures import GREY, Figure, Part, band, escape_tags, figure, line, symbol
@@ -69,7 +69,7 @@ def design_figure(
     every = found["points"][variable]
     words = any(isinstance(item, str) for item in every)
     x = np.array([escape_tags(str(item)) for item in every]) if words else np.array(every, float)
-    size, name = (1.0, "") if words else prefixed(float(np.max(np.abs(x))), unit)
+    size, name = (1.0, "") if words else readable_unit(float(np.max(np.abs(x))), unit)
     x = x if words else x / size
     y = np.array(found["points"][objective], float)
     good = np.array(found["points"]["feasible"], np.bool_)

@@ -8,7 +8,7 @@ import numpy as np
 from nicegui import ui
 from numpy.typing import ArrayLike
 
-from ...quantities.say import percent, prefixed, value_of
+from ...quantities.say import percent, readable_unit, value_of
 from ...study.one_surface import POINTS
 from ..figures import INKS, Figure, Part, figure, line
 from ..state import Answer, State
@@ -45,7 +45,7 @@ def pressure_figure(found: Pressing) -> Figure:
     """Pressure on the surface, and the particles that carry in true size."""
     pressed = np.array(found["pressure"], float)
     top = max(float(pressed.max()), 1.0)
-    shown, unit = prefixed(top, "Pa")
+    shown, unit = readable_unit(top, "Pa")
     pressed *= shown / top
     step = 1e6 * found["spacing"]
     rows = [[round(v, 4) if v > 0 else None for v in row] for row in pressed.tolist()]

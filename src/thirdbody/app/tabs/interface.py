@@ -15,12 +15,12 @@ from ...equilibrium.columns import COLUMNS
 from ...equilibrium.words import (
     MODES,
     NO_CONTACT,
-    carried,
     is_rare,
     load_of,
     meets,
     mode_among,
     mode_of,
+    particle_share_text,
     two_bodies,
 )
 from ...errors import InvalidValue
@@ -68,7 +68,7 @@ def headline(point: tb.Equilibrium, held: float = math.inf) -> str:
     if point.contact.two_body:
         return f"At {load} {two_bodies()}."
     parts = {part.name: _one(part.load_share) for part in point.populations}
-    share = carried(_one(point.particle_load_share), parts if len(parts) > 1 else None)
+    share = particle_share_text(_one(point.particle_load_share), parts if len(parts) > 1 else None)
     mode = str(point.mode) or None
     if is_rare(mode, held):
         how = mode_among(mode, held)

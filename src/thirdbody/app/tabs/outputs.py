@@ -16,7 +16,7 @@ import thirdbody as tb
 from ...analysis.uncertainty.propagation import about_result
 from ...contact.output import AbstractOutput
 from ...equilibrium.columns import about
-from ...quantities.say import prefixed, value_of
+from ...quantities.say import readable_unit, value_of
 from ..figures import (
     AXES,
     SCALES,
@@ -100,7 +100,7 @@ def _figure(answer: Answer, columns: list[str], unit: str, what: str, title: str
     values = [np.asarray(answer.curves.outputs[column], dtype=float) for column in columns]
     every = np.concatenate(values)
     every = every[np.isfinite(every) & (every != 0)]
-    size, name = prefixed(float(np.abs(every).max()) if len(every) else 1.0, unit)
+    size, name = readable_unit(float(np.abs(every).max()) if len(every) else 1.0, unit)
     matters = upper_decades(values)
     wide = len(every) > 0 and every.min() > 0 and matters.max() > WIDE_FROM * matters.min()
     names = [f"{symbol(about(c).symbol)}: {escape_tags(about(c).meaning)}" for c in columns]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ...equilibrium.words import load_of
 from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...quantities.progress import heartbeat
-from ...quantities.say import number, percent, signed, value_of
+from ...quantities.say import number, percent, signed_number, value_of
 from ...quantities.tables import Table
 from ..options import (
     Force,
@@ -79,7 +79,7 @@ class Options:
 
 def command(options: Options) -> None:
     """A study under every asperity law, beside its own."""
-    from ...analysis.compare import Persson, compared
+    from ...analysis.compare import Persson, comparison_of
     from ..own_files import refuse_strangers
 
     problems: list[str] = []
@@ -98,7 +98,7 @@ def command(options: Options) -> None:
     if not options.force:
         refuse_strangers(options.out, "compare.csv", "compare.png", "compare.svg")
     with heartbeat("compare"):
-        found = compared(asked.contact, **_equal_loads(asked), laws=_words(options.names))
+        found = comparison_of(asked.contact, **_equal_loads(asked), laws=_words(options.names))
     warn_of(filter(None, found.attrs["warnings"].splitlines()))
     reasons = found.columns["status"]
     of_laws = [law != Persson.name for law in found.laws]
@@ -195,7 +195,7 @@ def _answer(found: Comparison, index: int) -> list[str]:
     told = [f"{percent(columns['A_t'][i])} ({laws[i]})" for i in (low, high)]
     out = f"By the choice of a law the real area is between {' and '.join(told)} of the nominal one"
     if own in known:
-        away = [signed(columns["A_t_difference"][i], 1, "%") for i in (low, high)]
+        away = [signed_number(columns["A_t_difference"][i], 1, "%") for i in (low, high)]
         out += f", {' to '.join(away)} about {laws[own]}"
     if "particle_load_share" not in columns:
         return [f"{out}."]
@@ -231,10 +231,10 @@ def _table(found: Comparison, index: int) -> tuple[list[str], list[list[str]], l
         out = [
             law,
             number(value["A_t"]),
-            "" if first else signed(value["A_t_difference"], 1, "%"),
+            "" if first else signed_number(value["A_t_difference"], 1, "%"),
             value_of(value["mean_pressure"], "Pa"),
             number(value["d_star"]),
-            "" if first else signed(value["d_star_difference"], 3),
+            "" if first else signed_number(value["d_star_difference"], 3),
         ]
         shares = ["elastic_share", "elastoplastic_share", "plastic_share"]
         shares += ["particle_load_share"] if particles else []

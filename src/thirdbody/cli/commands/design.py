@@ -197,13 +197,13 @@ class _Words:
     def amount(self, name: str, value: Any) -> str:
         """A value of a variable."""
         from ...analysis.design.search import AMOUNT
-        from ...analysis.inputs import declared
+        from ...analysis.inputs import declared_quantity
 
         if name == AMOUNT and self.fluid is not None:
             return concentration_of(float(value), self.fluid.by)
         if not isinstance(value, (int, float)):
             return value if isinstance(value, str) else str(value.name)
-        return value_of(value, declared(self.contact, name.split("+")[0])["unit"], 3)
+        return value_of(value, declared_quantity(self.contact, name.split("+")[0])["unit"], 3)
 
     def answer(self) -> list[str]:
         """What to take, or why nothing obeys the limits."""

@@ -14,7 +14,7 @@ import typer
 from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.plain_data import plain_data
 from ...quantities.progress import heartbeat
-from ...quantities.say import number, percent, signed, value_of
+from ...quantities.say import number, percent, signed_number, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, not_a_folder, option, read_study
 from ..show import terminal
@@ -165,7 +165,7 @@ def _show(data: dict[str, Any], heading: str) -> None:
             cells.append(_cell(name, table[f"{name}_statistical"][i], None))
             if synthetic and many:
                 away = table[f"{name}_difference"][i]
-                cells.append("-" if away is None else f"{signed(away, 1)} errors")
+                cells.append("-" if away is None else f"{signed_number(away, 1)} errors")
             grid.add_row(*cells)
     console.print(grid)
     seats = data["seats"]

@@ -14,7 +14,7 @@ from ...equilibrium.words import (
     critical_load,
     critical_name,
     happens,
-    unsolved,
+    unsolved_sentences,
 )
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
@@ -142,7 +142,7 @@ def _show(result: StudyResult) -> None:
         console.print(_output_table(states))
     if total > MOST_ROWS:
         console.print(f"{MOST_ROWS} of {total} states shown; --csv FILE writes all\n")
-    for sentence in [*unsolved(states.status), *uncertainty(result)]:
+    for sentence in [*unsolved_sentences(states.status), *uncertainty(result)]:
         console.print(sentence)
     if not contact.two_body:
         console.print(_transition_table(result.transitions, contact.E_ss))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue
 from ...quantities.plain_data import plain_data
-from ...quantities.say import number, signed, value_of
+from ...quantities.say import number, signed_number, value_of
 from ...quantities.tables import Table
 from ..options import Force, JsonFile, ParquetFile, XlsxFile, argument, metres, not_a_folder, option
 from ..show import ALL, terminal
@@ -200,7 +200,7 @@ def _in_one_sentence(found: Topography, cutoff: float) -> str:
     )
     if change[near] != change[near]:
         return f"{told}."
-    return f"{told}; twice the cut-off changes R by {signed(100 * change[near], 0, '%')}."
+    return f"{told}; twice the cut-off changes R by {signed_number(100 * change[near], 0, '%')}."
 
 
 def _what_was_read(found: Topography, result: dict[str, Any]) -> list[str]:
@@ -277,6 +277,6 @@ def _course(found: Topography, curve: dict[str, Any]) -> Table:
             value_of(curve["R_counted"][i], "m"),
             value_of(curve["eta"][i], "1/m^2"),
             value_of(curve["eta_counted"][i], "1/m^2"),
-            signed(100 * change[i], 0, "%"),
+            signed_number(100 * change[i], 0, "%"),
         )
     return course

@@ -84,9 +84,9 @@ def command(options: Options) -> None:
     _need_files(files, plan, options.study, options.settings, options.force)
     client = None
     if options.scheduler is not None:
-        from ...quantities.sharing import connected
+        from ...quantities.sharing import connect_client
 
-        client = connected(options.scheduler)
+        client = connect_client(options.scheduler)
     try:
         folder = run(
             plan,
@@ -234,7 +234,7 @@ def _answer(data: xarray.Dataset) -> list[str]:
 
 def _tell_warnings(folder: Folder) -> None:
     """What a finished sweep warns of, and how many states it has."""
-    summary = folder.finished
+    summary = folder.finished_summary
     assert summary is not None
     unsolved = f", {summary['unsolved']:,} without equilibrium" if summary["unsolved"] else ""
     with folder.open() as data:

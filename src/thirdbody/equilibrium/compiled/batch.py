@@ -122,7 +122,7 @@ class _Batch:
         if not given and len(self.rows.interfaces) == 1 and count >= SCANNED:
             scan = self._scan(target)
 
-        def part(start: int) -> None:
+        def solve_part(start: int) -> None:
             here = slice(start, start + AT_ONCE)
             solve_states(
                 *self.rows.arrays,
@@ -134,12 +134,12 @@ class _Batch:
 
         starts = range(0, count, AT_ONCE)
         if (workers := min(threads(), len(starts))) > 1:
-            part(0)  # compiled once, not by every thread
+            solve_part(0)  # compiled once, not by every thread
             with ThreadPoolExecutor(workers) as pool:
-                list(pool.map(part, starts[1:]))
+                list(pool.map(solve_part, starts[1:]))
         else:
             for start in starts:
-                part(start)
+                solve_part(start)
         columns = np.ascontiguousarray(rows.T)
         F, *areas = columns[:4]
         fields = dict(zip(FIELDS[4:], columns[4:], strict=True))

@@ -66,7 +66,7 @@ def asperity_series(skin: FieldSum) -> PiecewiseChebyshev:
     if isinstance(skin, LiftedSum):
         # where asperities on lifted ground are at a knot of theirs, and the knots of the lift
         h = np.linspace(lowest, highest, 40 * GRID)
-        lifted = skin.lifted(h)
+        lifted = skin.lifted_separations(h)
         turns = np.flatnonzero(np.diff(np.searchsorted(np.sort(knots), lifted)))
         marks = [0.5 * (h[turns] + h[turns + 1]), skin.ground.h]
     marks.append(_kinks(columns, lowest, min(highest, float(surface.h[-1]) + 1)))
@@ -113,7 +113,7 @@ def grounded_series(part: GroundedPart) -> PiecewiseChebyshev | None:
         return None
 
     def columns(gap: Array) -> Array:
-        return part.reduced(part.scale * gap - part.offset)
+        return part.reduced_columns(part.scale * gap - part.offset)
 
     d = skin.sigma * h - skin.rough.y_s + skin.centre
     edges = (d + part.offset) / part.scale

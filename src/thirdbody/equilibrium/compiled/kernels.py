@@ -248,7 +248,7 @@ def _below_bottom(bottom, weights, sizes, count, gap, inverse):
 
 
 @sums
-def _weighted(rule, nodes, moments, inverse, shadow, every, out):
+def _add_weighted(rule, nodes, moments, inverse, shadow, every, out):
     """Add Σ c m over a rule: load and shadow with two derivatives, or every column."""
     norm = inverse / math.sqrt(2 * math.pi)
     m1, m2 = ahead(moments, nodes), ahead(moments, 2 * nodes)
@@ -292,7 +292,7 @@ def _rough_nodes(state, part, gap, shadow, every, few, out, each):
         rule, nodes = _gaps(state, part, YES)
         moments = numbers(record(state.work, 0), "sums")
         _spread(ahead(rule, AT * nodes), nodes, weights, sizes, count, gap, inverse, moments)
-        _weighted(rule, nodes, moments, inverse, shadow, every, out)
+        _add_weighted(rule, nodes, moments, inverse, shadow, every, out)
     else:
         for n in range(count):
             size = sizes[n]

@@ -146,7 +146,7 @@ class Panels:
     ) -> tuple[int, int]:
         """Begin and end of a function: what the balance needs of it, and its first columns."""
         if key not in self._known:
-            self._append(key, _laid(function, load, function.coefficients[:, :, :columns]))
+            self._append(key, _lay_panels(function, load, function.coefficients[:, :, :columns]))
         return self._known[key]
 
     def _append(self, key: Hashable, panels: Records) -> None:
@@ -174,13 +174,13 @@ class Panels:
         load = load.reshape(*load.shape[:2], -1)
         return self.add((id(function), shadow), function, load, len(COLUMNS))
 
-    def laid(self) -> tuple[Records, Records]:
+    def all_panels(self) -> tuple[Records, Records]:
         """All panels, and all inverses."""
         panels = np.concatenate([*self._panels, np.zeros(1, PANEL)])
         return panels, np.concatenate([*self._inverses, np.zeros(0, INVERSE)])
 
 
-def _laid(function: PiecewiseChebyshev, load: Array, every: Array) -> Records:
+def _lay_panels(function: PiecewiseChebyshev, load: Array, every: Array) -> Records:
     """Panels (P, ..., terms, columns), the middle axes one after another."""
     panels = np.zeros(load.shape[:-2], PANEL)
     panels["load"][..., : load.shape[-1], :] = load.swapaxes(-1, -2)
@@ -194,7 +194,7 @@ def _laid(function: PiecewiseChebyshev, load: Array, every: Array) -> Records:
 def _family(family: GaussianSums) -> Records:
     """The sums over Gaussian heights for half an octave of w."""
     every = family.coefficients
-    return _laid(family.table, every[..., [0, 4, 5]], every[..., :4])
+    return _lay_panels(family.table, every[..., [0, 4, 5]], every[..., :4])
 
 
 @lru_cache(maxsize=128)
@@ -241,6 +241,6 @@ class Rules:
         self._count += rows.size
         return out
 
-    def laid(self) -> Array:
+    def all_rules(self) -> Array:
         """All rules."""
         return np.concatenate([*self._rules, np.zeros(0)])

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ahead",
-    "apart",
     "exact",
     "exp",
     "inlined",
+    "keep_apart",
     "normal_cdf",
     "numbers",
     "pointer",
@@ -109,7 +109,7 @@ def numbers(typingctx: Context, record: types.Record, name: types.StringLiteral)
 
 
 @intrinsic
-def apart(typingctx: Context) -> Typed:
+def keep_apart(typingctx: Context) -> Typed:
     """Keep the function that calls this one: optimised once, not again in each caller."""
 
     def codegen(context, builder, signature, args):

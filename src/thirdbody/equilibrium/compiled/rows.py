@@ -73,9 +73,9 @@ class Rows:
         self._panels, self._rules = layout.Panels(), layout.Rules()
 
     def _finish(self) -> None:
-        self.panels, self.inverses = self._panels.laid()
+        self.panels, self.inverses = self._panels.all_panels()
         self.edges = self.panels["edge"].copy()
-        self.rules, self.own = self._rules.laid(), self._rules.own
+        self.rules, self.own = self._rules.all_rules(), self._rules.own
 
     @property
     def arrays(self) -> tuple[np.ndarray, ...]:
@@ -237,7 +237,7 @@ class StateRows(Rows):
         if any(name.startswith(MATERIALS) for name in arrays):
             raise NotCompiled("the materials of the particles vary")
         own = law.seat == "rough" and own_sizes(contact, arrays)
-        parts = self._sized if own else self._averaged
+        parts = self._part_by_sizes if own else self._averaged_parts
         coverage = np.zeros(len(self.parts))
         for p, (covers, part) in enumerate(parts(contact, arrays)):
             coverage += covers
@@ -251,7 +251,7 @@ class StateRows(Rows):
         shared: Fields = {"shadow": _column(law.shadow)}
         return shared | ({"coverage": self.covered} if law.shadow == "covered" else {})
 
-    def _averaged(
+    def _averaged_parts(
         self, contact: Contact, arrays: Mapping[str, Array]
     ) -> Iterator[tuple[Array | float, Fields]]:
         """Parts of one material and shape, by size averages that all states share.
@@ -328,7 +328,7 @@ class StateRows(Rows):
             "near": _records_of(octave, reach, np.dtype(float)),
         }
 
-    def _sized(
+    def _part_by_sizes(
         self, contact: Contact, arrays: Mapping[str, Array]
     ) -> Iterator[tuple[Array | float, Fields]]:
         """One part whose shape of sizes varies, on a rough seat: nodes over sizes for each state.

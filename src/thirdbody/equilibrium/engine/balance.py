@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from ..compiled.cached import Cached
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .breakage import lay_tension, lay_whole
 from .cells import add_cells, empty_slots
 from .curves import (
@@ -139,7 +139,7 @@ def _add_part(given, work, laid, p, own, d, rule, out):
 
     ``own`` is what is laid of it on this level, and ``laid`` of all.
     """
-    apart()
+    keep_apart()
     _, sides, panels, grid, sizes, shares, _, _, sums, way = work
     gap = d + given[p, OFFSET]
     if given[p, SHADOW] == COVERED:
@@ -168,7 +168,7 @@ def _add_part(given, work, laid, p, own, d, rule, out):
 @scalar
 def total(given, skin, work, laid, rules, level, h, out):
     """Columns at h [σ_s] by the nodes of a level; the load, or NaN where formulas do not reach."""
-    apart()
+    keep_apart()
     heights, coating = work[0], work[7]
     for k in range(10):
         out[k] = 0.0
@@ -194,7 +194,7 @@ def total(given, skin, work, laid, rules, level, h, out):
 @scalar
 def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
-    apart()
+    keep_apart()
     heights, sides, panels, grid, sizes, shares, _, coating, _, way = work
     last, good = len(given), True
     place = size = begin = kept = piece = 0
@@ -259,7 +259,7 @@ def lay(given, skin, work, laid, rules, level):
 @scalar
 def top_of(given, skin):
     """Highest separation [σ_s] at which anything is carried."""
-    apart()
+    keep_apart()
     top = HIGHEST
     for p in range(len(given)):
         reach = given[p, HIGH] + given[p, BEYOND] - given[p, OFFSET] + 9.5 * given[p, WIDTH]
@@ -284,7 +284,7 @@ def search(given, skin, work, laid, rules, target, out):
 
     Where formulas do not reach, particles are squeezed further than they go: the root is above.
     """
-    apart()
+    keep_apart()
     few = laid.shape[1] - 2
     high, low = top_of(given, skin), LOWEST
     f_high, f_low = -800.0, math.inf
@@ -339,7 +339,7 @@ def search(given, skin, work, laid, rules, target, out):
 @scalar
 def polish(given, skin, work, laid, rules, target, h, slope, out):
     """Root by all nodes from a close one: separation, slope of ln F, evaluations; NaN if none."""
-    apart()
+    keep_apart()
     few = laid.shape[1] - 2
     best, best_f = math.nan, math.inf
     old_h = old_f = math.nan
@@ -391,7 +391,7 @@ def _stays_below(given, skin, work, laid, rules, target, h, out):
 
     It must fall in every step until it is 3 % below, and stay there until no more can be carried.
     """
-    apart()
+    keep_apart()
     few, sigma_s, last = laid.shape[1] - 2, skin[0, SIGMA_S], len(given)
     top = top_of(given, skin)
     for p in range(last):
@@ -429,7 +429,7 @@ def _come_down(given, skin, work, laid, rules, target, out):
     Steps over which the load provably stays below it; NaN where none is found, and −∞ where
     there is none.
     """
-    apart()
+    keep_apart()
     every = laid.shape[1] - 1
     sigma_s, nodes = skin[0, SIGMA_S], int(rules[every, 0, NODES])
     high = top_of(given, skin)
@@ -472,7 +472,7 @@ def _come_down(given, skin, work, laid, rules, target, out):
 @scalar
 def estimate(given, skin, work, laid, rules, h, slope, row, out):
     """Error of the columns at h, from what few nodes give there, over what is asked of each."""
-    apart()
+    keep_apart()
     few = laid.shape[1] - 2
     total(given, skin, work, laid, rules, few, h, out)
     load = (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA]
@@ -503,7 +503,7 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
 @scalar
 def _root(given, skin, work, laid, rules, target, row, out):
     """The highest separation that carries the target, the slope there, evaluations and fate."""
-    apart()
+    keep_apart()
     every = laid.shape[1] - 1
     h, slope, count = search(given, skin, work, laid, rules, target, out)
     if h == -math.inf:
@@ -533,7 +533,7 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
 
     ``ready`` (1,) is the level whose nodes are laid for this contact, or `NOTHING`.
     """
-    apart()
+    keep_apart()
     last, few = len(given), laid.shape[1] - 2
     if ready[0] == NOTHING:
         for p in range(last):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart, exp
+from ..compiled.machine import exp, keep_apart
 from .curves import (
     AREA_1,
     AREA_2,
@@ -45,7 +45,7 @@ from .fields import (
     UNBROKEN,
 )
 from .shares import fill_particles, particle_at
-from .sides import chord, exact, narrowed, scalar
+from .sides import chord, exact, narrow_ends, scalar
 
 __all__ = ["is_held", "lay_tension", "lay_whole", "mark_sizes"]
 
@@ -66,9 +66,9 @@ which on nothing is whole."""
 
 
 @scalar
-def confined(inside, s):
+def confined_tension(inside, s):
     """G: the largest tension over that of small caps under the same load, of a cap s."""
-    apart()
+    keep_apart()
     q = s * s
     c = math.sqrt(max(1 - q, 0.0))
     centre = 4 / math.pi * (1.25 * inside[0, K_FACTOR] * c - 1 / (1 + c))
@@ -92,15 +92,15 @@ def cap_of(area):
 @scalar
 def fill_tensions(given, sides, panels, p, n, count, inside):
     """σ_t of a particle on panel n [Pa], as `fill_particles`, in place of its load."""
-    apart()
+    keep_apart()
     fill_particles(given, sides, panels, p, n, count)
     if inside[0, CONFINED] == 0:
         return
     room = panels[p, len(panels[p]) - ROOM :]
     for j in range(count):
-        first = second = confined(inside, cap_of(room[AREA_1, j]))
+        first = second = confined_tension(inside, cap_of(room[AREA_1, j]))
         if given[p, EQUAL] != 1:
-            second = confined(inside, cap_of(room[AREA_2, j]))
+            second = confined_tension(inside, cap_of(room[AREA_2, j]))
         room[LOAD, j] *= 0.5 * (first + second)
 
 
@@ -111,7 +111,7 @@ def _cut(panels, p, count, eps, kinked):
     Both parts keep the series of the tension on the whole, but for the first panel, whose variable
     is another. ``kinked`` says whether a formula changes there, of how many generations ago.
     """
-    apart()
+    keep_apart()
     n = 0
     while n < count and panels[p, n, TO] < eps:
         n += 1
@@ -136,7 +136,7 @@ def _cut(panels, p, count, eps, kinked):
 @scalar
 def _cap_at(given, sides, panels, p, n, eps, side):
     """Cap on one side at ε on panel n."""
-    apart()
+    keep_apart()
     found = particle_at(given, sides, panels, p, n, eps)
     return cap_of(found[1] if side == 0 else found[2])
 
@@ -144,7 +144,7 @@ def _cap_at(given, sides, panels, p, n, eps, side):
 @scalar
 def _reaches(given, sides, panels, p, n, side, s, f_high):
     """ε on panel n at which the cap is s, which it exceeds by ``f_high`` at the end: by chords."""
-    apart()
+    keep_apart()
     low, high = panels[p, n, EDGE], panels[p, n, TO]
     f_low = (_cap_at(given, sides, panels, p, n, low, side) if low > 0 else 0.0) - s
     last = 0
@@ -153,7 +153,7 @@ def _reaches(given, sides, panels, p, n, side, s, f_high):
             break
         eps = chord(low, f_low, high, f_high, step)
         f = _cap_at(given, sides, panels, p, n, eps, side) - s
-        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, eps, f)
+        low, f_low, high, f_high, last = narrow_ends(low, f_low, high, f_high, last, eps, f)
         if 0 <= f < 1e-14:
             break
     return high
@@ -162,7 +162,7 @@ def _reaches(given, sides, panels, p, n, side, s, f_high):
 @scalar
 def _cut_at_bends(given, sides, panels, p, count, inside):
     """Panels cut where a cap reaches a bend of G; their number."""
-    apart()
+    keep_apart()
     for side in range(1 if given[p, EQUAL] == 1 else 2):
         n, k = int(panels[p, 0, EDGE]), 0  # 0, and no constant
         while n < count and k < int(inside[0, BENDS]):
@@ -188,7 +188,7 @@ def _place_on(panels, p, n, eps):
 @scalar
 def _sum_series(panels, p, n, x):
     """Sum of the series on panel n."""
-    apart()
+    keep_apart()
     b, c = 0.0, 0.0
     for k in range(TERMS - 1, 0, -1):
         b, c = panels[p, n, TENSION + k] + 2 * x * b - c, b
@@ -204,7 +204,7 @@ def _pull_at(panels, p, n, eps):
 @scalar
 def _fill_tension(given, sides, panels, p, n, rule, inside):
     """Series of σ_t/ε^1.5 on panel n; the size of its last two terms over its own."""
-    apart()
+    keep_apart()
     first, last, most = panels[p, n, EDGE], panels[p, n, TO], 0.0
     panels[p, n, RATE] = 1.0
     if first > 0:
@@ -226,7 +226,7 @@ def _fill_tension(given, sides, panels, p, n, rule, inside):
 @scalar
 def _take_logarithm(panels, p, n, rule):
     """Series of ln(σ_t/ε^1.5) on panel n in place of that of σ_t/ε^1.5."""
-    apart()
+    keep_apart()
     found = panels[p, len(panels[p]) - 1, :TERMS]  # room behind the panels
     for j in range(TERMS):
         found[j] = math.log(max(_sum_series(panels, p, n, rule[0, j]), 1e-300))
@@ -239,7 +239,7 @@ def _fill(given, sides, panels, p, count, rule, inside):
 
     How many panels there are then, or −1 where there is no room.
     """
-    apart()
+    keep_apart()
     step = 2 ** min(1.0, STEEP / given[p, MODULUS])
     n = int(panels[p, 0, EDGE])  # 0, and no constant
     while n < count:
@@ -264,7 +264,7 @@ def _fill(given, sides, panels, p, count, rule, inside):
 @scalar
 def _peak(panels, p, n, low, high):
     """ε between two at which the tension is largest, by golden sections."""
-    apart()
+    keep_apart()
     part = 0.5 * (math.sqrt(5.0) - 1)
     a, b = high - part * (high - low), low + part * (high - low)
     f_a, f_b = _pull_at(panels, p, n, a), _pull_at(panels, p, n, b)
@@ -288,7 +288,7 @@ def _find_held(given, sides, panels, p, count, rule, inside):
 
     By its series; −1 where there is no room.
     """
-    apart()
+    keep_apart()
     n, most = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
     while n < count:
         if panels[p, n, RATE] == 0:
@@ -340,7 +340,7 @@ def _find_held(given, sides, panels, p, count, rule, inside):
 @scalar
 def met_on(panels, p, n, eps):
     """ln σ̂ at ε on panel n."""
-    apart()
+    keep_apart()
     if panels[p, n, PULLED] > 0:
         return panels[p, n, TENSION]
     return _sum_series(panels, p, n, _place_on(panels, p, n, eps)) + 1.5 * math.log(eps)
@@ -349,7 +349,7 @@ def met_on(panels, p, n, eps):
 @scalar
 def met(panels, p, count, eps):
     """ln σ̂ of a particle squeezed by ε > 0; constant behind the last panel."""
-    apart()
+    keep_apart()
     low, high = 0, count - 1
     if eps >= panels[p, high, TO]:
         eps, low = panels[p, high, TO], high
@@ -365,7 +365,7 @@ def met(panels, p, count, eps):
 @scalar
 def is_held(given, panels, p, count, first, n):
     """Whether panel n is held by the tension that holds panel ``first``, and its parents too."""
-    apart()
+    keep_apart()
     held = panels[p, first, PULLED]
     if held == 0 or panels[p, n, PULLED] != held:
         return False
@@ -374,7 +374,7 @@ def is_held(given, panels, p, count, first, n):
 
 
 @scalar
-def survived(power):
+def surviving_part(power):
     """exp(−exp(power))."""
     if power < -40:
         return 1.0
@@ -384,10 +384,10 @@ def survived(power):
 @scalar
 def survival(given, p, x, log_met):
     """P_s of particles of size x that have met a tension."""
-    apart()
+    keep_apart()
     if x <= given[p, UNBROKEN]:
         return 1.0
-    return survived(
+    return surviving_part(
         given[p, MODULUS] * (log_met - given[p, LN_STRENGTH] + given[p, EXPONENT] * math.log(x))
     )
 
@@ -395,7 +395,7 @@ def survival(given, p, x, log_met):
 @exact
 def _follow(number, alive, gain, own):
     """Densities of what has arrived at a size, from those of its parents and what is whole."""
-    apart()
+    keep_apart()
     for i in range(len(number)):
         number[i] = gain * (1 - alive[i]) * number[i] + own
 
@@ -403,18 +403,18 @@ def _follow(number, alive, gain, own):
 @exact
 def _survive(tension, level, alive):
     """Parts that are whole, of the logarithms of the hazard without the size."""
-    apart()
+    keep_apart()
     for i in range(len(alive)):
         alive[i] = exp(-exp(min(max(tension[i] + level, NEVER), SURELY)))
 
 
 @scalar
-def _arrived(given, p, x, parents, until, log_met):
+def _arrived_density(given, p, x, parents, until, log_met):
     """Density of what has arrived, and the part that is whole, of the parents of a size.
 
     From the oldest down to generation ``until`` above it, all of which have met one tension.
     """
-    apart()
+    keep_apart()
     gain, number, alive = given[p, KEPT] * given[p, RATIO] ** -4, 0.0, 1.0
     for k in range(parents, until - 1, -1):
         y = x * given[p, RATIO] ** -k
@@ -441,7 +441,7 @@ def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last,
     a parent was squeezed depends on the squeeze of its pieces alone: the tensions of all
     generations are found once, at the end of ``shares``, but for those that have met the largest.
     """
-    apart()
+    keep_apart()
     ratio, m, edge = given[p, RATIO], given[p, MODULUS], panels[p, count - 1, TO]
     gain, wide, varied = given[p, KEPT] * ratio**-4, end - begin + 1, 0
     greatest, oldest = met(panels, p, count, 1.0), parents_of(given, p, given[p, LEAST]) + 1
@@ -462,7 +462,7 @@ def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last,
     for j in range(first, last):
         x = sizes[0, j]
         parents = parents_of(given, p, x)
-        arrived, whole = _arrived(given, p, x, parents, varied, greatest)
+        arrived, whole = _arrived_density(given, p, x, parents, varied, greatest)
         for i in range(wide):
             number[i], alive[i] = arrived, whole
         for k in range(min(parents, varied - 1), -1, -1):
@@ -486,7 +486,7 @@ def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last,
 @scalar
 def lay_tension(given, sides, panels, p, count, rule, inside):
     """Panels of part p with the tension on each; how many, or −1 where that does not reach."""
-    apart()
+    keep_apart()
     last = panels[p, count - 1, TO]
     if last > 1 + CLOSE:
         return -1
@@ -535,7 +535,7 @@ def _generations(given, p):
 @scalar
 def _find_least(given, panels, p, count):
     """Size below which nothing bears."""
-    apart()
+    keep_apart()
     low, ratio = max(given[p, LOW], 1e-5 * given[p, SIZE_1]), given[p, RATIO]
     given[p, LEAST] = low
     if given[p, KEPT] == 0:
@@ -554,7 +554,7 @@ def _find_least(given, panels, p, count):
 @scalar
 def mark_sizes(given, p, marks):
     """Sizes at which a number of particles or pieces jumps, in increasing order; how many."""
-    apart()
+    keep_apart()
     least, high, ratio = given[p, LEAST], given[p, HIGH], given[p, RATIO]
     marks[0], marks[1] = least, high
     count = 2

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .fields import WIDTH
 from .fragments import fill_fragments
 from .gaps import fill_gaps
@@ -45,7 +45,7 @@ def empty_slots(grid, begin, end):
 @scalar
 def _fill(given, sides, panels, p, own, grid, s, m, place, rule, sums, way):
     """Fill the nodes of cell m of segment s from a place on; where they end, or −1."""
-    apart()
+    keep_apart()
     begin, end, parts = grid[FROM, s], grid[UNTIL, s], grid[PARTS, s]
     step, last = (end - begin) / parts, m == parts - 1
     a, b = begin + m * step, end if last else begin + (m + 1) * step
@@ -62,7 +62,7 @@ def add_cells(given, sides, panels, p, own, free, grid, gap, rule, sums, way, ou
 
     ``own`` is what is laid of it, ``free`` says where nodes are free.
     """
-    apart()
+    keep_apart()
     width = given[p, WIDTH]
     low, high = gap - REACH * width, gap + REACH * width
     for s in range(own[PIECE_BEGIN], own[PIECE_END]):

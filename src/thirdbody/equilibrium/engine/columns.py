@@ -174,7 +174,7 @@ def coating_of(layer: ElasticLayer) -> Array:
     return out
 
 
-def _filled(rows: Array, values: Mapping[int, Number | NDArray[np.bool_]]) -> None:
+def _fill_columns(rows: Array, values: Mapping[int, Number | NDArray[np.bool_]]) -> None:
     for column, value in values.items():
         rows[:, column] = value
 
@@ -310,9 +310,11 @@ class Numbers:
         E, (H, nu), R = surfaces.E_star, _softer(surfaces.first, surfaces.second), radius * rough.R
         numbers, omega_1 = _law(type(own), law, R, E, H, nu)
         area, w = share * rough.density * math.pi * R * omega_1, omega_1 / rough.sigma_s
-        _filled(rows, dict(enumerate(numbers)))
-        _filled(rows, {f.W: w, f.FORCE: area * H, f.AREA: area, f.FINEST: math.inf})
-        _filled(rows, {f.SIGMA_S: rough.sigma_s, f.SIGMA: rough.sigma, **_heights(rough.heights)})
+        _fill_columns(rows, dict(enumerate(numbers)))
+        _fill_columns(rows, {f.W: w, f.FORCE: area * H, f.AREA: area, f.FINEST: math.inf})
+        _fill_columns(
+            rows, {f.SIGMA_S: rough.sigma_s, f.SIGMA: rough.sigma, **_heights(rough.heights)}
+        )
         if rows[:, f.W].min() < 1e-9 or rows[:, f.W].max() > 1e9:
             raise NotCompiled("asperities that yield at once, or never")
         if type(own) is asperity.JKR:  # stretched asperities reach above their height
@@ -338,7 +340,7 @@ class Numbers:
         self.skins = np.zeros((self.count, 1, f.OF_FIELD))
         skin = self.skins[:, 0]
         remains = remainder_height(chi, alpha) if law.remainder else 0.0
-        _filled(
+        _fill_columns(
             skin,
             {
                 **{f.CODE: f.FIELD, f.FORCE: E * rough.slope, f.AREA: 1.0, f.W: 1.0},
@@ -388,7 +390,7 @@ class Numbers:
         rows, rough = self.parts[:, p], self.varied.roughness
         breadth = 2 * varied.tip_radius if grit is None else grit.flatness**2
         width = varied.zeta_std * rough.sigma if law.seat == "rough" else 0.0
-        _filled(
+        _fill_columns(
             rows,
             {
                 **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
@@ -440,7 +442,7 @@ class Numbers:
             raise NotCompiled("particles that break, of different Poisson ratios")
         self.inside = inside
         kept = strength.bearing_share
-        _filled(
+        _fill_columns(
             rows,
             {
                 **{f.BREAKS: 1, f.MODULUS: strength.m, f.EXPONENT: strength.b, f.KEPT: kept},
@@ -464,7 +466,7 @@ class Numbers:
         rough = self.varied.roughness
         found = printed_numbers(law, self.varied.surfaces, rough, changed, x_a, mass)
         above = f.BY_APPROACH if law.plastic_weight == "xxd" else f.AS_FIRST
-        _filled(
+        _fill_columns(
             rows,
             {
                 **{f.SEAT: f.PRINTED, f.SHADOW: f.NOTHING, f.OFFSET: self.centre},
@@ -489,7 +491,7 @@ class Numbers:
         R = varied.tip_radius if grit is None else 0.5 * grit.roundness
         E, (H, nu) = reduced_modulus(surface, body), _softer(surface, body)
         numbers, delta_1 = _law(type(law.law), varied.law, R, E, H, nu)
-        _filled(rows, dict(enumerate(numbers)))
+        _fill_columns(rows, dict(enumerate(numbers)))
         falls = type(law.law) is asperity.KE and np.any(numbers[1] > MOST_K)
         if hasattr(law.law, "ratio") or falls:
             raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
@@ -506,7 +508,7 @@ class Numbers:
         if law.deep == "table" and law.soft == "squashed" and yields:
             return self._add_deep(rows, surface.H, body.H, E, H, delta_1, varied)
         full = np.where(soft, 1 / (6 * R * delta_1), 0.5 / delta_1)
-        _filled(
+        _fill_columns(
             rows,
             {
                 **{f.FORM: np.where(soft, f.SQUASHED, f.SPHERE), f.DELTA_1: delta_1, f.TIP: R},
@@ -521,7 +523,7 @@ class Numbers:
         """Fill in the rows of a side that is a tip, or a tip and faces."""
         edge = R * np.tan(grit.angle)
         faced = edge < 0.5 * grit.flatness * (1 - 1e-12)
-        _filled(
+        _fill_columns(
             rows,
             {
                 **{f.FORM: np.where(faced, f.FACED, f.SPHERE), f.DELTA_1: delta_1, f.TIP: R},
@@ -549,7 +551,7 @@ class Numbers:
         load, area = curve_rows(*cases)
         terms = f.TABLE_LOAD + f.TABLE_TERMS
         rows[:, f.TABLE_LOAD : terms], rows[:, f.TABLE_AREA : f.OF_SIDE] = load, area
-        _filled(
+        _fill_columns(
             rows,
             {
                 **{f.FORM: f.DEEP, f.DELTA_1: delta_1, f.TIP: R, f.FULL: 0.5 / delta_1},
@@ -566,7 +568,7 @@ class Numbers:
         if type(one) is sizes.Monodisperse:
             x = changed.mean
             kind = {f.KIND: f.ONE_SIZE, f.SIZE_1: x, f.LOW: x, f.HIGH: x, f.NORM: 1.0}
-            _filled(rows, kind)
+            _fill_columns(rows, kind)
             return x * x
         if type(one) is sizes.TruncatedGaussian:
             mean, std = changed.mean, changed.std
@@ -578,7 +580,7 @@ class Numbers:
             edge = [np.exp(-0.5 * u * u) / root for u in (A, B)]
             norm = 1 / (root * std * mass)
             kind = {f.KIND: f.GAUSSIAN, f.SIZE_1: mean, f.SIZE_2: std, f.NORM: norm}
-            _filled(rows, {**kind, f.LOW: low, f.HIGH: high})
+            _fill_columns(rows, {**kind, f.LOW: low, f.HIGH: high})
             if np.any(std < NARROWEST * mean):
                 raise NotCompiled("sizes that lie very close together")
             m1 = mean + std * (edge[0] - edge[1]) / mass
@@ -587,7 +589,7 @@ class Numbers:
         if type(one) is sizes.LogNormal:
             median, s = changed.median, np.log(changed.gsd)
             cut = sizes.NORMAL_CUT
-            _filled(
+            _fill_columns(
                 rows,
                 {
                     **{f.KIND: f.LOGNORMAL, f.SIZE_1: median, f.SIZE_2: s},
@@ -608,13 +610,13 @@ class Numbers:
             if np.any(high - low < NARROWEST * high):
                 raise NotCompiled("sizes that lie very close together")
             kind = {f.KIND: f.UNIFORM, f.SIZE_1: 0.5 * (low + high), f.NORM: 1 / (high - low)}
-            _filled(rows, {**kind, f.LOW: low, f.HIGH: high})
+            _fill_columns(rows, {**kind, f.LOW: low, f.HIGH: high})
             return (high**2 + high * low + low**2) / 3
         if type(one) is Power:
             low, high, slope = one
             long = math.log(high / low)
             kind = {f.KIND: f.POWER, f.SIZE_1: low, f.SIZE_2: slope + 1, f.LOW: low, f.HIGH: high}
-            _filled(rows, {**kind, f.NORM: 1 / (low * long * special.exprel(-slope * long))})
+            _fill_columns(rows, {**kind, f.NORM: 1 / (low * long * special.exprel(-slope * long))})
             ratio = special.exprel((2 - slope) * long) / special.exprel(-slope * long)
             return low**2 * float(ratio)
         raise NotCompiled("sizes of a kind that the kernel does not know")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .sides import exact, scalar, summed
 from .vectors import exp, fill_side, ln
 
@@ -50,7 +50,7 @@ JUMP, BESIDE = 1e-9, 1e-14
 @scalar
 def share_at(panels, p, n, eps):
     """Share of side 1 in a squeeze ε on panel n."""
-    apart()
+    keep_apart()
     first, last = panels[p, n, FROM], panels[p, n, UNTIL]
     if first == 0:
         x = 2 * math.sqrt(eps / last) - 1
@@ -65,7 +65,7 @@ def share_at(panels, p, n, eps):
 @exact
 def read_shares(panel, eps, first):
     """Indentation over x of side 1 at squeezes of a panel with a series, into ``first``."""
-    apart()
+    keep_apart()
     begin, end, series = panel[FROM], panel[UNTIL], panel[SHARE : SHARE + TERMS]
     rooted = begin == 0
     rate = 2 / math.log(end / begin) if not rooted else 0.0
@@ -104,7 +104,7 @@ def read_particles(panel, eps, load, one, two):
 @scalar
 def read_particle(panel, eps):
     """As `read_particles`, at one squeeze."""
-    apart()
+    keep_apart()
     begin, end = panel[FROM], panel[UNTIL]
     if begin == 0:
         x = 2 * math.sqrt(eps / end) - 1
@@ -123,7 +123,7 @@ def read_particle(panel, eps):
 @scalar
 def _settle_one(rule, values, series):
     """Coefficients of a series; its last two terms over its largest value."""
-    apart()
+    keep_apart()
     most = 0.0
     for j in range(TERMS):
         most = max(most, abs(values[j]))
@@ -137,7 +137,7 @@ def settle_rows(panel, room, rule):
 
     What is left out of them, at most.
     """
-    apart()
+    keep_apart()
     eps, load = room[AT, :TERMS], room[LOAD, :TERMS]
     one, two = room[AREA_1, :TERMS], room[AREA_2, :TERMS]
     for j in range(TERMS):

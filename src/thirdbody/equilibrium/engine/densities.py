@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .fields import GAUSSIAN, HIGH, KIND, LOGNORMAL, NORM, POWER, SIZE_1, SIZE_2
 from .sides import scalar
 
@@ -14,7 +14,7 @@ __all__ = ["density", "scale_of"]
 @scalar
 def density(given, p, x):
     """How many particles have a size x, per size."""
-    apart()
+    keep_apart()
     kind, middle, width = given[p, KIND], given[p, SIZE_1], given[p, SIZE_2]
     if kind == GAUSSIAN:
         u = (x - middle) / width
@@ -30,7 +30,7 @@ def density(given, p, x):
 @scalar
 def scale_of(given, p, x):
     """Size over which the density changes near x."""
-    apart()
+    keep_apart()
     if given[p, KIND] == GAUSSIAN:
         return given[p, SIZE_2]
     if given[p, KIND] == LOGNORMAL:

@@ -9,7 +9,7 @@ from scipy.interpolate import make_interp_spline
 
 from ...laws.field import reduced
 from ...laws.field.table import separations
-from ..compiled.machine import apart, normal_cdf
+from ..compiled.machine import keep_apart, normal_cdf
 from .fields import (
     A_E,
     ABOVE_FIELD,
@@ -56,7 +56,7 @@ def _fill_pieces() -> None:
 _fill_pieces()
 mean_pressure = scalar(reduced.mean_pressure)
 remainder_at = scalar(reduced.remainder_at)
-pressed = scalar(reduced.pressed)
+real_pressure = scalar(reduced.real_pressure)
 
 
 @scalar
@@ -68,7 +68,7 @@ def lay_field(held):
 @scalar
 def _hold(skin, held, h):
     """The piece in which h lies, its polynomials into ``held``; how far h is from its beginning."""
-    apart()
+    keep_apart()
     soft = int(skin[0, IS_SOFT])
     last, n = COUNTS[soft] - 1, 0
     while n < last and h >= ENDS[soft, n + 1]:
@@ -97,7 +97,7 @@ def _polynomial(held, column, x):
 
 
 @scalar
-def _beyond(value, slope, bend, last, h, bent):
+def _value_beyond_end(value, slope, bend, last, h, bent):
     """Two terms in u = 1 − h_M/h beyond the last separation h_M, or one; and the slope."""
     u = 1 - last / h
     first = slope * last
@@ -108,11 +108,11 @@ def _beyond(value, slope, bend, last, h, bent):
 @scalar
 def _column_at(held, column, x, h, bent):
     """A column of the table at h, and its slope."""
-    apart()
+    keep_apart()
     value, slope, bend = _polynomial(held, column, x)
     last = ENDS[0, COUNTS[0]]
     if h > last:
-        return _beyond(value, slope, bend, last, h, bent)
+        return _value_beyond_end(value, slope, bend, last, h, bent)
     return value, slope
 
 
@@ -128,7 +128,7 @@ def _plastic_energy(h, density, bearing):
 @scalar
 def add_field(skin, held, h, out):
     """Load and areas at h [σ], into the first four columns; False below the table."""
-    apart()
+    keep_apart()
     if h < ENDS[int(skin[0, IS_SOFT]), 0]:
         return False
     x, chi = _hold(skin, held, h), skin[0, CHI]
@@ -143,7 +143,7 @@ def add_field(skin, held, h, out):
     touched = normal_cdf(-top, math.exp(-0.5 * top * top))
     ratio = min(carried / (chi * touched), 1.0) if touched > 0 else 1.0
     remains = remainder_at(skin[0, ABOVE_FIELD], bearing)
-    ratio = pressed(ratio, skin[0, WIDER] * remains)
+    ratio = real_pressure(ratio, skin[0, WIDER] * remains)
     whole = carried * (1 + remains)
     area = whole / (chi * ratio)
     plastic = 1.0 if ratio >= 1 else min(max(yielded, 0.0), 1.0)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart, exp
+from ..compiled.machine import exp, keep_apart
 from .breakage import NEVER, SURELY, mark_sizes
 from .curves import (
     AREA_1,
@@ -135,7 +135,7 @@ SHORT, NEAR_END = 0.6, 1.3
 @scalar
 def goes_by_fragments(given, panels, p, count):
     """Whether part p breaks and is summed gap by gap."""
-    apart()
+    keep_apart()
     if given[p, BREAKS] != 1 or panels[p, count - 1, TO] >= 1:
         return False
     if given[p, SEAT] == PLANE:
@@ -166,7 +166,7 @@ def _note_end(ends, count, end, near):
 
     How many there are.
     """
-    apart()
+    keep_apart()
     if not ends[0] + near < end < ends[count - 1] - near or count == len(ends):
         return count
     place = count
@@ -183,7 +183,7 @@ def _note_end(ends, count, end, near):
 @scalar
 def _lay_ends(given, panels, p, count, gap, start, ends):
     """Ends of panels over u from ``start`` to one generation further; how many."""
-    apart()
+    keep_apart()
     step = -math.log(given[p, RATIO])
     ends[0], ends[1] = 0.0, step
     number = 2
@@ -249,7 +249,7 @@ def _add_powers(middle, exponent, norm, x, number):
 @scalar
 def _add_sizes(given, p, x, number):
     """Add the particles that had these sizes from the beginning."""
-    apart()
+    keep_apart()
     kind, middle, width, norm = given[p, KIND], given[p, SIZE_1], given[p, SIZE_2], given[p, NORM]
     if kind == GAUSSIAN:
         _add_normal(middle, width, norm, x, number)
@@ -322,7 +322,7 @@ def _panel_of(panels, p, count, eps):
 @scalar
 def _add_generation(given, sides, panels, p, count, n, weight, floor, seen, found):
     """Add what a generation carries on panel n, or behind all."""
-    apart()
+    keep_apart()
     room, nodes = panels[p, len(panels[p]) - ROOM :], len(weight)
     regime = FIRST - LOAD + int(panels[p, n, REGIME])
     if n < count:
@@ -347,7 +347,7 @@ def _add_panel(
     given, sides, panels, p, count, gap, start, a, b, floor, seen, rule, way, found
 ):  # fmt: skip
     """Add all generations of the sizes between two ends over u, from the largest down."""
-    apart()
+    keep_apart()
     row, nodes = rule_of(rule, False)
     gauss, weights, step = rule[row, :nodes], rule[row + 1, :nodes], -math.log(given[p, RATIO])
     phase, mass, number = way[PHASE, :nodes], way[PART, :nodes], way[NUMBER, :nodes]
@@ -391,7 +391,7 @@ def _add_panel(
 @scalar
 def sum_gap(given, sides, panels, p, count, gap, rule, way, found):
     """Columns of what part p carries under a gap, per particle; False where there is no room."""
-    apart()
+    keep_apart()
     for k in range(COLUMNS):
         found[k] = 0.0
     high, step = given[p, HIGH], -math.log(given[p, RATIO])
@@ -438,7 +438,7 @@ def most_above(given, sides, p, gap):
     What bears is larger than the gap, fragments have no more volume than the particles had, and
     none carries more over x² than the softer side allows.
     """
-    apart()
+    keep_apart()
     if given[p, SEAT] == PRINTED:
         return math.inf
     if given[p, BREAKS] != 1:
@@ -455,7 +455,7 @@ def most_above(given, sides, p, gap):
 @scalar
 def lay_fragments(given, panels, p, count, grid, own, rule, ends):
     """Lay segments over the gap between which what it carries is smooth; where they end, or −1."""
-    apart()
+    keep_apart()
     piece, cells, step = own[PIECE_BEGIN], 0.0, rule[0, PANEL_SPAN] * given[p, WIDTH]
     low, high = lowest_gap(given, panels, p, count), given[p, HIGH]
     marks = ends[len(ends) // 2 :]
@@ -488,7 +488,7 @@ def lay_fragments(given, panels, p, count, grid, own, rule, ends):
 @scalar
 def fill_fragments(given, sides, panels, p, count, grid, s, last, a, b, place, rule, way):
     """Fill the nodes of a cell of segment s between two gaps; where they end, or −1."""
-    apart()
+    keep_apart()
     rooted = grid[ROOTED, s] if last else 0.0
     short = rooted == 0 and b - a <= SHORT * given[p, WIDTH] and b <= NEAR_END * a
     row, nodes = rule_of(rule, short)
@@ -512,7 +512,7 @@ def fill_fragments(given, sides, panels, p, count, grid, s, last, a, b, place, r
 @scalar
 def add_fragments(given, sides, panels, p, count, part, gap, rule, way, out):
     """What part p carries under a gap over this part of the area; False where there is no room."""
-    apart()
+    keep_apart()
     found = way[FOUND, :COLUMNS]
     good = sum_gap(given, sides, panels, p, count, gap, rule, way, found)
     factor = given[p, DENSITY] * part
@@ -527,7 +527,7 @@ def add_fragments(given, sides, panels, p, count, part, gap, rule, way, out):
 @scalar
 def add_lowest(given, sides, panels, p, count, gap, rule, way, out):
     """What part p carries where the seat leaves less than the lowest gap; False without room."""
-    apart()
+    keep_apart()
     low, width = lowest_gap(given, panels, p, count), given[p, WIDTH]
     if low <= gap - REACH * width:
         return True

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart, exp
+from ..compiled.machine import exp, keep_apart
 from .curves import (
     AREA_1,
     AREA_2,
@@ -109,7 +109,7 @@ ONE, TWO = NODE, NODE_END
 @scalar
 def goes_by_gaps(given, panels, p, count):
     """Whether part p is summed over gaps."""
-    apart()
+    keep_apart()
     kind, shadow = given[p, KIND], given[p, SHADOW]
     if given[p, SEAT] != ROUGH or given[p, BREAKS] == 1 or (kind != POWER and kind != UNIFORM):
         return False
@@ -177,7 +177,7 @@ def _place_of(variable, eps):
 @scalar
 def sum_panels(given, sides, panels, p, count, rule, sums):
     """Fill in Q of part p on every panel; what its series leave out, at most, over all so far."""
-    apart()
+    keep_apart()
     room, power, worst = panels[p, len(panels[p]) - ROOM :], _exponent(given, p) - 4, 0.0
     at, mass, ones = room[AT, :TERMS], room[MASS, :TERMS], room[SLOPE, :TERMS]
     for k in range(COLUMNS):
@@ -223,7 +223,7 @@ def lay_cells(given, panels, p, count, grid, own, sizes, size, rule):
 
     Where they and the sizes behind the last panel end; −1 for segments where there is no room.
     """
-    apart()
+    keep_apart()
     low, high, step = given[p, LOW], given[p, HIGH], rule[0, PANEL_SPAN] * given[p, WIDTH]
     thin, piece, cells = 1 - panels[p, count - 1, TO], own[PIECE_BEGIN], 0.0
     one, two, a = count - 1, count, low * thin
@@ -319,7 +319,7 @@ def _take_gaps(norm, middle, power, unit, at, mass, grid, begin, end):
 @scalar
 def _add_end(given, sides, panels, p, n, sign, size, own_size, sums, grid, begin, end):
     """Add Q where sizes of one end are on panel n, at the nodes over ε of one end of the sizes."""
-    apart()
+    keep_apart()
     room, count = panels[p, len(panels[p]) - ROOM :], end - begin
     at, eps, x = room[AT, :count], room[OTHER, :count], room[OFF, :count]
     for j in range(count):
@@ -335,7 +335,7 @@ def _add_end(given, sides, panels, p, n, sign, size, own_size, sums, grid, begin
 @scalar
 def fill_gaps(given, sides, panels, p, count, grid, s, a, b, place, rule, sums):
     """Fill the nodes of a cell of segment s between two gaps; where they end."""
-    apart()
+    keep_apart()
     one, two, low, high = int(grid[ONE, s]), int(grid[TWO, s]), given[p, LOW], given[p, HIGH]
     # nodes lie as the end that is squeezed last wants them
     n, size = (one, low) if one >= 0 else (two, high)
@@ -371,7 +371,7 @@ def fill_gaps(given, sides, panels, p, count, grid, s, a, b, place, rule, sums):
 @scalar
 def add_below(given, sides, panels, p, own, sizes, gap, out):
     """What particles carry at a gap that are squeezed further than the last panel goes."""
-    apart()
+    keep_apart()
     count, width = own[COUNT], given[p, WIDTH]
     thin, squared = 1 - panels[p, count - 1, TO], 0.0
     if given[p, HIGH] * thin > gap - REACH * width:

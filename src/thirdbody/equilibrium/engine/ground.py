@@ -18,7 +18,7 @@ from ...laws.field.programme import MOMENTS
 from ...laws.field.table import COLUMNS as OF_SURFACE
 from ...laws.field.table import FIRST, LOW, TAU
 from ...numerics.quadrature import panel_rule
-from ..compiled.machine import apart, exp, normal_cdf
+from ..compiled.machine import exp, keep_apart, normal_cdf
 from .curves import EDGE, ONE, TO, transform
 from .field import COUNTS, ENDS, PIECES, ROOT_2PI, TERMS, mean_pressure
 from .fields import (
@@ -110,7 +110,7 @@ VALUE, SLOPE, PRESSED, TURNED, BASIS, U = range(6)
 @scalar
 def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, values, series, terms):
     """Fill series of all columns between two gaps; their last terms over the largest value."""
-    apart()
+    keep_apart()
     rooted = a + b > top
     low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
     for j in range(OF_CELL):
@@ -142,7 +142,7 @@ def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, valu
 @scalar
 def _keep_cell(top, a, b, series, cells, found):
     """Keep the parts of a cell, from its largest gap down."""
-    apart()
+    keep_apart()
     rooted = a + b > top
     low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
     ends = b
@@ -171,7 +171,7 @@ def _keep_cell(top, a, b, series, cells, found):
 @scalar
 def _note(edges, count, gap, low, high):
     """Note a gap at which a cell ends, in falling order."""
-    apart()
+    keep_apart()
     if not low < gap < high or count == len(edges):
         return count
     place = count
@@ -190,7 +190,7 @@ def _note(edges, count, gap, low, high):
 @scalar
 def _differs(given, sides, panels, n):
     """Whether another of the two areas is the larger on panel n than on the one before."""
-    apart()
+    keep_apart()
     signs = 1.0
     for m in range(n - 1, n + 1):
         eps = 0.5 * (panels[0, m, EDGE] + panels[0, m, TO])
@@ -214,7 +214,7 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
 
     −1 where there is no room, and 0 where particles are squeezed by more than their size.
     """
-    apart()
+    keep_apart()
     low, high, last = given[0, SMALLEST], given[0, HIGH], panels[0, count - 1, TO]
     power = 2.0 if given[0, KIND] == ONE_SIZE else 4.0
     if last >= 1:
@@ -274,7 +274,7 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
 @scalar
 def _add_gaps(section, cells, floor, whole, nodes, columns):
     """Add sums of the columns over the nodes, or of load and shadow, and the load at each."""
-    apart()
+    keep_apart()
     count, gap, mass, loads = int(section[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
     top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], section[POWER] == 4
     s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = 0.0
@@ -331,7 +331,7 @@ def _add_gaps(section, cells, floor, whole, nodes, columns):
 @scalar
 def lay_surface(skin, table, surface):
     """Every piece of the splines over the separation, of all columns of a surface."""
-    apart()
+    keep_apart()
     soft = int(skin[0, IS_SOFT])
     for n in range(COUNTS[soft]):
         for k in range(TERMS):
@@ -348,7 +348,7 @@ def lay_surface(skin, table, surface):
 @scalar
 def _read_surface(skin, surface, h, value, slope):
     """Columns of a surface at h [σ] and their slopes; the bend of the first."""
-    apart()
+    keep_apart()
     soft = int(skin[0, IS_SOFT])
     last, n, bend = COUNTS[soft] - 1, 0, 0.0
     while n < last and h >= ENDS[soft, n + 1]:
@@ -378,7 +378,7 @@ def _read_surface(skin, surface, h, value, slope):
 @scalar
 def _press(own, kernels, skin, surface, h, small):
     """What asperities at h press down under particles, and what lifts them, into two rows."""
-    apart()
+    keep_apart()
     value, slope = small[VALUE], small[SLOPE]
     h = min(max(h, own[LOWEST]), FAR)
     bend = _read_surface(skin, surface, h, value, slope)
@@ -414,7 +414,7 @@ def lift_of(own, kernels, skin, surface, h, state, small):
 
     From none, as there may be several. What asperities press at h + w is left in the rows.
     """
-    apart()
+    keep_apart()
     w = before = found = 0.0
     miss = math.nan
     for _ in range(TRIES):
@@ -449,7 +449,7 @@ def _first_squeezed(seat, h, u, rise, guess):
 
     No ground is pressed down by more than ``rise``.
     """
-    apart()
+    keep_apart()
     low, high = seat[MEAN] - REACH * seat[SPREAD], seat[MEAN] + REACH * seat[SPREAD]
     lack = h - seat[TOP]
     if lack - high > rise:
@@ -554,7 +554,7 @@ def _weigh_seat(field, seat, h, right, nodes, found, columns, whole):
 
     From the lowest ground on which one is squeezed; their columns by themselves.
     """
-    apart()
+    keep_apart()
     own, sections, cells, floor = field[0], field[2], field[6], field[7]
     for c in range(COLUMNS):
         columns[c] = 0.0
@@ -584,7 +584,7 @@ def weigh_ground(field, h, u, lowest, nodes, found, columns, whole):
     ``lowest`` holds guesses of the lowest ground on which a particle of each seat is squeezed, and
     gets that.
     """
-    apart()
+    keep_apart()
     seats, p, rise = field[1], nodes[POLYNOMIALS], 0.0
     for n in range(BETA):
         found[n] = p[n] = 0.0
@@ -606,7 +606,7 @@ def round_of(field, h, state, lowest, small, nodes, found, columns, whole):
 
     The lift and how far it is off; ``lowest`` as in `weigh_ground`.
     """
-    apart()
+    keep_apart()
     own, _, _, kernels, skin, surface, _, _ = field
     w, off = lift_of(own, kernels, skin, surface, h, state, small)
     # the rows hold what asperities do a last step before, some 1e-13 of σ away

@@ -12,7 +12,7 @@ from scipy.interpolate import make_interp_spline
 from ...contact.field_ground import TINY as TINIEST
 from ...laws.field.table import COLUMNS as OF_SURFACE
 from ..compiled.cached import Cached
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .curves import MOST_PANELS, PANEL, ROOM
 from .field import TERMS, add_field, lay_field
 from .fields import (
@@ -118,7 +118,7 @@ SPLINES = _fill_splines()
 @scalar
 def _remember(pairs, memory, state, miss, old_state, old_miss):
     """Note a pair of steps of the state and of what it misses."""
-    apart()
+    keep_apart()
     k, size = int(memory[0]) % KEPT, 0.0
     for n in range(UNKNOWNS):
         pairs[0, k, n], pairs[1, k, n] = state[n] - old_state[n], miss[n] - old_miss[n]
@@ -130,7 +130,7 @@ def _remember(pairs, memory, state, miss, old_state, old_miss):
 @scalar
 def _follow(pairs, memory, state, miss, turned):
     """Take the step of a round, and what the steps before say of the rest (after Anderson)."""
-    apart()
+    keep_apart()
     count, used = int(memory[0]), 0
     for back in range(min(count, KEPT)):
         k = (count - 1 - back) % KEPT
@@ -173,7 +173,7 @@ def _solve_row(field, k, accuracy, whole, rows, work):
 
     Its state and lift go into the rows and, if the whole is asked, its columns and what it misses.
     """
-    apart()
+    keep_apart()
     own, kernels = field[0], field[3]
     states, lifts, columns, misses, lowest, done = rows
     small, nodes, pairs, memory, turned, other = work
@@ -208,7 +208,7 @@ def _solve_row(field, k, accuracy, whole, rows, work):
 @scalar
 def _guess_row(k, way, rows, last):
     """Put what the rows before, on one side, say of row k into it."""
-    apart()
+    keep_apart()
     states, _, _, _, lowest, done = rows
     known, near = 0, k + way
     while known < OLDER:
@@ -244,7 +244,7 @@ def _guess_row(k, way, rows, last):
 @scalar
 def _load_of(own, skin, held, h, w, load, shadow, out):
     """Total load [Pa] at h with lift w, where particles carry a load and shade so much."""
-    apart()
+    keep_apart()
     if not add_field(skin, held, h + w, out):
         return math.nan
     return (1 - min(max(shadow + own[FIXED], 0.0), 1.0)) * out[F_SS] + load
@@ -253,7 +253,7 @@ def _load_of(own, skin, held, h, w, load, shadow, out):
 @scalar
 def _plain_load(field, held, k, rows, work, out):
     """Load at row k on ground that does not give way: more than is carried there, or nearly."""
-    apart()
+    keep_apart()
     own, skin = field[0], field[4]
     columns, lowest, found = rows[2], rows[4], work[5][0]
     h, u = own[LOWEST] + k * own[STEP], work[0][U]
@@ -270,7 +270,7 @@ def _plain_load(field, held, k, rows, work, out):
 @scalar
 def _first_row(field, held, load, high, rows, work, out):
     """The row, up to ``high``, above which less than a load is carried; how many were asked."""
-    apart()
+    keep_apart()
     low, count = 0, 0
     while high - low > 1:
         middle = (low + high) // 2
@@ -288,7 +288,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
 
     That row, −1 without one; rounds; and the fate.
     """
-    apart()
+    keep_apart()
     own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
     last, rounds, before = int(own[ROWS]) - 1, 0, 0.0
     while k >= 0:
@@ -316,7 +316,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
 @scalar
 def _finish_rows(field, k, low, high, rows, work):
     """Solve every row of a window as well as it counts in cell k; rounds, or −1."""
-    apart()
+    keep_apart()
     done, rounds, last = rows[5], 0, int(field[0][ROWS]) - 1
     first = high
     while first > low and done[first] == NONE:
@@ -342,7 +342,7 @@ def _lay_cell(splines, k, low, high, lasts, rows, poly):
 
     Of each seat up to the row in ``lasts``. False where too few rows carry anything.
     """
-    apart()
+    keep_apart()
     lifts, columns, count = rows[1], rows[2], len(lasts)
     if high - low + 1 < TERMS:
         return False
@@ -375,7 +375,7 @@ def _lay_cell(splines, k, low, high, lasts, rows, poly):
 @scalar
 def _read_cell(own, seats, skin, held, poly, k, t, row):
     """Columns at part t of cell k; the load."""
-    apart()
+    keep_apart()
     for c in range(COLUMNS):
         row[F_SA + c] = 0.0
     lift = 0.0
@@ -401,7 +401,7 @@ def _read_cell(own, seats, skin, held, poly, k, t, row):
 @scalar
 def _root_in(own, seats, skin, held, poly, k, target, row):
     """Part of cell k at which the target is carried, and the slope of ln F; −1 or 2 beside it."""
-    apart()
+    keep_apart()
     low, high = 0.0, 1.0
     f_low = math.log(_read_cell(own, seats, skin, held, poly, k, low, row) / target)
     f_high = math.log(_read_cell(own, seats, skin, held, poly, k, high, row) / target)
@@ -432,7 +432,7 @@ def _root_in(own, seats, skin, held, poly, k, target, row):
 @scalar
 def _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out):
     """What rows beyond the window change at most, from what fewer rows do."""
-    apart()
+    keep_apart()
     count = int(field[0][ROWS])
     fewer = low + FEWER if low > 0 else low
     most = high - FEWER if high < count - 1 else high
@@ -461,7 +461,7 @@ def _leaves_table(own, lifts, i):
 @scalar
 def _error_of(field, k, low, high, rows):
     """What the rows of a window miss in cell k; infinite where asperities leave their table."""
-    apart()
+    keep_apart()
     own, lifts, misses, error = field[0], rows[1], rows[3], 0.0
     for i in range(low, high + 1):
         if _leaves_table(own, lifts, i):
@@ -473,7 +473,7 @@ def _error_of(field, k, low, high, rows):
 @scalar
 def _begin(field, held, target, h, rows, work, out):
     """The row from which to come down, evaluations, and whether there is one."""
-    apart()
+    keep_apart()
     own, done = field[0], rows[5]
     count = int(own[ROWS])
     work[3][0] = 0.0
@@ -496,7 +496,7 @@ def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, last
     Fate, rounds, the cell, the part, the slope of ln F over the cell, and the window of rows; the
     last rows in which particles of each seat carry anything into ``lasts``.
     """
-    apart()
+    keep_apart()
     own, seats, skin, columns = field[0], field[1], field[4], rows[2]
     count, rounds, t, slope, low, high = int(own[ROWS]), 0, -1.0, 0.0, 0, 0
     for _ in range(3):
@@ -532,7 +532,7 @@ def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, last
 @scalar
 def _ground_state(field, held, splines, target, h, rows, work, poly, lasts, row, out):
     """Separation [σ], rounds, fate and error of one state; its columns into ``row``."""
-    apart()
+    keep_apart()
     own = field[0]
     if own[ROWS] > len(rows[0]):
         return h, 0, TOO_LONG, math.inf
@@ -561,7 +561,7 @@ def _ground_state(field, held, splines, target, h, rows, work, poly, lasts, row,
 @scalar
 def _lay_section(given, sides, rules, scratch, cells, floor, section):
     """Lay the cells of a section; what they leave out, and whether they are laid, or why not."""
-    apart()
+    keep_apart()
     panels, edges, values, out = scratch
     count = lay_panels(given, sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:])
     if count <= 0:
@@ -582,7 +582,7 @@ def _lay_sections(i, parts, bodies, rules, scratch, cells, floor, sections, left
 
     What they leave out, at most, and what became of them.
     """
-    apart()
+    keep_apart()
     worst, fate = 0.0, OK
     for s in range(sections.shape[1]):
         if i > 0 and (

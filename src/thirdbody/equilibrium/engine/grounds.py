@@ -191,16 +191,16 @@ def _tail(series: Array, across: bool) -> float:
 def _series(alpha: float, n: int, cell: int) -> Array:
     """Series over the distance in cell n at α, or over α in a cell of bandwidths too: (K, 429)."""
     if cell < 0:
-        return _along(alpha, n)
+        return _distance_series(alpha, n)
     low, high = np.log(np.array(BANDWIDTHS[cell : cell + 2]) - 2)
     x, transform = chebyshev_transform(WAVES)
     alphas = 2 + np.exp(low + 0.5 * (high - low) * (1 + x))
-    known = np.array([_along(one, n) for one in alphas.tolist()])
+    known = np.array([_distance_series(one, n) for one in alphas.tolist()])
     return np.tensordot(transform, known, 1).reshape(WAVES * NODES, -1)
 
 
 @lru_cache(maxsize=256)
-def _along(alpha: float, n: int) -> Array:
+def _distance_series(alpha: float, n: int) -> Array:
     """Series over the distance in cell n at α: (NODES, 429)."""
     x, transform = chebyshev_transform(NODES)
     places = WIDTH * (n + 0.5 * (1 + x))
@@ -219,10 +219,12 @@ def _numbers(alpha: float, apart: float) -> Array:
     own, mixed = _far(alpha)
     _, transform = chebyshev_transform(TERMS)
     spectrum = rolled_off(alpha)
-    plain, _, weight = _near(spectrum, apart)
+    plain, _, weight = _near_integrals(spectrum, apart)
     near = integrals_of_powers(plain, weight, MOMENTS)
-    plain, once, weight = _near(spectrum, 0.5 * apart)
-    other = integrals_of_powers(spectrum.mixed(plain, once, _filters()), weight, MOMENTS)
+    plain, once, weight = _near_integrals(spectrum, 0.5 * apart)
+    other = integrals_of_powers(
+        spectrum.cross_correlation(plain, once, _filters()), weight, MOMENTS
+    )
     near[0], other[:, 0] = apart, 0.5 * apart
     rows = transform @ (mixed - other), transform @ mixed
     return np.concatenate([own - near, rows[0].ravel(), rows[1].ravel()])
@@ -234,7 +236,7 @@ def _filters() -> Array:
     return 0.5 * (1 + x)
 
 
-def _near(spectrum: Spectrum, r: float) -> tuple[Array, Array, Array]:
+def _near_integrals(spectrum: Spectrum, r: float) -> tuple[Array, Array, Array]:
     """∫C J_0 and ∫C q J_0 at the nodes of an integral up to r, and their weights."""
     at, weight = gauss_legendre(40)
     plain, once, _ = spectrum.correlations(0.5 * r * (1 + at))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .curves import AREA_1, AREA_2, AT, EDGE, ROOM, TO
 from .curves import LOAD as CARRIED
 from .fields import (
@@ -45,7 +45,7 @@ def _pays(given, work, laid, p, bound):
 
     The asperities carry ``bound`` [Pa] where nothing is shaded.
     """
-    apart()
+    keep_apart()
     panels, coverage = work[2], given[p, COVERAGE]
     if bound > 0.2 * given[p, SOFTEST]:
         return False
@@ -70,7 +70,7 @@ def _pays(given, work, laid, p, bound):
 @scalar
 def _widest(given, work, laid, p):
     """Share of the area that part p would shade with every particle squeezed as far as it goes."""
-    apart()
+    keep_apart()
     n = laid[p, 0, COUNT] - 1
     _, one, two = particle_at(given, work[1], work[2], p, n, work[2][p, n, TO])
     return given[p, COVERAGE] * shade(given, p, one, two) / (0.25 * math.pi * given[p, BREADTH])
@@ -91,7 +91,7 @@ def only_falls_above(given, skin, work, laid, bound, h):
     does with its interference, for heights whose density is log-concave (Karlin 1968, Total
     Positivity, ch. 5): where it is positive it falls, and as fast as without attraction at least.
     """
-    apart()
+    keep_apart()
     sigma_s, least = skin[0, SIGMA_S], 0.05 if skin[0, CODE] == JG else 0.3
     d = h * sigma_s
     if bound < 0:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .curves import EDGE, FORM_1, FORM_2, TO
 from .fields import EQUAL
 from .sides import exact, scalar
@@ -94,7 +94,7 @@ def _place_thin(taken, low, half, gauss, weights, at, mass):
 @scalar
 def place_nodes(variable, taken, a, b, gauss, weights, at, mass):
     """Nodes between two squeezes and their weights, of as many as the rule has."""
-    apart()
+    keep_apart()
     if variable in (ROOTED, CUBIC):
         power = 2.0 if variable == ROOTED else 3.0
         low = a ** (1 / power)
@@ -115,7 +115,7 @@ def place_nodes(variable, taken, a, b, gauss, weights, at, mass):
 @scalar
 def place_lengths(variable, a, b, gap, gauss, weights, at, mass):
     """As `place_nodes`, of indentations x − h between two under a gap h."""
-    apart()
+    keep_apart()
     if variable == LOGARITHMIC and a > 0:  # of numbers, as exp needs them
         low = math.log(a / gap)
         _place_ratios(low, 0.5 * (math.log(b / gap) - low), gauss, weights, at, mass)

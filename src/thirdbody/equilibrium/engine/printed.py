@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .densities import density
 from .fields import (
     A_SA,
@@ -62,7 +62,7 @@ def moment(given, p, n, a, b, gauss, weights, nodes):
 
     For each whole number that stands in a call numba would compile it again.
     """
-    apart()
+    keep_apart()
     a, b = max(a, given[p, LOW]), min(b, given[p, HIGH])
     if not a < b:
         return 0.0
@@ -93,9 +93,9 @@ def moment(given, p, n, a, b, gauss, weights, nodes):
 
 
 @scalar
-def _weighed(given, p, a, b, gauss, weights, nodes):
+def _weighted_integral(given, p, a, b, gauss, weights, nodes):
     """∫ w φ dx from a to b."""
-    apart()
+    keep_apart()
     x_a = given[p, FIXED]
     if x_a > 0:
         return x_a * x_a * moment(given, p, 0.0, a, b, gauss, weights, nodes)
@@ -105,14 +105,14 @@ def _weighed(given, p, a, b, gauss, weights, nodes):
 @scalar
 def _above(given, p, d, gauss, weights, nodes):
     """∫ w_p φ dx from d on."""
-    apart()
+    keep_apart()
     high = given[p, HIGH]
     if given[p, ABOVE] == NEVER:
         return 0.0
     if given[p, ABOVE] == BY_APPROACH:
         squared = moment(given, p, 2.0, d, high, gauss, weights, nodes)
         return squared - d * moment(given, p, 1.0, d, high, gauss, weights, nodes)
-    return _weighed(given, p, d, high, gauss, weights, nodes)
+    return _weighted_integral(given, p, d, high, gauss, weights, nodes)
 
 
 @scalar
@@ -126,8 +126,10 @@ def _shadow(given, p, d, plastic, gauss, weights, nodes):
 @scalar
 def add_printed(given, p, d, gauss, weights, nodes, out):
     """What part p carries at a separation d [m] of its own datum, into the columns."""
-    apart()
-    window = given[p, WINDOW] * _weighed(given, p, d - given[p, BEYOND], d, gauss, weights, nodes)
+    keep_apart()
+    window = given[p, WINDOW] * _weighted_integral(
+        given, p, d - given[p, BEYOND], d, gauss, weights, nodes
+    )
     plastic = _above(given, p, d, gauss, weights, nodes)
     total = given[p, TAKES] * (window + plastic)
     elastic = given[p, TAKES] * window if given[p, SPLIT] == 1 else 0.0
@@ -141,10 +143,10 @@ def add_printed(given, p, d, gauss, weights, nodes, out):
 @scalar
 def printed_bound(given, p, low, high, gauss, weights, nodes):
     """A load [Pa] that no separation between two exceeds, and a shadow that none falls below."""
-    apart()
+    keep_apart()
     first, last = low + given[p, OFFSET], high + given[p, OFFSET]
     begin = first - given[p, BEYOND]
-    window = given[p, WINDOW] * _weighed(given, p, begin, last, gauss, weights, nodes)
+    window = given[p, WINDOW] * _weighted_integral(given, p, begin, last, gauss, weights, nodes)
     load = given[p, TAKES] * (window + _above(given, p, first, gauss, weights, nodes))
     plastic = _above(given, p, last, gauss, weights, nodes)
     return given[p, BEARS] * load, _shadow(given, p, last, plastic, gauss, weights, nodes)
@@ -158,7 +160,7 @@ def only_falls(given, p, d, bound):
     loses at d what C times the other gains; without the second, the first falls beyond the one
     separation at which its window holds most, if w φ has one maximum.
     """
-    apart()
+    keep_apart()
     d += given[p, OFFSET]
     low, high, h_e = given[p, LOW], given[p, HIGH], given[p, BEYOND]
     if d >= high + h_e:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart, exp
+from ..compiled.machine import exp, keep_apart
 from .breakage import is_held
 from .curves import AREA_1, AREA_2, AT, EDGE, MASS, REGIME, ROOM, TO
 from .curves import LOAD as CARRIED
@@ -107,7 +107,7 @@ that nothing casts."""
 @scalar
 def _lay_between(given, sides, panels, p, n, variable, a, b, grid, place, gauss, weights):
     """Gauss nodes between two ends on panel n, of what a particle carries; where they end."""
-    apart()
+    keep_apart()
     seen = 0.0
     if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
         seen = 0.25 * math.pi * given[p, BREADTH]
@@ -149,7 +149,7 @@ def _take_nodes(room, floor, seen, grid, regime, begin, end):
 @summed
 def _product(one, other):
     """Sum of the products of two rows."""
-    apart()
+    keep_apart()
     total = 0.0
     for i in range(len(one)):
         total += one[i] * other[i]
@@ -163,7 +163,7 @@ def _gather(grid, first, begin, end, a, b, rule):
     Sums of the nodes times Chebyshev polynomials, and what each value of the polynomial has in
     them.
     """
-    apart()
+    keep_apart()
     nodes = int(rule[0, SEAT_NODES])
     # rows of their own, from zero: only then do loops over them become vectors
     x, now, before = grid[EPS, begin:end], grid[SUM, begin:end], grid[SUM + 1, begin:end]
@@ -197,7 +197,7 @@ def _lay_piece(given, sides, panels, p, count, panel, a, b, grid, place, rule):
 
     Those of a polynomial, for which those of the panels are gathered, where these are more.
     """
-    apart()
+    keep_apart()
     nodes, most = int(rule[0, NODES]), int(rule[0, SEAT_NODES])
     parts, n = 1, panel
     while n < count - 1 and panels[p, n, TO] < b:
@@ -225,7 +225,7 @@ def lay_broken(given, sides, panels, p, count, grid, place, sizes, size, rule):
 
     As many particles are whole on all panels that are held alike: there K is smooth.
     """
-    apart()
+    keep_apart()
     step, n = rule[0, SPAN] * given[p, WIDTH] / given[p, HIGH], int(panels[p, 0, EDGE])
     wide = rule[0, SEAT_SPAN] * given[p, WIDTH] / given[p, HIGH]
     while n < count:  # n begins at 0, but as no constant, for numba
@@ -288,7 +288,7 @@ def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, piece, 
 
     −1 for pieces where there is no room.
     """
-    apart()
+    keep_apart()
     span, seat = rule[0, PANEL_SPAN], given[p, WIDTH] / given[p, HIGH]
     nodes, half = int(rule[0, PANEL_NODES]), int(rule[0, HALF_NODES])
     closest, before, own = 0.0, 0, _own_width(given, p, span)
@@ -346,7 +346,7 @@ CELL = 1.5
 @summed
 def _find_moments(x, v, now, before, moments):
     """Σ v T_k(x) of an even number of Chebyshev polynomials."""
-    apart()
+    keep_apart()
     for i in range(len(x)):
         now[i], before[i] = 1.0, x[i]
     for k in range(0, len(moments), 2):
@@ -364,7 +364,7 @@ def _find_moments(x, v, now, before, moments):
 @exact
 def _fill_gaps(x, v, sizes, weights, left, shares, source, wide):
     """Gaps that a squeeze leaves of sizes, and how many particles are there."""
-    apart()
+    keep_apart()
     for j in range(len(x)):
         x[j] = sizes[j] * left
         v[j] = weights[j] * shares[source + wide * j]
@@ -373,7 +373,7 @@ def _fill_gaps(x, v, sizes, weights, left, shares, source, wide):
 @exact
 def _add_columns(grid, i, start, moments):
     """Add what node i over ε gives to a cell: its columns times moments."""
-    apart()
+    keep_apart()
     for row in range(LOAD, SUM):
         column = grid[row, i]
         if column != 0:
@@ -390,7 +390,7 @@ def gather_gaps(given, p, grid, begin, end, sizes, first, last, shares, whole, r
     the nodes of polynomials over the gap, behind the nodes over ε, weights of the sizes and all.
     −1 where there is no room.
     """
-    apart()
+    keep_apart()
     nodes, width, wide = int(rule[0, SEAT_NODES]), given[p, WIDTH], end - begin
     least, most = 1.0, 0.0  # nodes of a polynomial stand in another order
     for i in range(begin, end):
@@ -446,7 +446,7 @@ def gather_gaps(given, p, grid, begin, end, sizes, first, last, shares, whole, r
 @exact
 def weigh_gaps(grid, begin, end, gap, width):
     """Densities of the seat at nodes over the gap, without what stands in the nodes."""
-    apart()
+    keep_apart()
     # rows of their own, from zero: only then do loops over them become vectors
     own, total = grid[EPS, begin:end], grid[SUM, begin:end]
     for i in range(len(total)):
@@ -457,7 +457,7 @@ def weigh_gaps(grid, begin, end, gap, width):
 @exact
 def _sum_sizes(grid, sizes, s, gap, width):
     """K on a piece: over sizes, x³ times the density of the seat, into the last row."""
-    apart()
+    keep_apart()
     begin, end = int(grid[NODE, s]), int(grid[NODE_END, s])
     thick, thin = 1 - grid[FROM, s], 1 - grid[UNTIL, s]
     low, high = gap - REACH * width, gap + REACH * width
@@ -478,7 +478,7 @@ def _sum_sizes(grid, sizes, s, gap, width):
 @scalar
 def add_nodes(given, p, grid, begin, end, out):
     """What nodes carry whose K is known."""
-    apart()
+    keep_apart()
     factor, share = given[p, DENSITY], grid[SUM, begin:end]
     out[F_SA] += factor * _product(share, grid[LOAD, begin:end])
     out[A_SA2] += factor * _product(share, grid[SECOND, begin:end])
@@ -493,7 +493,7 @@ def pays(grid, begin, end, bound, most_loss):
 
     But for a loss per coverage.
     """
-    apart()
+    keep_apart()
     most = worst = 0.0
     for i in range(begin, end):
         if grid[BY_ITSELF, i] > 0:
@@ -504,9 +504,9 @@ def pays(grid, begin, end, bound, most_loss):
 
 
 @scalar
-def _squared(given, p, grid, sizes, s, thick, gap):
+def _sum_of_squares(given, p, grid, sizes, s, thick, gap):
     """Sum of the squares of sizes of a piece whose part of this thickness reaches the gap."""
-    apart()
+    keep_apart()
     total = 0.0
     for j in range(int(grid[SIZE, s]), int(grid[SIZE_END, s])):
         x = sizes[0, j]
@@ -517,23 +517,23 @@ def _squared(given, p, grid, sizes, s, thick, gap):
 @scalar
 def add_rough(given, sides, panels, p, own, grid, sizes, gap, out):
     """What a part carries on a rough seat, into the columns of the particles."""
-    apart()
+    keep_apart()
     count, piece, until = own[COUNT], own[PIECE_BEGIN], own[PIECE_END]
     for s in range(piece, until):
         _sum_sizes(grid, sizes, s, gap, given[p, WIDTH])
         add_nodes(given, p, grid, int(grid[NODE, s]), int(grid[NODE_END, s]), out)
     thin = 1 - panels[p, count - 1, TO]
-    squeezed = _squared(given, p, grid, sizes, until - 1, thin, gap)
+    squeezed = _sum_of_squares(given, p, grid, sizes, until - 1, thin, gap)
     add_last(given, sides, panels, p, count, squeezed, out)
     if given[p, SHADOW] == PROJECTED:
-        touched = _squared(given, p, grid, sizes, piece, 1 - grid[FROM, piece], gap)
+        touched = _sum_of_squares(given, p, grid, sizes, piece, 1 - grid[FROM, piece], gap)
         out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * touched
 
 
 @scalar
 def add_broken(given, sides, panels, p, own, grid, sizes, gap, shares, out):
     """What a part that breaks carries on a rough seat; ``own`` is what is laid of it."""
-    apart()
+    keep_apart()
     width, first, last = given[p, WIDTH], own[SIZED], own[SIZED_END]
     place = own[WHOLE] + (last - first) * (own[GAPS] - own[GRID])
     weigh_gaps(grid, own[GAPS], own[GRID_END], gap, width)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .curves import (
     AREA_1,
     AREA_2,
@@ -73,13 +73,13 @@ from .fields import (
     MOST_JUMPS,
 )
 from .sides import exact, scalar, side_at
-from .vectors import exp, fill_side, formula_of, ln, padded
+from .vectors import exp, fill_side, formula_of, ln, padded_length
 
 
 @scalar
 def note_jumps(sides, i):
     """Write down where the load of a side jumps."""
-    apart()
+    keep_apart()
     sides[i, JUMPS] = 0
     if not CEB <= sides[i, CODE] <= JG:
         return
@@ -103,13 +103,13 @@ def jump_of(sides, i, n):
 @scalar
 def note_loads(sides, i):
     """Write down the load of a side at each of its kinks."""
-    apart()
+    keep_apart()
     for k in range(int(sides[i, COUNT])):
         sides[i, LOADS + k] = side_at(sides, i, sides[i, KINKS + k])[0]
 
 
 @scalar
-def around(sides, i, k):
+def loads_at_kink(sides, i, k):
     """Loads before and behind kink k of a side; equal ones where the load does not jump."""
     for n in range(int(sides[i, JUMPS])):
         at_jump, below, at = jump_of(sides, i, n)
@@ -124,12 +124,12 @@ def inverse(sides, i, load):
 
     By secants of ln load over ln indentation, inside the bracket.
     """
-    apart()
+    keep_apart()
     count = int(sides[i, COUNT])
     n = count - count  # no constant, for which numba would compile twice
     below = at = 0.0
     while n < count:
-        below, at = around(sides, i, n)
+        below, at = loads_at_kink(sides, i, n)
         if max(below, at) >= load:
             break
         n += 1
@@ -145,7 +145,7 @@ def inverse(sides, i, load):
     x, slope = high - f_high / 1.5, 1.5
     if n > 0:
         low = math.log(sides[i, KINKS + n - 1])
-        f_low = math.log(around(sides, i, n - 1)[1] / load)
+        f_low = math.log(loads_at_kink(sides, i, n - 1)[1] / load)
         if f_low >= 0:
             return math.exp(low)
         slope = (f_high - f_low) / (high - low)
@@ -175,7 +175,7 @@ def split(sides, i, eps, low, high):
     By secants inside the bracket; the first slope is that of a load which grows like a power of
     the indentation.
     """
-    apart()
+    keep_apart()
     delta = 0.5 * (low + high)
     old = old_f = math.nan
     slope = 1.3 / delta + 1.3 / max(eps - delta, 1e-300)
@@ -199,9 +199,9 @@ def split(sides, i, eps, low, high):
 
 
 @scalar
-def _held(sides, p, eps):
+def _holding_place(sides, p, eps):
     """As `HELD`: where a jump up of its load holds a side at a squeeze ε, or 0."""
-    apart()
+    keep_apart()
     for i in range(2):
         own, other = 2 * p + i, 2 * p + 1 - i
         for n in range(int(sides[own, JUMPS])):
@@ -223,12 +223,12 @@ def _lets_go(sides, p):
 
 
 @scalar
-def _allowed(sides, p, eps):
+def _indentation_range(sides, p, eps):
     """Between which indentations side 1 is at ε.
 
     A side whose load falls at a jump lets go where loading first reaches it.
     """
-    apart()
+    keep_apart()
     low, high = 0.0, eps
     for i in range(2):
         own, other = 2 * p + i, 2 * p + 1 - i
@@ -264,7 +264,7 @@ def _guess(eps, a, b, low, high, first):
 
 
 @exact
-def _bound(eps, a, b, low, high, first, least, most):
+def _set_bounds(eps, a, b, low, high, first, least, most):
     """Between which indentations side 1 must be, and what is guessed of it there."""
     for j in range(len(eps)):
         least[j] = max(low, eps[j] - (b - high))
@@ -324,7 +324,7 @@ def _find_shares(sides, p, panel, room, wide):
     The last step is along the line through the two before, with an error of the square of the
     distance that is left.
     """
-    apart()
+    keep_apart()
     eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
     load, other, off = room[LOAD, :wide], room[OTHER, :wide], room[OFF, :wide]
     slope, least, most, old = (
@@ -361,9 +361,9 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
     The indentations of side 1 at two squeezes a and b around the panel are ``low`` and ``high``.
     Where ``free``, a side lets go.
     """
-    apart()
+    keep_apart()
     panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
-    begin, end, wide = panel[EDGE], panel[TO], padded(TERMS)
+    begin, end, wide = panel[EDGE], panel[TO], padded_length(TERMS)
     eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
     places, least, most = room[SLOPE, :wide], room[LEAST, :wide], room[MOST, :wide]
     for j in range(wide):
@@ -373,7 +373,7 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
         read_shares(panel, eps, first)
     else:
         _guess(eps, a, b, low, high, first)
-    _bound(eps, a, b, low, high, first, least, most)
+    _set_bounds(eps, a, b, low, high, first, least, most)
     for j in range(wide):  # of no step before: nothing of another state
         room[OLD, j], room[OLD_OFF, j] = first[j], 0.0
     middle = TERMS // 2
@@ -381,10 +381,10 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high, free):
     panel[FORM_2] = formula_of(sides, 2 * p + 1, eps[middle] - first[middle])
     panel[FROM], panel[UNTIL], panel[SURE] = begin, end, 1.0
     if free or not _find_shares(sides, p, panel, room, wide):
-        _bound(eps, a, b, low, high, first, least, most)
+        _set_bounds(eps, a, b, low, high, first, least, most)
         for j in range(TERMS):
             if free:
-                least[j], most[j] = _allowed(sides, p, eps[j])
+                least[j], most[j] = _indentation_range(sides, p, eps[j])
             first[j] = split(sides, 2 * p, eps[j], least[j], most[j])
         for j in range(TERMS, wide):
             first[j] = first[TERMS - 1]
@@ -406,7 +406,7 @@ def share_out(sides, panels, p, count, rule, spread):
     How many panels there are then, and what all series leave out, each over the part that its
     panel is of what is squeezed at a separation, which ``spread`` is the least of.
     """
-    apart()
+    keep_apart()
     n, left, free = int(panels[p, 0, EDGE]), 0.0, _lets_go(sides, p)  # 0, and no constant
     begin, low = 0.0, 0.0
     while n < count:
@@ -418,7 +418,7 @@ def share_out(sides, panels, p, count, rule, spread):
             last += 1
         end, high = panels[p, last, EDGE], panels[p, last, ONE]
         panels[p, n, FORM_1] = panels[p, n, FORM_2] = panels[p, n, SURE] = 0.0
-        panels[p, n, HELD] = _held(sides, p, 0.5 * (a + b))
+        panels[p, n, HELD] = _holding_place(sides, p, 0.5 * (a + b))
         if panels[p, n, HELD] != 0:
             n += 1
             continue
@@ -450,7 +450,7 @@ def first_at(panels, p, n, eps):
 @scalar
 def particle_at(given, sides, panels, p, n, eps):
     """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
-    apart()
+    keep_apart()
     if panels[p, n, SURE] == 1:
         return read_particle(panels[p, n], eps)
     if given[p, EQUAL] == 1:
@@ -469,8 +469,8 @@ def fill_particles(given, sides, panels, p, n, count):
 
     Into the rows `LOAD`, `AREA_1` and `AREA_2` there.
     """
-    apart()
-    wide, panel, room = padded(count), panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    keep_apart()
+    wide, panel, room = padded_length(count), panels[p, n], panels[p, len(panels[p]) - ROOM :]
     eps, first = room[AT, :wide], room[FIRST, :wide]
     for j in range(count, wide):
         eps[j] = eps[count - 1]
@@ -497,7 +497,7 @@ def fill_particles(given, sides, panels, p, n, count):
 @scalar
 def settle(given, sides, panels, p, n, rule):
     """Series of load and areas on panel n between equal sides, where they are smooth enough."""
-    apart()
+    keep_apart()
     panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
     panel[SURE] = 0.0
     panel[FROM], panel[UNTIL] = panel[EDGE], panel[TO]

@@ -11,7 +11,7 @@ from numba import njit
 
 from ...laws.asperity import formulas
 from ...laws.particle import deep
-from ..compiled.machine import EXACT, apart
+from ..compiled.machine import EXACT, keep_apart
 from .fields import (
     CAP,
     CEB,
@@ -70,11 +70,11 @@ summed = njit(
 
 
 elastic = scalar(formulas.elastic)
-doubled = scalar(formulas.doubled)
+fully_plastic = scalar(formulas.fully_plastic)
 zmc_spread = scalar(formulas._spread)
 plastic_ceb = scalar(formulas.plastic_ceb)
 kogut = scalar(formulas.kogut)
-pulled = scalar(formulas.pulled)
+hertz_less_pull = scalar(formulas.hertz_less_pull)
 green_middle = scalar(formulas.green_middle)
 HALVINGS, STEEPEST = 60, 1e-15
 ROUNDED = 2e-15
@@ -118,14 +118,14 @@ def hermite_by(y, log_y, log_rho, k, rho, r, full):
 
 @scalar
 def zmc_middle(y, k, rho, r, full):
-    apart()
+    keep_apart()
     p, area = zmc_by(y, math.log(y), math.log(rho), k, rho, r, full)
     return p * area, area
 
 
 @scalar
 def hermite_middle(y, k, rho, r, full):
-    apart()
+    keep_apart()
     p, area = hermite_by(y, math.log(y), math.log(rho), k, rho, r, full)
     return p * area, area
 
@@ -159,7 +159,7 @@ def break_at(rows, i, n):
 @scalar
 def branch_of(rows, i, y):
     """Which branch of its law a row is on at y."""
-    apart()
+    keep_apart()
     n = 0
     while n < breaks(rows, i) and y >= break_at(rows, i, n):
         n += 1
@@ -179,7 +179,7 @@ def regime_of_branch(rows, i, branch):
 @scalar
 def law_at(rows, i, y):
     """Reduced load and area of the law of a row at y > 0."""
-    apart()
+    keep_apart()
     code = rows[i, CODE]
     if ZMC <= code <= HERMITE:
         k, rho = rows[i, LAW_1], rows[i, LAW_2]
@@ -187,7 +187,7 @@ def law_at(rows, i, y):
         if y < 1:
             return elastic(y, k, r)
         if y >= rho:
-            return doubled(y, full)
+            return fully_plastic(y, full)
         if code == HERMITE:
             return hermite_middle(y, k, rho, r, full)
         return zmc_middle(y, k, rho, r, full)
@@ -205,9 +205,9 @@ def law_at(rows, i, y):
             return kogut(y, 2 / 3 * first, 1.03, 1.425, 0.93, 1.136)
         if y < 110:
             return kogut(y, 2 / 3 * first, 1.40, 1.263, 0.94, 1.146)
-        return doubled(y, 2.0)
+        return fully_plastic(y, 2.0)
     if code == DMT:
-        return pulled(y, first)
+        return hertz_less_pull(y, first)
     if y < 1.9:
         return elastic(y, 2 / 3 * first / rows[i, LAW_4], 1.0)
     return green_middle(y, first, rows[i, LAW_2], rows[i, LAW_3], rows[i, LAW_4])
@@ -221,7 +221,7 @@ def chord(low, f_low, high, f_high, step):
 
 
 @scalar
-def narrowed(low, f_low, high, f_high, last, x, f):
+def narrow_ends(low, f_low, high, f_high, last, x, f):
     """Ends and values around a root after a look at x, and which end moved (rule of Illinois).
 
     The value of an end that stays twice is halved. Dowell and Jarratt, BIT 11 (1971) 168.
@@ -234,7 +234,7 @@ def narrowed(low, f_low, high, f_high, last, x, f):
 @scalar
 def _excess(rows, i, y, what):
     """What is zero at a kink of a row, rising with y: of the cap, the width, or the pressure."""
-    apart()
+    keep_apart()
     if what == OF_CAP:
         return law_at(rows, i, y)[1] - rows[i, FULL]
     load, area = _squashed_at(rows, i, y)
@@ -246,7 +246,7 @@ def _excess(rows, i, y, what):
 @scalar
 def _crossing(rows, i, low, high, what):
     """y between two at which `_excess` changes its sign, by halving and by chords."""
-    apart()
+    keep_apart()
     f_low, f_high = _excess(rows, i, low, what), _excess(rows, i, high, what)
     if f_low >= 0:
         return low
@@ -258,14 +258,14 @@ def _crossing(rows, i, low, high, what):
         f = _excess(rows, i, y, what)
         if f == 0:
             return y
-        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, y, f)
+        low, f_low, high, f_high, last = narrow_ends(low, f_low, high, f_high, last, y, f)
     return 0.5 * (low + high)
 
 
 @scalar
 def _cap(rows, i):
     """Reduced indentation at which the area of the law reaches the great circle."""
-    apart()
+    keep_apart()
     full, count = rows[i, FULL], breaks(rows, i)
     code = rows[i, CODE]
     if code == GW or (rows[i, LAW_3] * 0 + full <= break_at(rows, i, 0) and code != KE):
@@ -299,7 +299,7 @@ def _cap(rows, i):
 @scalar
 def _squashed_at(rows, i, y):
     """Reduced load and area of a squashed half."""
-    apart()
+    keep_apart()
     delta_1, full = rows[i, DELTA_1], rows[i, FULL]
     load, area = law_at(rows, i, y)
     left = 1 - 2 * delta_1 * y
@@ -313,7 +313,7 @@ def _squashed_at(rows, i, y):
 @scalar
 def _table_at(rows, i, x):
     """Load and area by both Chebyshev series of a row at x, from −1 to 1, side by side."""
-    apart()
+    keep_apart()
     b_1, c_1, b_2, c_2, twice = 0.0, 0.0, 0.0, 0.0, 2 * x
     for k in range(TABLE_TERMS - 1, 0, -1):
         b_1, c_1 = rows[i, TABLE_LOAD + k] + twice * b_1 - c_1, b_1
@@ -335,7 +335,7 @@ def _disc_at(rows, i, left):
 @scalar
 def _deep_at(rows, i, eps):
     """Load over πR²H and area over πR² of a side by the table, at a squeeze ε = δ/R."""
-    apart()
+    keep_apart()
     if eps > TABLE_ENDS:
         return _disc_at(rows, i, 1 - rows[i, TAKEN] * eps)
     thin = rows[i, DELTA_1] / rows[i, TIP]
@@ -371,7 +371,7 @@ def _table_excess(rows, i, place, what):
 @scalar
 def _table_crossing(rows, i, low, high, what):
     """Place between two at which `_table_excess` changes its sign, by chords."""
-    apart()
+    keep_apart()
     f_low, f_high = _table_excess(rows, i, low, what), _table_excess(rows, i, high, what)
     last = 0
     if f_low >= 0:
@@ -383,7 +383,7 @@ def _table_crossing(rows, i, low, high, what):
         f = _table_excess(rows, i, place, what)
         if abs(f) < ROUNDED:
             return place
-        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, place, f)
+        low, f_low, high, f_high, last = narrow_ends(low, f_low, high, f_high, last, place, f)
     return high
 
 
@@ -440,7 +440,7 @@ def is_split(rows, i, delta):
 @scalar
 def side_at(rows, i, delta):
     """Load over x² [Pa] and area over x² of a side indented by δ over x."""
-    apart()
+    keep_apart()
     delta_1 = rows[i, DELTA_1]
     y = delta / delta_1
     if rows[i, FORM] == SQUASHED:
@@ -467,7 +467,7 @@ def side_at(rows, i, delta):
 @scalar
 def regime_of(rows, i, delta):
     """0 elastic, 1 elastoplastic, 2 plastic, of a side indented by δ over x."""
-    apart()
+    keep_apart()
     y = delta / rows[i, DELTA_1]
     if y >= rows[i, CAP] and rows[i, PLATEAU] == 1:
         return 2
@@ -479,7 +479,7 @@ def regime_of(rows, i, delta):
 @scalar
 def _add_kink(rows, i, y):
     """Note a reduced indentation as a kink, in increasing order; equal ones once."""
-    apart()
+    keep_apart()
     delta = y * rows[i, DELTA_1]
     n = int(rows[i, COUNT])
     if n >= MOST_KINKS:
@@ -498,7 +498,7 @@ def _add_kink(rows, i, y):
 @scalar
 def _prepare_disc(rows, i):
     """Where a squashed half is bounded by its volume, is as wide as the sphere, and sinks in."""
-    apart()
+    keep_apart()
     delta_1, cap = rows[i, DELTA_1], rows[i, CAP]
     top = 0.5 * (1 - 1e-6) / delta_1
     rows[i, WIDE] = cap
@@ -537,7 +537,7 @@ def _prepare_disc(rows, i):
 @scalar
 def _prepare_faces(rows, i):
     """Where the faces of an angular side begin and end, and what they carry."""
-    apart()
+    keep_apart()
     full, edge = rows[i, FULL], rows[i, FACE_AREA]
     rows[i, FULL] = edge
     joint = rows[i, JOINT] = _cap(rows, i)
@@ -557,7 +557,7 @@ def _prepare_faces(rows, i):
 @scalar
 def prepare(rows, i):
     """Find the kinks of a side; False where its formulas do not cover it."""
-    apart()
+    keep_apart()
     code = rows[i, CODE]
     rows[i, COUNT] = 0
     rows[i, PLATEAU] = 1.0 if GW < code < JG else 0.0

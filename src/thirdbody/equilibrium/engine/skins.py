@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ...laws.asperity import formulas
-from ..compiled.machine import apart, exp
+from ..compiled.machine import exp, keep_apart
 from .field import add_field, lay_field
 from .fields import (
     A_E,
@@ -51,15 +51,15 @@ NEAREST, CLOSEST = 0.3, 1e-5
 """First panel over heights [σ_s], and over the distance to the lower end of the heights."""
 
 
-adhesive, stretched = scalar(formulas.adhesive), scalar(formulas.stretched)
+adhesive, y_of_stretch = scalar(formulas.adhesive), scalar(formulas.y_of_stretch)
 stretched_from, coated_beyond = scalar(formulas.stretched_from), scalar(formulas.coated_beyond)
 
 
 # ------------------------------------------------------------------------------ asperities
 @scalar
-def _coated(coating, y, unit):
+def _coated_load_area(coating, y, unit):
     """Load and area of a coated asperity."""
-    apart()
+    keep_apart()
     root = math.sqrt(y)
     if root > coating[0, TOP]:
         load, area = coated_beyond(
@@ -88,7 +88,7 @@ def _place_heights(rooted, start, low, half, gauss, weights, at, mass):
 @scalar
 def _fill_run(skin, row, coating, heights, begin, end):
     """Loads and areas of asperities at nodes over which the law keeps to a formula."""
-    apart()
+    keep_apart()
     if begin == end:
         return
     y, load, area = heights[T, begin:end], heights[OF_LOAD, begin:end], heights[OF_AREA, begin:end]
@@ -100,7 +100,9 @@ def _fill_run(skin, row, coating, heights, begin, end):
         return
     for j in range(len(y)):
         load[j], area[j] = (
-            _coated(coating, y[j], skin[row, LAW_1]) if code == COATED else law_at(skin, row, y[j])
+            _coated_load_area(coating, y[j], skin[row, LAW_1])
+            if code == COATED
+            else law_at(skin, row, y[j])
         )
 
 
@@ -119,13 +121,13 @@ def _scale(heights, begin, end, w, load_unit, area_unit):
 @scalar
 def _fill_stretched(skin, row, heights, count, gauss, weights, nodes, a, b):
     """As `_fill_panel`, of `JKR`, with its e as the variable: there is no root to find."""
-    apart()
+    keep_apart()
     low = stretched_from(a)
     half = 0.5 * (stretched_from(b) - low)
     for j in range(nodes):
         e = low + half * (1 + gauss[j])
         load, area = adhesive(e, skin[row, LAW_1])
-        heights[T, count] = stretched(e)
+        heights[T, count] = y_of_stretch(e)
         heights[4, count] = half * weights[j] * e * (3 + e * (3 + e))
         heights[OF_LOAD, count], heights[OF_AREA, count] = load, area
         count += 1
@@ -134,7 +136,7 @@ def _fill_stretched(skin, row, heights, count, gauss, weights, nodes, a, b):
 @scalar
 def _lay_shape(skin, row, coating, heights, count, until, gauss, weights, nodes, off):
     """As `lay_skin`, of the asperities of one shape."""
-    apart()
+    keep_apart()
     w, start = skin[row, W], skin[row, START]
     first, number = NEAREST / w, breaks(skin, row)
     if off > -math.inf:
@@ -190,7 +192,7 @@ def lay_skin(skin, coating, heights, count, until, gauss, weights, nodes, off):
     [σ_s], −∞ where that does not show. −1 if they would take more than ``until`` nodes. Loads and
     areas of every shape are in units of the first.
     """
-    apart()
+    keep_apart()
     if skin[0, CODE] == FIELD:
         lay_field(heights)
         return count
@@ -205,7 +207,7 @@ def lay_skin(skin, coating, heights, count, until, gauss, weights, nodes, off):
 @exact
 def _weigh(heights, begin, end, h):
     """Densities of Gaussian heights at the nodes, without exp(−h²/2)."""
-    apart()
+    keep_apart()
     # rows of their own, from zero: only then do loops over them become vectors
     t, found = heights[T, begin:end], heights[4, begin:end]
     for j in range(len(t)):
@@ -215,7 +217,7 @@ def _weigh(heights, begin, end, h):
 @exact
 def _weigh_other(skin, heights, begin, end, h):
     """Densities of other heights at the nodes without a factor, and that factor times √(2π)."""
-    apart()
+    keep_apart()
     if skin[0, HEIGHTS] == EXPONENTIAL:
         for j in range(begin, end):
             heights[4, j] = exp(max(-heights[T, j], -700.0))
@@ -254,7 +256,7 @@ def add_skin(skin, coating, heights, begin, end, gauss, weights, nodes, h, out):
 
     Where the lower end of the heights lies among the nodes, or close to them, they are laid anew.
     """
-    apart()
+    keep_apart()
     if skin[0, CODE] == FIELD:
         return add_field(skin, heights, h, out)
     if h < skin[0, LAID_FROM]:

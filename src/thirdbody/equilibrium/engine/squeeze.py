@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import keep_apart
 from .curves import (
     AREA_1,
     AREA_2,
@@ -44,17 +44,17 @@ from .fields import (
     WIDTH,
 )
 from .shares import (
-    around,
     fill_particles,
     first_at,
     inverse,
+    loads_at_kink,
     note_jumps,
     note_loads,
     particle_at,
     settle,
     share_out,
 )
-from .sides import EARLIEST, chord, is_split, narrowed, prepare, regime_of, scalar, side_at
+from .sides import EARLIEST, chord, is_split, narrow_ends, prepare, regime_of, scalar, side_at
 from .vectors import ANY, VECTOR, formula_of
 
 __all__ = ["lay_panels"]
@@ -70,7 +70,7 @@ PART = 0.2
 @scalar
 def _lay(panels, p, count, eps, one):
     """Note an end of panels, in increasing order, equal ones once, and where side 1 is there."""
-    apart()
+    keep_apart()
     place = count
     while place > 0 and panels[p, place - 1, EDGE] > eps:
         place -= 1
@@ -85,7 +85,7 @@ def _lay(panels, p, count, eps, one):
 @scalar
 def _kinks(given, sides, panels, p):
     """Kinks in ε as ends of panels after 0; how many ends."""
-    apart()
+    keep_apart()
     panels[p, 0, EDGE] = panels[p, 0, ONE] = 0.0
     count = 1 + int(panels[p, 0, EDGE])  # no constant, for which numba would compile twice
     equal = given[p, EQUAL] == 1
@@ -105,7 +105,7 @@ def _kinks(given, sides, panels, p):
             if equal:
                 count = _lay(panels, p, count, 2 * delta, delta)
                 continue
-            below, at = around(sides, own, k)
+            below, at = loads_at_kink(sides, own, k)
             limit = sides[other, LIMIT]
             for n in range(1 if at <= below else 2):
                 load = below if n == 0 else at
@@ -127,7 +127,7 @@ def _which(given, sides, panels, p, n, eps):
 @scalar
 def _crossing(given, sides, panels, p, n, low, high):
     """ε on panel n between two at which the areas on both surfaces are equal, by chords."""
-    apart()
+    keep_apart()
     f_low = _which(given, sides, panels, p, n, low)
     f_high, last = _which(given, sides, panels, p, n, high), 0
     sign = 1.0 if f_high > 0 else -1.0
@@ -139,14 +139,14 @@ def _crossing(given, sides, panels, p, n, low, high):
         f = sign * _which(given, sides, panels, p, n, eps)
         if abs(f) <= 1e-13:
             return eps
-        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, eps, f)
+        low, f_low, high, f_high, last = narrow_ends(low, f_low, high, f_high, last, eps, f)
     return 0.5 * (low + high)
 
 
 @scalar
 def _cut_at_crossings(given, sides, panels, p, count):
     """Panels cut where the larger of the two areas changes, if it counts; their number."""
-    apart()
+    keep_apart()
     if given[p, SHADOW] != FOOTPRINT and given[p, SHADOW] != PROJECTED:
         return count
     n, room = int(panels[p, 0, EDGE]), panels[p, len(panels[p]) - ROOM :]  # 0, and no constant
@@ -182,7 +182,7 @@ def _last_area(sides, i, load, area):
     A share between the sides holds to some 1e-6 beside a kink, and all that is squeezed further
     has this area: it is read from the law.
     """
-    apart()
+    keep_apart()
     if sides[i, LIMIT] <= load * (1 + CLOSE):
         return side_at(sides, i, 2 * sides[i, KINKS + int(sides[i, COUNT]) - 1])[1]
     last = side_at(sides, i, inverse(sides, i, load))[1]
@@ -194,7 +194,7 @@ def _last_area(sides, i, load, area):
 @scalar
 def _note_last(given, sides, panels, p, count):
     """Write down what all that is squeezed beyond the last panel has in common."""
-    apart()
+    keep_apart()
     equal, eps, first = given[p, EQUAL] == 1, panels[p, count - 1, TO], sides[2 * p, LIMIT]
     other = first if equal else sides[2 * p + 1, LIMIT]
     load = min(first, other)
@@ -213,7 +213,7 @@ def _note_last(given, sides, panels, p, count):
 @scalar
 def _farthest(given, sides, p, a):
     """Ratio of the ends of a panel that begins at a, at most."""
-    apart()
+    keep_apart()
     if given[p, EQUAL] != 1 or given[p, BREAKS] == 1:
         return RATIO
     formula = formula_of(sides, 2 * p, 0.5 * a * (1 + 1e-6))
@@ -223,7 +223,7 @@ def _farthest(given, sides, p, a):
 @scalar
 def _cut_far(given, sides, panels, p, count):
     """Ends of panels with more between those that lie far apart; how many, or −1."""
-    apart()
+    keep_apart()
     known = count
     for k in range(1, known - 1):  # cut those whose ends lie far apart
         a, b = panels[p, known - 1 - k, EDGE], panels[p, known - k, EDGE]
@@ -240,7 +240,7 @@ def _cut_far(given, sides, panels, p, count):
 @scalar
 def lay_panels(given, sides, panels, p, rule):
     """Lay the panels of part p; how many, or −1 where the formulas do not cover it."""
-    apart()
+    keep_apart()
     if not prepare(sides, 2 * p):
         return -1
     equal, worst = given[p, EQUAL] == 1, 0.0

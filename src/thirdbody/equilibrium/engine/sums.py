@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart, exp, normal_cdf
+from ..compiled.machine import exp, keep_apart, normal_cdf
 from .breakage import mark_sizes
 from .curves import (
     AREA_1,
@@ -84,7 +84,7 @@ NARROW_SIZES, NEAR_END = 0.8, 8.0
 @scalar
 def _lay_pieces(given, p, sizes, count, rule, low, high):
     """Nodes over sizes between two jumps of the number of pieces; where they end, or −1."""
-    apart()
+    keep_apart()
     gauss, weights = rule[SIZE_RULE], rule[SIZE_RULE + 1]
     nodes, span = int(rule[0, SIZE_NODES]), rule[0, SIZE_SPAN]
     middle = math.sqrt(low * high)
@@ -120,7 +120,7 @@ def lay_sizes(given, p, sizes, begin, rule, thick):
 
     The gap shows ``thick`` times a size, which is 1 − ε.
     """
-    apart()
+    keep_apart()
     gauss, weights = rule[SIZE_RULE], rule[SIZE_RULE + 1]
     nodes, span = int(rule[0, SIZE_NODES]), rule[0, SIZE_SPAN]
     if given[p, KIND] == ONE_SIZE:
@@ -180,7 +180,7 @@ def _weigh_normal(middle, width, norm, x, mass):
 @scalar
 def _place_sizes(given, p, a, half, gauss, weights, x, mass):
     """Nodes over sizes from a on, and their numbers."""
-    apart()
+    keep_apart()
     for j in range(len(x)):
         x[j], mass[j] = a + half * (1 + gauss[j]), half * weights[j]
     if given[p, KIND] == GAUSSIAN:
@@ -204,14 +204,14 @@ def shade(given, p, one, two):
 @scalar
 def above(z):
     """The normal distribution Φ(z)."""
-    apart()
+    keep_apart()
     return normal_cdf(z, math.exp(-0.5 * z * z)) if abs(z) < 37 else (1.0 if z > 0 else 0.0)
 
 
 @scalar
 def add_last(given, sides, panels, p, count, squared, out):
     """What particles beyond the last panel carry, by the sum of their sizes squared."""
-    apart()
+    keep_apart()
     one, two = panels[p, count, LAST_1], panels[p, count, LAST_2]
     load = sides[2 * p, LIMIT]  # the load may jump at the end
     if given[p, EQUAL] != 1:
@@ -226,7 +226,7 @@ def add_last(given, sides, panels, p, count, squared, out):
 @scalar
 def _add_size(given, sides, panels, p, n, x, eps, weight, out):
     """What so many particles of a size x squeezed by ε on panel n carry."""
-    apart()
+    keep_apart()
     load, one, two = particle_at(given, sides, panels, p, n, eps)
     squared = weight * x * x
     out[F_SA] += squared * load
@@ -252,7 +252,7 @@ def _sums_of(mass, load, one, two, floor):
 @scalar
 def _add_sizes(given, p, regime, room, nodes, out):
     """What particles carry that are weighed at nodes of a panel."""
-    apart()
+    keep_apart()
     floor = 0.25 * math.pi * given[p, BREADTH] if given[p, SHADOW] == PROJECTED else 0.0
     load, area, second, shaded = _sums_of(
         room[MASS, :nodes], room[CARRIED, :nodes], room[AREA_1, :nodes], room[AREA_2, :nodes], floor
@@ -281,7 +281,7 @@ def _weigh_gaussian(middle, width, norm, gap, at, mass):
 def _weigh_sizes(given, p, gap, at, mass):
     """Squeezes of sizes from their indentations, their number times x² into their weights, and
     the sum of these."""
-    apart()
+    keep_apart()
     factor, total = given[p, DENSITY], 0.0
     if given[p, KIND] == GAUSSIAN:
         return _weigh_gaussian(
@@ -298,7 +298,7 @@ def _weigh_sizes(given, p, gap, at, mass):
 @scalar
 def _add_one_size(given, sides, panels, p, count, gap, out):
     """What particles of one size carry on a plane."""
-    apart()
+    keep_apart()
     x = given[p, SIZE_1]
     eps = (x - gap) / x
     if eps <= 0:
@@ -318,7 +318,7 @@ def _add_one_size(given, sides, panels, p, count, gap, out):
 @scalar
 def add_plane(given, sides, panels, p, count, gap, rule, out):
     """What a part carries on a plane, by panels in the indentation; False below its range."""
-    apart()
+    keep_apart()
     low, high = given[p, LOW], given[p, HIGH]
     if gap >= high:
         return True
@@ -349,7 +349,7 @@ def add_plane(given, sides, panels, p, count, gap, rule, out):
 @scalar
 def _add_panel(given, sides, panels, p, count, n, gap, low, high, rule, out):
     """What sizes between two carry that are on panel n, or the squares of those beyond all."""
-    apart()
+    keep_apart()
     room, own, squared = panels[p, len(panels[p]) - ROOM :], scale_of(given, p, low), 0.0
     parts = max(1, math.ceil((high - low) / (rule[0, PLANE_SPAN] * own) - 1e-9))
     # the logarithm of what a squeeze leaves of one is that of the indentation over the gap

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import _bits, _float, apart, exp, njit
+from ..compiled.machine import _bits, _float, exp, keep_apart, njit
 from .fields import (
     CAP,
     CEB,
@@ -50,7 +50,16 @@ from .sides import (
     zmc_by,
 )
 
-__all__ = ["VECTOR", "exp", "fill_law", "fill_side", "formula_of", "formula_of_law", "ln", "padded"]
+__all__ = [
+    "VECTOR",
+    "exp",
+    "fill_law",
+    "fill_side",
+    "formula_of",
+    "formula_of_law",
+    "ln",
+    "padded_length",
+]
 
 VECTOR = 8
 """Numbers that a processor takes at once."""
@@ -91,7 +100,7 @@ def ln(x):
 
 
 @scalar
-def padded(count):
+def padded_length(count):
     """Length of a row for so many numbers."""
     return (count + VECTOR - 1) // VECTOR * VECTOR
 
@@ -120,7 +129,7 @@ def formula_of_law(rows, i, y):
 @scalar
 def formula_of(rows, i, delta):
     """Formula of a side around an indentation δ over x."""
-    apart()
+    keep_apart()
     form, y = rows[i, FORM], delta / rows[i, DELTA_1]
     if form == SPHERE and y < rows[i, CAP]:
         return formula_of_law(rows, i, y)
@@ -195,7 +204,7 @@ def _fill_powers(rate, unit, breadth, f, m, a, n, delta, load, area):
 @scalar
 def fill_law(rows, i, formula, rate, unit, breadth, delta, load, area):
     """Load and area of the law of a row by a formula, in these units, y being rate times δ."""
-    apart()
+    keep_apart()
     code, first, rho = rows[i, CODE], rows[i, LAW_1], rows[i, LAW_2]
     r, full = rows[i, LAW_3], rows[i, LAW_4]
     if formula == ELASTIC:
@@ -227,7 +236,7 @@ def fill_law(rows, i, formula, rate, unit, breadth, delta, load, area):
 @exact
 def _fill_table(series, rate, unit, breadth, delta, load, area):
     """By both Chebyshev series of the table."""
-    apart()
+    keep_apart()
     of_load, of_area = series[:TABLE_TERMS], series[TABLE_TERMS:]
     for j in range(len(delta)):
         eps = delta[j] * rate
@@ -269,7 +278,7 @@ def fill_side(rows, i, formula, delta, load, area, passing, passing_2):
 
     The last two rows are for what is on the way.
     """
-    apart()
+    keep_apart()
     if formula == ANY:
         for j in range(len(delta)):
             load[j], area[j] = side_at(rows, i, delta[j])

@@ -119,7 +119,7 @@ def table(
     panels = _Panels(bound, shift, columns, coordinate)
     x_low = d_low + shift if low is None else float(low)
     x_high = d_high + shift if high is None else float(high)
-    x, parts, error = panels.refined(x_low, x_high, tolerance)
+    x, parts, error = panels.refine_panels(x_low, x_high, tolerance)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         said = solve(contact, d=np.array([d_low, d_high])).warnings
@@ -319,7 +319,7 @@ class _Panels:
         return slope
 
     # ------------------------------------------------------------------ refinement
-    def refined(
+    def refine_panels(
         self, low: float, high: float, tolerance: float
     ) -> tuple[Array, list[Any], dict[str, float]]:
         """Knots, interpolants of p, A_t and the shares, and their errors."""

@@ -19,7 +19,7 @@ __all__ = ["DMT", "JKR"]
 WORK_HINT = "mJ/m² are 50e-3; w is γ_1 + γ_2 − γ_12, not γ"
 
 
-def _filled(law: JKR | DMT) -> float:
+def _load_unit(law: JKR | DMT) -> float:
     """The unit of its load, of a law that is bound to a contact."""
     if law.scale is None:
         raise InvalidValue(
@@ -94,7 +94,7 @@ class JKR(AbstractAsperityLaw):
     @property
     def onset(self) -> float:
         """−(5/6)πwR where an unloading contact parts, −(4/3)πwR where a loading one forms."""
-        return _filled(self) * (-5 / 6 if self.unloading else -4 / 3)
+        return _load_unit(self) * (-5 / 6 if self.unloading else -4 / 3)
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
@@ -104,13 +104,13 @@ class JKR(AbstractAsperityLaw):
     @property
     def valid_to(self) -> float:
         """Hertz's ω where the mean pressure is 0.4 H, ZMC's first yield: (0.3πH/E*)²R over X."""
-        return (0.3 / _filled(self)) ** 2
+        return (0.3 / _load_unit(self)) ** 2
 
     _root = staticmethod(formulas.stretched_from)
 
     @property
     def branches(self) -> tuple[Branch, ...]:
-        unit = _filled(self)
+        unit = _load_unit(self)
 
         def stiffness(y):
             e = self._root(y)
@@ -178,13 +178,13 @@ class DMT(GW):
     @property
     def onset(self) -> float:
         """−2πwR."""
-        return -_filled(self)
+        return -_load_unit(self)
 
     @property
     def branches(self) -> tuple[Branch, ...]:
-        pull = _filled(self)
+        pull = _load_unit(self)
 
         def force(y):
-            return formulas.pulled(y, pull)[0]
+            return formulas.hertz_less_pull(y, pull)[0]
 
         return (Branch("elastic", force, lambda y: y, lambda y: 1.5 * y**0.5),)

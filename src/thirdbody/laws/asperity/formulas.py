@@ -12,16 +12,16 @@ import numpy as np
 __all__ = [
     "adhesive",
     "coated_beyond",
-    "doubled",
     "elastic",
+    "fully_plastic",
     "green_middle",
     "hermite_middle",
+    "hertz_less_pull",
     "hertz_zmc",
     "kogut",
     "plastic_ceb",
-    "pulled",
-    "stretched",
     "stretched_from",
+    "y_of_stretch",
     "zmc_middle",
 ]
 
@@ -31,12 +31,12 @@ def elastic(y, factor, r):
     return factor * r * y * np.sqrt(y), r * y
 
 
-def pulled(y, pull):
+def hertz_less_pull(y, pull):
     """`DMT`: Hertz in units of his load at y = 1, less what pulls outside the contact."""
     return y * np.sqrt(y) - pull, y
 
 
-def stretched(e):
+def y_of_stretch(e):
     """y of `JKR` at e = s − 1: s⁴/4 − s + ¾ is e²(3/2 + e + e²/4), so nothing cancels."""
     return e * e * (1.5 + e * (1 + e / 4)) - 0.75
 
@@ -71,7 +71,7 @@ def hertz_zmc(y, k, r):
     return elastic(y, k, r)
 
 
-def doubled(y, full):
+def fully_plastic(y, full):
     """Fully plastic at the hardness: load and area full·y."""
     return full * y, full * y
 

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from .conduction import patch_remainder
-from .reduced import area_factor, pressed, remainder_at, remainder_height
+from .reduced import area_factor, real_pressure, remainder_at, remainder_height
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -80,7 +80,7 @@ def area(surface: FieldSurface, h: Array, *, remains: bool) -> tuple[Array, Arra
     whole = carried
     if remains:
         e = remainder(h, chi=surface.chi, alpha=surface.alpha)[:, 0]
-        ratio = pressed(ratio, area_factor(surface.alpha) * e)
+        ratio = real_pressure(ratio, area_factor(surface.alpha) * e)
         whole = carried * (1 + e)
     plastic = np.clip(columns[:, PLASTIC], 0.0, 1.0)
     return whole / (surface.chi * ratio), np.where(ratio >= 1, 1.0, plastic)

@@ -15,10 +15,10 @@ import numpy as np
 from scipy.special import ndtr, ndtri
 
 from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
-from ...populations.measured.spectra import filled
+from ...populations.measured.spectra import fill_missing
 from ...quantities.say import percent
 from ...quantities.value import Value, choice, quantity
-from .programme import TERMS, Edges, Pressed, pressed
+from .programme import TERMS, Edges, Pressed, solve_programme
 from .spectrum import FARTHEST, HURST, STRAIGHT, Spectrum, rolled_off
 from .table import (
     EDGE,
@@ -148,12 +148,12 @@ class OwnSpectrum(Value):
                 f"{percent(MISSING, digits=1)}), so that its waves are not known; crop it",
                 code=Mistake.BEYOND,
             )
-        z = filled(z)
+        z = fill_missing(z)
         t = (z - z.mean()) / z.std()
         skewness, excess = float(np.mean(t**3)), float(np.mean(t**4) - 3)
         G: tuple[float, ...] = (1.0,)
         if not box and (abs(skewness) > SKEWED or abs(excess) > PEAKED):
-            t, G = _ranked(t, skewness, excess)
+            t, G = _rank_heights(t, skewness, excess)
         if not surface.periodic:
             window = [np.hanning(n + 2)[1:-1] for n in t.shape]
             t = t * np.multiply.outer(*window)
@@ -240,7 +240,7 @@ class RollOff(Value):
         return rolled_off(alpha, self.hurst, self.corner)
 
 
-def _ranked(z: Array, skewness: float, excess: float) -> tuple[Array, tuple[float, ...]]:
+def _rank_heights(z: Array, skewness: float, excess: float) -> tuple[Array, tuple[float, ...]]:
     """Gaussian field that has the order of these heights, and the G_n that map it back to them.
 
     As many terms as leave z(t) rising wherever points lie.
@@ -291,10 +291,10 @@ def _spectrum(own: OwnSpectrum) -> Spectrum:
     )
 
 
-def _followed(spectrum: Spectrum, h: Array, t: Array, chi: float, edges: Edges) -> Pressed:
+def _follow_programme(spectrum: Spectrum, h: Array, t: Array, chi: float, edges: Edges) -> Pressed:
     """The programme at h; where it is not found at once, from Gaussian heights step by step."""
     try:
-        return pressed(spectrum.series(TERMS), h, chi, edges)
+        return solve_programme(spectrum.series(TERMS), h, chi, edges)
     except NoEquilibrium:
         if len(spectrum.heights) == 1:
             raise
@@ -306,7 +306,7 @@ def _followed(spectrum: Spectrum, h: Array, t: Array, chi: float, edges: Edges) 
         mixed /= math.sqrt(float(mixed @ mixed))
         nearer = replace(spectrum, heights=tuple(mixed.tolist()))
         place = nearer.height(t) if part < 1 else h
-        found = pressed(nearer.series(TERMS), place, chi, edges)
+        found = solve_programme(nearer.series(TERMS), place, chi, edges)
         edges = found.edges._replace(elastic=np.zeros(len(h), bool))
     return found
 
@@ -343,7 +343,7 @@ def own_field(own: OwnSpectrum | RollOff | None, chi: float, alpha: float) -> Fi
     high = -ndtri(share * ndtr(-low))
     width = np.log(np.maximum(high - low, 1e-3))
     edges = Edges(low, width, np.clip(known[:, TAU], 0.0, 1.0), np.zeros(len(h), bool))
-    found = _followed(spectrum, h, t, chi, edges)
+    found = _follow_programme(spectrum, h, t, chi, edges)
     rows = np.column_stack(
         [
             np.log(found.energy / plastic_energy(h, chi)),

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["MOMENTS", "Edges", "Pressed", "pressed"]
+__all__ = ["MOMENTS", "Edges", "Pressed", "solve_programme"]
 
 MOMENTS = 12
 """a_n that are kept: the ground of particles then is known to 0.7 %."""
@@ -214,7 +214,7 @@ def _best(stiff: Array, gain: Array, chi: Array, elastic: NDArray[np.bool_]) -> 
     return out
 
 
-def _solved(
+def _newton_steps(
     basis: _Basis,
     h: Array,
     chi: Array,
@@ -265,7 +265,7 @@ def _slope(basis: _Basis, h: Array, chi: Array, edges: Edges, kappa: float, turn
     return out
 
 
-def pressed(
+def solve_programme(
     series: FilteredSeries, h: Array, chi: float, start: Edges, *, rounds: int = ROUNDS
 ) -> Pressed:
     """The programme at separations h (N,) and hardness χ, from a start that is near.
@@ -278,18 +278,18 @@ def pressed(
     basis = _Basis(series)
     each = np.full(len(h), chi)
     begun = start.without_slight()
-    edges, miss = _solved(basis, h, each, begun, ENERGY, rounds)
+    edges, miss = _newton_steps(basis, h, each, begun, ENERGY, rounds)
     slight = edges.without_slight().elastic & ~edges.elastic
     if slight.any():  # the second edge has no hold there
         edges = Edges(*(np.where(slight, a, b) for a, b in zip(begun, edges, strict=True)))
         edges = edges._replace(elastic=edges.elastic | slight)
-        edges, miss = _solved(basis, h, each, edges, ENERGY, rounds)
+        edges, miss = _newton_steps(basis, h, each, edges, ENERGY, rounds)
     fixed = ~(miss < GOOD) & ~edges.elastic
     if fixed.any():  # it yields so little that the second edge swings; Φ is stationary in it
         edges = Edges(*(np.where(fixed, a, b) for a, b in zip(begun, edges, strict=True)))
-        edges, miss = _solved(basis, h, each, edges, ENERGY, rounds, fixed)
+        edges, miss = _newton_steps(basis, h, each, edges, ENERGY, rounds, fixed)
     found = basis.state(h, each, edges, ENERGY)
-    fine, fine_miss = _solved(basis, h, each, edges, EDGE, rounds)
+    fine, fine_miss = _newton_steps(basis, h, each, edges, EDGE, rounds)
     miss = np.maximum(miss, fine_miss)
     if not np.all(miss < GOOD):
         where = ", ".join(f"{x:.3g}" for x in h[~(miss < GOOD)][:5])

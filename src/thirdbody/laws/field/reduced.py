@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["area_factor", "mean_pressure", "pressed", "remainder_at", "remainder_height"]
+__all__ = ["area_factor", "mean_pressure", "real_pressure", "remainder_at", "remainder_height"]
 
 
 def mean_pressure(y, slope, energy, bearing):
@@ -30,6 +30,6 @@ def area_factor(alpha):
     return 2.9 - 0.7 * np.log(alpha)
 
 
-def pressed(ratio, more):
+def real_pressure(ratio, more):
     """The real pressure over H, where the field without the remainder has this ratio."""
     return np.minimum(ratio * (1 + more * (1 - ratio**4)), 1.0)

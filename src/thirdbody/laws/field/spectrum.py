@@ -123,7 +123,7 @@ class Spectrum:
     def _at_nodes(self) -> Array:
         return self.correlations(self.nodes[0])
 
-    def filtered(self, tau: float) -> tuple[float, Array, Array]:
+    def filtered_correlations(self, tau: float) -> tuple[float, Array, Array]:
         """c, and ρ_s and ρ_zs at `nodes`, of the filter τ."""
         a = 1 - tau
         norm = a * a + 2 * a * tau * self.mean(1) + tau * tau * self.mean(2)
@@ -134,7 +134,7 @@ class Spectrum:
 
     def integrals(self, tau: float, count: int) -> Array:
         """k_n(τ) for n = 0 … count, with 0 in the place of k_0."""
-        _, of_s, _ = self.filtered(tau)
+        _, of_s, _ = self.filtered_correlations(tau)
         out = integrals_of_powers(of_s, self._weights, count)
         a = 1 - tau
         norm = a * a + 2 * a * tau * self.mean(1) + tau * tau * self.mean(2)
@@ -160,13 +160,15 @@ class Spectrum:
         )
         own[1] = self.mean(-1) - float(weight @ plain)
         first, second, _ = self._at_nodes
-        mixed = integrals_of_powers(self.mixed(first, second, tau), self._weights, count)
-        mixed[:, 1] = self.mixed(self.mean(-1), 1.0, tau)[:, 0]
-        mixed -= integrals_of_powers(self.mixed(plain, once, tau), weight, count)
+        mixed = integrals_of_powers(
+            self.cross_correlation(first, second, tau), self._weights, count
+        )
+        mixed[:, 1] = self.cross_correlation(self.mean(-1), 1.0, tau)[:, 0]
+        mixed -= integrals_of_powers(self.cross_correlation(plain, once, tau), weight, count)
         own[0], mixed[:, 0] = -r, -r
         return own, mixed
 
-    def mixed(self, plain: Array | float, once: Array | float, tau: Array) -> Array:
+    def cross_correlation(self, plain: Array | float, once: Array | float, tau: Array) -> Array:
         """ρ_zs of each filter τ (T,) from ∫C J_0 and ∫C q J_0 at distances (N,): (T, N)."""
         tau = tau[:, None]
         a = 1 - tau

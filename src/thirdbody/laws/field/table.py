@@ -82,7 +82,7 @@ def plastic_rows(h: Array) -> Array:
 
 
 @lru_cache(maxsize=1)
-def stored() -> dict[str, Array]:
+def stored_table() -> dict[str, Array]:
     """The table that ships: h, chi, alpha and rows (α, χ, h, columns)."""
     file = resources.files("thirdbody").joinpath("data/field.npz")
     with resources.as_file(file) as path, np.load(path) as data:
@@ -233,7 +233,7 @@ def field_of(chi: float, alpha: float) -> FieldSurface:
 
 def separations(soft: bool) -> Array:
     """Separations of the table for χ up to `SOFT`, or beyond: (M,)."""
-    h = stored()["h"]
+    h = stored_table()["h"]
     return h if soft else h[h >= HARD]
 
 
@@ -242,7 +242,7 @@ def _along_chi(soft: bool) -> tuple[Array, Array]:
     """Knots, and coefficients (α, χ, h, columns), of cubic splines over ln χ."""
     from scipy.interpolate import make_interp_spline
 
-    data = stored()
+    data = stored_table()
     some = np.isin(data["h"], separations(soft))
     most = data["chi"] <= 1.3 * SOFT if soft else data["chi"] > 0
     spline = make_interp_spline(
@@ -267,7 +267,7 @@ def rows_of(chi: Array, alpha: Array, *, soft: bool, columns: slice = slice(None
     inside = np.log(np.clip(chi, LEAST, MOST))
     basis = BSpline.design_matrix(inside, known, 3)
     place, part = basis.indices.reshape(-1, 4), basis.data.reshape(-1, 4)
-    across = _lagrange(np.log(stored()["alpha"]), np.log(alpha))
+    across = _lagrange(np.log(stored_table()["alpha"]), np.log(alpha))
     # number by number and not by products of matrices, whose last digit hangs on their size
     rows = np.empty((len(chi), every.shape[2]))
     for begin in range(0, len(chi), AT_ONCE):

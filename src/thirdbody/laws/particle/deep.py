@@ -126,7 +126,7 @@ def _chosen(friction: float) -> list[_Run]:
     return sorted(runs, key=lambda run: run.node)
 
 
-def _welded(run: _Run) -> _Run:
+def _welded_run(run: _Run) -> _Run:
     """The welded rigid-plastic run of the same hardness ratio."""
     return next(it for it in _chosen(1.0) if it.ratio == run.ratio)
 
@@ -143,7 +143,7 @@ def squeeze_at(place: Array) -> Array:
     return 1 / (1 + np.exp(-(first + last + place * (last - first)) / 2))
 
 
-def _between(nodes: Sequence[float], values: Sequence[Array]) -> Fan:
+def _interpolant(nodes: Sequence[float], values: Sequence[Array]) -> Fan:
     """Function of x between the values (N, K) at nodes (N,): monotone, constant outside."""
     from scipy.interpolate import PchipInterpolator
 
@@ -168,15 +168,15 @@ def _fans() -> tuple[Fan, list[Fan], list[tuple[float, Fan]]]:
     for m in _frictions():
         runs = _chosen(m)
         changes = [_change(run, places) for run in runs]
-        rubbing.append(_between([run.node for run in runs], changes))
+        rubbing.append(_interpolant([run.node for run in runs], changes))
     elastic = []
     runs = [run for run in _runs() if run.softness > 0]
     for node in sorted({run.node for run in runs}):
         here = [run for run in runs if run.node == node]
         slopes = [_change(run, places) / run.softness for run in here]
-        elastic.append((node, _between([run.softness for run in here], slopes)))
+        elastic.append((node, _interpolant([run.softness for run in here], slopes)))
     rows = [_row(run, places) for run in welded]
-    return _between([run.node for run in welded], rows), rubbing, elastic
+    return _interpolant([run.node for run in welded], rows), rubbing, elastic
 
 
 @lru_cache(maxsize=1)
@@ -309,7 +309,7 @@ def _row(run: _Run, places: Array) -> Array:
 
 def _change(run: _Run, places: Array) -> Array:
     """A row less that of the welded rigid-plastic run of the same ρ; 0 beyond either."""
-    welded = _welded(run)
+    welded = _welded_run(run)
     change = (_row(run, places) - _row(welded, places)).reshape(2, 1 + len(places))
     change[:, 1:][:, squeeze_at(places) > min(run.high, welded.high) * (1 + 1e-9)] = 0.0
     return change.ravel()
@@ -387,17 +387,19 @@ class DeepSide(Side):
         self.taken = float(squashed_part(curve.sinks))
         self.thick = 1 - TABLE_ENDS * self.taken
         self.end = self._sinks(max(1 / form.ratio, 1.0))
-        turns = [y for y in self.law.breakpoints if y < self._reduced(LAW_ENDS)]
-        turns += self._reduced(np.array([LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS])).tolist()
+        turns = [y for y in self.law.breakpoints if y < self._reduced_indentation(LAW_ENDS)]
+        turns += self._reduced_indentation(
+            np.array([LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS])
+        ).tolist()
         turns += self._wide()
         turns += [y for y in self.law.breakpoints if LAW_ENDS < self._squeeze(y) < TABLE_BEGINS]
         t, last = self.thick, 1 - self.end * self.taken
         while t > GRADING * last:
             t /= GRADING
-            turns.append(float(self._reduced((1 - t) / self.taken)))
-        last = float(self._reduced(self.end))
+            turns.append(float(self._reduced_indentation((1 - t) / self.taken)))
+        last = float(self._reduced_indentation(self.end))
         self.kinks = np.unique([*(y for y in turns if y < last), last])
-        self.cap = np.array(self._reduced(TABLE_BEGINS))
+        self.cap = np.array(self._reduced_indentation(TABLE_BEGINS))
         self.limit = self.unit * self.reduced_force(self.kinks[-1:])
 
     @property
@@ -418,14 +420,14 @@ class DeepSide(Side):
         """Squeeze ε at y = δ/δ_1."""
         return y * self.delta_1 / self.R
 
-    def _reduced(self, eps: Any) -> Any:
+    def _reduced_indentation(self, eps: Any) -> Any:
         """y = δ/δ_1 at a squeeze ε."""
         return eps * self.R / self.delta_1
 
     def _wide(self) -> list[float]:
         """y at which the contact becomes as wide as the particle was."""
         eps = np.linspace(TABLE_BEGINS, self.end, 400)
-        area = self._columns(self._reduced(eps))[1]
+        area = self._columns(self._reduced_indentation(eps))[1]
         after = int(np.argmax(area > 1.0))
         if after == 0:
             return []
@@ -435,7 +437,7 @@ class DeepSide(Side):
         def excess(y: float) -> float:
             return float(self._columns(np.array([y]))[1][0]) - 1.0
 
-        low, high = self._reduced(eps[[after - 1, after]])
+        low, high = self._reduced_indentation(eps[[after - 1, after]])
         return [float(brentq(excess, low, high, xtol=1e-15 * high, rtol=1e-15))]
 
     def _disc(self, t: float | Array) -> tuple[Any, Any]:

@@ -47,7 +47,7 @@ class FacedSide(Side):
         self.plateau = self.law.branches[-1].regime == "plastic"
         self.full = 0.25 * shape.breadth / (R * self.delta_1)
         edge = shape.edge**2 / (R * self.delta_1)
-        self.joint = float(self._indented(edge))
+        self.joint = float(self._indentation_at_area(edge))
         force, area = (self.law.reduced(name, self.joint) for name in ("force", "area"))
         self.pressure = float(force / area)
         deeper = 1 + (math.pi / 2 - 1) * (2 * self.joint / edge - 1)

@@ -91,9 +91,9 @@ class Side:
 
     def _cap(self) -> Array:
         """Reduced interference at which the area reaches the great circle."""
-        return self._indented(self.full)
+        return self._indentation_at_area(self.full)
 
-    def _indented(self, area: Number) -> Array:
+    def _indentation_at_area(self, area: Number) -> Array:
         """Reduced interference at which the law reaches a reduced area."""
         full = np.asarray(area, dtype=float)
 
@@ -162,7 +162,7 @@ class Side:
         index = order[np.searchsorted(self.law.breakpoints, y, side="right")]
         return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), index)
 
-    def around(self, y: float) -> tuple[float, float]:
+    def loads_around(self, y: float) -> tuple[float, float]:
         """Loads just below and at y = δ/δ_1, for one material; equal where the law is smooth."""
         below, at = self.unit * self.reduced_force(np.array([np.nextafter(y, 0), y]))
         return (float(at), float(at)) if math.isclose(below, at, rel_tol=1e-9) else (below, at)
@@ -177,7 +177,7 @@ class Side:
         top = math.log(2 * self.kinks[-1] * self.delta_1)
         bottom = top - 600
         for y in self.kinks:
-            below, at = self.around(y)
+            below, at = self.loads_around(y)
             edge = math.log(y * self.delta_1)
             if below == at:
                 continue
@@ -249,7 +249,7 @@ class SqueezedParticle(OneParticle):
                 if self.equal:
                     kinks.add(2 * delta)
                     continue
-                below, at = side.around(y)
+                below, at = side.loads_around(y)
                 ends = []
                 for force in sorted({below, max(below, at)}):
                     if force < limit * (1 - 1e-12):

@@ -281,13 +281,13 @@ class _OfJacksonGreen(_SquashedSide):
     def _more_turns(self) -> list[float]:
         first = self.law.breakpoints[0]
 
-        def over(y: float) -> float:
+        def excess_pressure(y: float) -> float:
             return float(self._bare(np.array(y))) - COLUMN
 
         grid = np.linspace(first, self.end, 1001)
         sign = np.sign(self._bare(grid) - COLUMN)
         return [
-            self._where(over, grid[i], grid[i + 1])
+            self._where(excess_pressure, grid[i], grid[i + 1])
             for i in np.flatnonzero(sign[1:] * sign[:-1] < 0)
         ]
 

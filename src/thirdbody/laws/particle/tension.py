@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Tension", "at_centre", "at_equator", "breaks", "confined", "tension"]
+__all__ = ["Tension", "at_centre", "at_equator", "breaks", "confined_tension", "tension"]
 
 HARMONICS = 6000
 LOWEST = 1e-9
@@ -101,7 +101,7 @@ def _hoop(l: int, nu: float, lam: float) -> float:  # noqa: E741
     return lam * (rising + 2 * U - l * (l + 1) * V) + 2 * U
 
 
-def confined(s: Array, nu: float) -> Array:
+def confined_tension(s: Array, nu: float) -> Array:
     """G(s): the largest tension over that of small caps under the same load, 0 under pressure."""
     small = 4 / math.pi * (1.25 * _K(nu) - 0.5)
     larger = np.maximum(at_centre(s, nu), at_equator(s, nu))
@@ -186,7 +186,9 @@ class Tension:
         if self.confinement == "none":
             return found.load
         s = [np.minimum(2 * np.sqrt(area / math.pi), 1.0) for area in found.areas]
-        return found.load * 0.5 * (confined(s[0], self.nu) + confined(s[1], self.nu))
+        return (
+            found.load * 0.5 * (confined_tension(s[0], self.nu) + confined_tension(s[1], self.nu))
+        )
 
     def _find_held(self, edges: Array) -> None:
         from scipy.optimize import brentq, minimize_scalar

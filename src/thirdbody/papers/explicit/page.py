@@ -16,7 +16,7 @@ import numpy as np
 
 from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.plain_data import plain_data
-from ...quantities.say import number, percent, signed
+from ...quantities.say import number, percent, signed_number
 from ...version import __version__
 from ...views.html import symbols, table
 from .. import engine
@@ -380,7 +380,7 @@ def _difference_words(point: Point) -> str:
     """By how much the model is off."""
     if point.has_bounds_only:
         return "outside" if point.is_off else "within"
-    return f"{signed(100 * point.difference, 1)} %, {signed(point.errors, 1)} errors"
+    return f"{signed_number(100 * point.difference, 1)} %, {signed_number(point.errors, 1)} errors"
 
 
 def _by_field(point: Point) -> str:
@@ -388,7 +388,9 @@ def _by_field(point: Point) -> str:
     if math.isnan(point.field[0]):
         return "unknown"
     off = point.apart_by_field
-    return percent(point.field[0]) + ("" if math.isnan(off) else f", {signed(100 * off, 1)} %")
+    return percent(point.field[0]) + (
+        "" if math.isnan(off) else f", {signed_number(100 * off, 1)} %"
+    )
 
 
 def _row(point: Point, stored: bool) -> list[str]:

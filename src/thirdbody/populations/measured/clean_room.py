@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["COUNTED_TO", "airborne", "read_class", "settled", "settling_speed"]
+__all__ = ["COUNTED_TO", "airborne", "read_class", "settled_particles", "settling_speed"]
 
 SMALLEST, COUNTED_TO = 0.5e-6, 5e-6
 """Diameters from and up to which settled dust is taken where nobody says more [m]; classes are
@@ -84,7 +84,7 @@ def settling_speed(x: ArrayLike, *, density: float) -> Array:
 
 
 @takes_units
-def settled(
+def settled_particles(
     iso_class: float,
     *,
     exposure: float,
@@ -117,7 +117,7 @@ def settled(
 
     Examples
     --------
-    >>> number, sizes = settled(7, exposure=86400, particle_density=2650)
+    >>> number, sizes = settled_particles(7, exposure=86400, particle_density=2650)
     >>> f"{number:.2e} per m², mean {sizes.mean_diameter * 1e6:.1f} µm"
     '2.99e+06 per m², mean 1.8 µm'
     """

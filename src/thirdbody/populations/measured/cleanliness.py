@@ -285,7 +285,7 @@ def suspension_of_iso4406(
         raise InvalidValue(not_among("level", level, LEVELS))
     largest = LARGEST["iso4406"] if largest is None else largest
     counted = [
-        (1e-6 * size, _within(scale["most"], number, level) / scale["volume"])
+        (1e-6 * size, _count_in_range(scale["most"], number, level) / scale["volume"])
         for size, number in zip(scale["sizes"], numbers, strict=True)
         if number is not None
     ]
@@ -298,7 +298,7 @@ def suspension_of_iso4406(
     return sum(found.counts), found
 
 
-def _within(most: list[float], number: int, level: Level) -> float:
+def _count_in_range(most: list[float], number: int, level: Level) -> float:
     """A count per volume inside the range of a code number."""
     high = most[number]
     low = most[number - 1] if number else 0.0

@@ -75,7 +75,7 @@ def concentration(value: float | str, by: Amount = "number") -> Concentration:
     if by not in get_args(Amount):
         raise InvalidValue(not_among("by", by, get_args(Amount)))
     if isinstance(value, str):
-        amount, by = _read(value)
+        amount, by = _read_concentration(value)
     else:
         amount = to_si(value, "1")
     if not (math.isfinite(amount) and amount >= 0):
@@ -91,7 +91,7 @@ def concentration(value: float | str, by: Amount = "number") -> Concentration:
     return Concentration(amount, by)
 
 
-def _read(text: str) -> tuple[float, Amount]:
+def _read_concentration(text: str) -> tuple[float, Amount]:
     number = re.match(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*$", text)
     if not number or not number[2]:
         cause = "" if number is None else " has no unit:"

@@ -454,7 +454,7 @@ class Spectrum:
 
 def spectrum(h: Array, spacing: tuple[float, ...], periodic: bool) -> Spectrum:
     """The periodogram; heights that do not repeat are put under a Hann window."""
-    h = filled(h)
+    h = fill_missing(h)
     if periodic:
         h = h - h.mean()
     else:
@@ -485,7 +485,7 @@ def spectrum(h: Array, spacing: tuple[float, ...], periodic: bool) -> Spectrum:
     )
 
 
-def filled(h: Array) -> Array:
+def fill_missing(h: Array) -> Array:
     """Missing data replaced by the harmonic function that fits their edge."""
     missing = np.isnan(h)
     if not missing.any():

@@ -19,7 +19,7 @@ import numpy as np
 from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
-from ...quantities.say import percent, signed, value_of
+from ...quantities.say import percent, signed_number, value_of
 from ..ellipticity import Ellipticity
 from ..heights import Heights
 from ..roughness import Roughness
@@ -563,7 +563,7 @@ class Topography:
             for name, symbol in names.items()
         }
         moving = [
-            f"{symbol} by {signed(100 * change, 0, '%')}"
+            f"{symbol} by {signed_number(100 * change, 0, '%')}"
             for symbol, change in changes.items()
             if abs(change) > PER_OCTAVE
         ]

@@ -116,14 +116,14 @@ class ContactCourse:
     # ------------------------------------------------------------------ what may happen
     def _counts(self, y: Array) -> Array:
         assert isinstance(self.loop, FilmLoop)
-        numbers = self.loop.shaped(y[self.loop.layout["oil"]]).sum(axis=0)
+        numbers = self.loop.shape_numbers(y[self.loop.layout["oil"]]).sum(axis=0)
         return self.loop.tables.classes.counted(numbers / self.loop.volume_at(self.loop.now))
 
     def _caught(self, y: Array, name: str) -> float:
         """Mass that a filter holds [kg]."""
         return float(np.nansum(self.loop.flow(y, name) * self.densities))
 
-    def _watched(self) -> list[tuple[Callable[[float, Array], float], Callable[[], None]]]:
+    def _watched_events(self) -> list[tuple[Callable[[float, Array], float], Callable[[], None]]]:
         """What rises through 0 at an event, and what the event does."""
         out: list[tuple[Callable[[float, Array], float], Callable[[], None]]] = []
         for each in self.until:
@@ -162,13 +162,13 @@ class ContactCourse:
         return coverage(self.loop, self.loop.present(y, self.loop.last)) - JAMMED
 
     # ------------------------------------------------------------------ what happens
-    def _tell(self, name: str, sentence: str) -> None:
+    def _add_event(self, name: str, sentence: str) -> None:
         self.events.append(LifeEvent(self.time, name, sentence))
 
     def _reach(self, each: Until) -> Callable[[], None]:
         def does() -> None:
             self.until.remove(each)
-            self._tell(each.name, each.sentence)
+            self._add_event(each.name, each.sentence)
             self.stopped = self.stopped or each.stops
 
         return does
@@ -188,15 +188,17 @@ class ContactCourse:
                     full=self.full, classes=loop.tables.classes, materials=loop.terms.materials
                 )
                 past = "all of the oil" if each.still_filtered == 0 else "part of the oil"
-                self._tell("filter full", f"{said}, and {past} goes past it")
+                self._add_event("filter full", f"{said}, and {past} goes past it")
             else:
-                self._tell("filter full", f"{said}, and is changed")
+                self._add_event("filter full", f"{said}, and is changed")
             self.stopped |= any(isinstance(e, FilterFull) and e.stops for e in self.until)
 
         return does
 
     def _jam(self) -> None:
-        self._tell("jam", "particles would cover the whole area: sums of single particles end here")
+        self._add_event(
+            "jam", "particles would cover the whole area: sums of single particles end here"
+        )
         self.stopped = True
 
     def _change(self) -> None:
@@ -204,13 +206,13 @@ class ContactCourse:
         assert isinstance(loop, FilmLoop)
         self.changes.pop(0)
         place = loop.layout["oil"]
-        volume = loop.shaped(self.y[place] * loop.volumes).sum(axis=1)
+        volume = loop.shape_numbers(self.y[place] * loop.volumes).sum(axis=1)
         self.drained = self.drained + volume
         fresh = loop.volume_at(self.time) * loop.terms.fresh.T.ravel()
-        self.filled = self.filled + loop.shaped(fresh * loop.volumes).sum(axis=1)
+        self.filled = self.filled + loop.shape_numbers(fresh * loop.volumes).sum(axis=1)
         self.y = self.y.copy()
         self.y[place] = fresh
-        self._tell("oil change", "the oil is changed")
+        self._add_event("oil change", "the oil is changed")
 
     # ------------------------------------------------------------------ the whole
     def _keep(self, time: float, y: Array) -> None:
@@ -241,7 +243,7 @@ class ContactCourse:
     def _stretch(self) -> bool:
         """Go to the next event; whether the history ends there."""
         end = self.changes[0] if self.changes else self.duration
-        watched = self._watched()
+        watched = self._watched_events()
         for excess, does in watched:
             if excess(self.time, self.y) >= 0:  # reached where the history begins
                 does()

@@ -97,7 +97,7 @@ def _row_of(loop: Loop, y: Array) -> Array:
 
 def _columns_of(loop: Loop, y: Array) -> dict[str, float]:
     gap = loop.find_gap(y)
-    state, eta = loop.pressed(y, gap.d), loop.present(y, gap.d)
+    state, eta = loop.press_at(y, gap.d), loop.present(y, gap.d)
     assert isinstance(loop, DryLoop | FilmLoop)
     p = loop.pressure
 
@@ -129,7 +129,7 @@ def steady_states(loop: Loop, y: Array) -> tuple[SteadyContact, ...]:
     """Every state in which the numbers no longer change, with roughness and wear as in a state."""
     from scipy.optimize import brentq
 
-    low, high = _scanned(loop, y)
+    low, high = _scan_ends(loop, y)
     places = np.linspace(low, high, NODES + 1)
     values = np.array([_imbalance(loop, y, place) for place in places])
     out = []
@@ -143,7 +143,7 @@ def steady_states(loop: Loop, y: Array) -> tuple[SteadyContact, ...]:
     return tuple(out)
 
 
-def _scanned(loop: Loop, y: Array) -> tuple[float, float]:
+def _scan_ends(loop: Loop, y: Array) -> tuple[float, float]:
     """Ends of the scan, in the unknown of the gap: from no particles on."""
     clean = y.copy()
     clean[loop.layout[loop.pool]] = 0.0
@@ -183,7 +183,7 @@ def _imbalance(loop: Loop, y: Array, place: float) -> float:
     if state is None:
         return 1e3
     assert isinstance(loop, DryLoop | FilmLoop)
-    eta = loop.shaped(loop.present(state, d))
+    eta = loop.shape_numbers(loop.present(state, d))
     share = loop.tables.load(d, eta=eta, sigma=loop.sigma_of(y))[0] / loop.pressure
     left = -math.expm1(-place) if isinstance(loop, FilmLoop) else 1.0
     return share - left
@@ -197,7 +197,7 @@ def _steady_at(loop: Loop, y: Array, place: float) -> SteadyContact:
     rates = loop.rates(state, d)
     change = rates.matrix @ state + rates.constant
     slowest = float(np.max(np.linalg.eigvals(_jacobian(loop, state)).real))
-    numbers = loop.shaped(state[pool]).T / _per(loop)
+    numbers = loop.shape_numbers(state[pool]).T / _per(loop)
     code = ""
     if isinstance(loop, FilmLoop):
         code = loop.tables.classes.iso4406(np.maximum(numbers.sum(axis=1), 0.0))
@@ -302,7 +302,7 @@ class ContactHistory(_Breeding, LifeHistory):
                 known[time] = half @ half
             elif time not in known:
                 known[time] = expm(jacobian * time)
-            now = loop.shaped(end + known[time] @ away).T
+            now = loop.shape_numbers(end + known[time] @ away).T
             return self.terms.classes.counted(now.sum(axis=1))
 
         ends = self.terms.classes.counted(steady.numbers.sum(axis=1))
@@ -388,7 +388,7 @@ class DryHistory(_Breeding, Record):
 
         Infinite where one breeds more than one; NaN where nothing arrives, or R_0 is not known.
         """
-        source = self.loop.shaped(self.loop.arrivals).T.ravel()
+        source = self.loop.shape_numbers(self.loop.arrivals).T.ravel()
         if math.isnan(self.R0) or not np.any(source > 0):
             return math.nan
         return (

@@ -11,7 +11,7 @@ import numpy as np
 from ...contact.contact import Contact
 from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.say import number
-from ..mixed_film import FEW, MOST, lubricated
+from ..mixed_film import FEW, MOST, check_lubricated
 from .breeding import births_and_losses
 from .circuit import OilCircuit
 from .conditions import ContactInUse, DryConditions, FilmConditions
@@ -136,11 +136,13 @@ def _ledger(loop: Loop, seen: Visited, came: Sequence[str], went: Sequence[str])
 
     pool = np.array(
         [
-            float(loop.shaped(y[loop.layout[loop.pool]] * loop.volumes).sum(axis=1) @ density)
+            float(
+                loop.shape_numbers(y[loop.layout[loop.pool]] * loop.volumes).sum(axis=1) @ density
+            )
             for y in states
         ]
     )
-    stored = np.array([float(loop.stored(y) @ density) for y in states])
+    stored = np.array([float(loop.stored_volumes(y) @ density) for y in states])
     columns_in = {name: flow(name) for name in (*came, "worn 1", "worn 2")}
     columns_out = {name: flow(name) for name in (*went, FINER)}
     if FRESH in columns_in:
@@ -221,7 +223,7 @@ def run_film_history(
     others = () if debris is None else (debris.diameter,)
     classes = oil.size_classes(*others)
     terms = oil.terms(classes=classes, materials=more_materials)
-    bodies = lubricated(
+    bodies = check_lubricated(
         contact, film.conjunction, film.lubricant, np.array([film.load]), film.film,
         film.slide_roll, film.hertz, (FEW, MOST),
     )  # fmt: skip
@@ -253,7 +255,7 @@ def run_film_history(
     notes = _notes(loop, columns, use, entry_ratio=film.entry_ratio)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
     moments = np.array(seen.times)
-    numbers = np.array([loop.shaped(y[loop.layout["oil"]]).T for y in seen.states])
+    numbers = np.array([loop.shape_numbers(y[loop.layout["oil"]]).T for y in seen.states])
     volume = loop.volume + loop.growth * moments
     numbers = numbers / volume[:, None, None]
     events, warned = course.events, tuple(oil.notes())
@@ -346,7 +348,7 @@ def run_dry_history(
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
-    numbers = np.array([loop.shaped(y[loop.layout["contact"]]).T for y in seen.states]) / dry.area
+    numbers = np.array([loop.shape_numbers(y[loop.layout["contact"]]).T for y in seen.states]) / dry.area
     absent = ("film_share", *(f"{name}_{side}" for name in ("dents", "thrown") for side in (1, 2)))
     return DryHistory(
         loop=loop,

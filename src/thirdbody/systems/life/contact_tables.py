@@ -527,7 +527,7 @@ class ContactTables:
             d = max(newton, floor)
         return d
 
-    def pressed(self, d: float, *, eta: Array, sigma: float) -> Pressed:
+    def press_at(self, d: float, *, eta: Array, sigma: float) -> Pressed:
         """Everything at a separation d [m] under particles η (kinds, classes) [1/m²]."""
         each = self._all(d, sigma)[:, :, :-1]
         y = d / sigma

@@ -67,16 +67,16 @@ class DryLoop(Loop):
 
     def find_gap(self, y: Array) -> Gap:
         sigma = self.sigma_of(y)
-        eta = self.shaped(self.present(y, self.last))
+        eta = self.shape_numbers(self.present(y, self.last))
         d = self.tables.find_gap(self.pressure, eta=eta, sigma=sigma, start=self.last)
         self.last = d
         return Gap(d, 0.0)
 
     def gap_slopes(self, y: Array, gap: Gap) -> Array:
         sigma = self.sigma_of(y)
-        eta = self.shaped(self.present(y, gap.d))
+        eta = self.shape_numbers(self.present(y, gap.d))
         slope = self.tables.load(gap.d, eta=eta, sigma=sigma)[1]
-        state = self.tables.pressed(gap.d, eta=eta, sigma=sigma)
+        state = self.tables.press_at(gap.d, eta=eta, sigma=sigma)
         return -self.slope_over_unknowns(y, state) / slope
 
     def standing(self, y: Array, d: float) -> Array:
@@ -103,7 +103,7 @@ class DryLoop(Loop):
         pieces = self.pieces(state.d, state.sigma)
         arrived = pieces @ self.arrivals
         self.add_source(out, ARRIVED, arrived)
-        lost = self.shaped(self.volumes * (self.arrivals - arrived)).sum(axis=1)
+        lost = self.shape_numbers(self.volumes * (self.arrivals - arrived)).sum(axis=1)
         out.constant[self.layout[f"flow {ARRIVED}"]] += lost  # as volume it arrives
         out.constant[self.layout[f"flow {FINER}"]] += lost
         passing = self.leaving(state)

@@ -145,7 +145,7 @@ class FilmLoop(Loop):
         """What the solids carry over what the film leaves to them, at ln γ, over the load."""
         sigma = self.sigma_of(y)
         d = self.separation(x, sigma)
-        eta = self.shaped(self.present(y, d))
+        eta = self.shape_numbers(self.present(y, d))
         return self.tables.load_alone(d, eta=eta, sigma=sigma) / self.pressure + math.expm1(-x)
 
     def _start(self) -> tuple[float, ...]:
@@ -164,7 +164,7 @@ class FilmLoop(Loop):
         low, high = max(x - step, 0.0), x + step
         stiff = self._excess(y, high) - self._excess(y, low)
         opens = self.separation(high, sigma) - self.separation(low, sigma)
-        state = self.pressed(y, gap.d)
+        state = self.press_at(y, gap.d)
         return -self.slope_over_unknowns(y, state) / self.pressure / stiff * opens
 
     def _root(self, f: Callable[[float], float]) -> float:
@@ -183,9 +183,9 @@ class FilmLoop(Loop):
                 break
             slope = (after - value) / (there - x)
             x, value = there, after
-        return self._bracketed(f)
+        return self._bracketed_root(f)
 
-    def _bracketed(self, f: Callable[[float], float]) -> float:
+    def _bracketed_root(self, f: Callable[[float], float]) -> float:
         if f(0.0) <= 0:
             return 0.0
         low, high = 0.0, max(2 * self.last, 0.5)

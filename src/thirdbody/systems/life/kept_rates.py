@@ -84,12 +84,12 @@ class KeptRates:
         )
         head = json.dumps({"one history of": hashlib.sha256(text.encode()).hexdigest()})
         if file.exists():
-            self._read(file, head)
+            self._read_file(file, head)
         else:
             need_folders(file)
             file.write_text(head + "\n", "utf-8")
 
-    def _read(self, file: Path, head: str) -> None:
+    def _read_file(self, file: Path, head: str) -> None:
         wrong = f"{file} does not hold the history of this study; remove it, or name another file"
         try:
             lines = file.read_text("utf-8").split("\n")

@@ -51,7 +51,7 @@ def _phi(z: Array) -> Array:
     return np.where(z == 0, 1.0, np.expm1(safe) / safe)
 
 
-def _divided(a: Array, b: Array) -> Array:
+def _divided_difference(a: Array, b: Array) -> Array:
     r"""Divided difference of exp at 0, a, b: ∫₀¹ u φ₁(a u) e^{b (1−u)} du, for a <= 0."""
     a, b = np.broadcast_arrays(a, b)
     # Σ h_j(a, b)/(j + 2)!, h_j the complete homogeneous polynomials
@@ -112,7 +112,9 @@ def flowing(
     tau = t / volume * np.where(grown == 0, 1.0, np.log1p(grown) / np.where(grown == 0, 1, grown))
     now = volume * (1 + grown)
     out = N * np.exp(-L * tau) + s * now * tau * _phi(-(L + growth) * tau)
-    passed = N * tau * _phi(-L * tau) + s * volume * tau**2 * _divided(-L * tau, growth * tau)
+    passed = N * tau * _phi(-L * tau) + s * volume * tau**2 * _divided_difference(
+        -L * tau, growth * tau
+    )
     return Flowing(out, passed)
 
 

@@ -228,14 +228,14 @@ class Loop(ABC):
                 eta = eta + y[self.layout[f"bound_{side}"]] / self.setting.worn_area[side - 1]
         return np.maximum(eta, 0.0)
 
-    def shaped(self, numbers: Array) -> Array:
+    def shape_numbers(self, numbers: Array) -> Array:
         """(J,) as (kinds, classes)."""
         return numbers.reshape(self.kinds, self.classes)
 
-    def pressed(self, y: Array, d: float) -> Pressed:
+    def press_at(self, y: Array, d: float) -> Pressed:
         """Everything at a separation."""
         sigma = self.sigma_of(y)
-        return self.tables.pressed(d, eta=self.shaped(self.present(y, d)), sigma=sigma)
+        return self.tables.press_at(d, eta=self.shape_numbers(self.present(y, d)), sigma=sigma)
 
     def columns(self, state: Pressed, name: str) -> Array:
         """A quantity of one particle of each number: (J,)."""
@@ -252,7 +252,7 @@ class Loop(ABC):
         count, J = self.layout.count, len(self.volumes)
         square = np.zeros((2, count, count))
         out = Rates(square[0], np.zeros(count), np.zeros((J, J)), square[1])
-        state = self.pressed(y, d)
+        state = self.press_at(y, d)
         standing = self.standing(y, d)
         rows = [self._wear_row(state, standing, side) for side in SURFACES]
         for side, (row, constant, _) in zip(SURFACES, rows, strict=True):
@@ -417,7 +417,7 @@ class Loop(ABC):
     def add_source(self, out: Rates, name: str, numbers: Array) -> None:
         """Book numbers that come into the pool per time (J,), and their volume."""
         out.constant[self.layout[self.pool]] += numbers
-        volume = self.shaped(numbers * self.volumes).sum(axis=1)
+        volume = self.shape_numbers(numbers * self.volumes).sum(axis=1)
         out.constant[self.layout[f"flow {name}"]] += volume
 
     # ------------------------------------------------------------------ for the integrator
@@ -443,13 +443,13 @@ class Loop(ABC):
         return out
 
     # ------------------------------------------------------------------ accounts
-    def stored(self, y: Array) -> Array:
+    def stored_volumes(self, y: Array) -> Array:
         """Volume of each kind that is in the oil, the contact and the surfaces [m³]: (kinds,)."""
         numbers = y[self.layout[self.pool]]
         for side in SURFACES:
             if f"bound_{side}" in self.layout:
                 numbers = numbers + y[self.layout[f"bound_{side}"]]
-        return self.shaped(numbers * self.volumes).sum(axis=1)
+        return self.shape_numbers(numbers * self.volumes).sum(axis=1)
 
     def flow(self, y: Array, name: str) -> Array:
         """Volume of each kind that has gone a way [m³]: (kinds,)."""

@@ -124,7 +124,7 @@ class _Stretch:
     numbers: Array
     """In the oil at the beginning [1], (K, M)."""
 
-    def after(self, time: ArrayLike) -> Flowing:
+    def state_after(self, time: ArrayLike) -> Flowing:
         """What is in the oil, and what has passed, a time [s] after the beginning."""
         return flowing(
             self.volume, numbers=self.numbers, growth=self.terms.growth, source=self.terms.source,
@@ -137,12 +137,16 @@ class _Stretch:
 
     def counts_after(self, time: ArrayLike) -> Array:
         """Particles per volume from 4, 6 and 14 µm(c) [1/m³]."""
-        per_volume = self.after(time).numbers.sum(axis=-1) / self.volume_after(time)[..., None]
+        per_volume = (
+            self.state_after(time).numbers.sum(axis=-1) / self.volume_after(time)[..., None]
+        )
         return self.terms.classes.counted(per_volume)
 
     def mass_removed(self, name: str, time: float) -> float:
         """Mass that one of its ways out has taken [kg]."""
-        return float(np.sum(self.terms.removal[name] * self.after(time).passed * self.terms.masses))
+        return float(
+            np.sum(self.terms.removal[name] * self.state_after(time).passed * self.terms.masses)
+        )
 
 
 @dataclass
@@ -167,7 +171,7 @@ class _Accounts:
                 account[name] += float(values[0])
 
     def _since(self, stretch: _Stretch, times: Array) -> dict[str, Array]:
-        terms, found = stretch.terms, stretch.after(times)
+        terms, found = stretch.terms, stretch.state_after(times)
         out = {"in the oil": np.einsum("tkm,km->t", found.numbers, terms.masses)}
         brought = {"ingress": terms.ingress, "fresh oil": terms.make_up * terms.fresh}
         for name in self.came:
@@ -244,7 +248,7 @@ class _Course:
         return float(brentq(lambda t: float(far(t)), low, high, xtol=1e-12 * high, rtol=1e-14))
 
     # ---------------------------------------------------------------------- what happens
-    def _tell(self, name: str, sentence: str) -> None:
+    def _add_event(self, name: str, sentence: str) -> None:
         self.events.append(LifeEvent(self.now.begin, name, sentence))
 
     def _end(self) -> None:
@@ -252,7 +256,7 @@ class _Course:
 
     def _reach(self, code: CodeReached) -> None:
         self.waiting.remove(code)
-        self._tell(code.name, code.sentence)
+        self._add_event(code.name, code.sentence)
         self.stopped = self.stopped or code.stops
 
     def _fill(self, name: str) -> None:
@@ -265,9 +269,9 @@ class _Course:
             self.now.terms = self.circuit.terms(full=self.full, classes=self.first.classes)
             part = each.still_filtered
             past = "all of the oil" if part == 0 else f"{percent(1 - part)} of the oil"
-            self._tell("filter full", f"{said}, and {past} goes past it")
+            self._add_event("filter full", f"{said}, and {past} goes past it")
         else:
-            self._tell("filter full", f"{said}, and is changed")
+            self._add_event("filter full", f"{said}, and is changed")
         self.stopped = any(isinstance(e, FilterFull) and e.stops for e in self.until)
 
     def _change(self) -> None:
@@ -277,7 +281,7 @@ class _Course:
         filled = now.volume * terms.fresh
         self.accounts.came["fresh oil"] += float(np.sum(filled * terms.masses))
         now.numbers = filled
-        self._tell("oil change", "the oil is changed")
+        self._add_event("oil change", "the oil is changed")
 
     # ---------------------------------------------------------------------- the whole
     def run(self, times: Array, *, shortest: float, after_events: bool) -> LifeHistory:
@@ -291,7 +295,7 @@ class _Course:
             volume = self.now.volume_after(some)
             kept.extend(self.now.begin + some)
             volumes.append(volume)
-            numbers.append(self.now.after(some).numbers / volume[:, None, None])
+            numbers.append(self.now.state_after(some).numbers / volume[:, None, None])
             self.accounts.add(self.now, some)
 
         for _ in range(MOST_EVENTS):
@@ -339,7 +343,7 @@ class _Course:
         self.accounts.close(now, time)
         for name in self.held:
             self.held[name] += now.mass_removed(name, time)
-        numbers, volume = now.after(time).numbers, float(now.volume_after(time))
+        numbers, volume = now.state_after(time).numbers, float(now.volume_after(time))
         self.now = _Stretch(now.terms, now.begin + time, volume, numbers)
 
 

@@ -24,8 +24,9 @@ class Zeros(NamedTuple):
 
     Examples
     --------
-    >>> zeros = Zeros.among(np.array([[5e9, 4e6], [3e9, 0.0]]), least=1e7)
-    >>> float(zeros.limits[1, 1]), zeros.replaced(np.array([[5e9, 4e6], [3e9, 0.0]]), 0.5).tolist()
+    >>> counts = np.array([[5e9, 4e6], [3e9, 0.0]])
+    >>> zeros = Zeros.of_counts(counts, least=1e7)
+    >>> float(zeros.limits[1, 1]), zeros.replace_zeros(counts, 0.5).tolist()
     (4000000.0, [[5000000000.0, 4000000.0], [3000000000.0, 2000000.0]])
     """
 
@@ -35,7 +36,7 @@ class Zeros(NamedTuple):
     """L, infinite elsewhere [1/m³], (R, S)."""
 
     @classmethod
-    def among(cls, counts: Array, *, least: float) -> Self:
+    def of_counts(cls, counts: Array, *, least: float) -> Self:
         """Zeros of counts, below the least count, those of their size, and the smaller size's."""
         here = counts == 0
         some = np.where(here, np.inf, counts)
@@ -43,7 +44,7 @@ class Zeros(NamedTuple):
         limits = np.minimum.accumulate(np.where(here, limits, some), axis=1)
         return cls(here, np.where(here, limits, np.inf))
 
-    def replaced(self, counts: Array, parts: Array | float) -> Array:
+    def replace_zeros(self, counts: Array, parts: Array | float) -> Array:
         """Counts with each 0 at a part of its limit."""
         parts = np.maximum(parts, NONE)
         return np.where(self.here, np.where(self.here, self.limits, 0.0) * parts, counts)

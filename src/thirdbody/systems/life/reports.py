@@ -443,8 +443,8 @@ def oil_reports(
     if not (math.isfinite(least) and least > 0):
         raise InvalidValue(Problem("least", "must be above 0", repr(least), code=Mistake.RANGE))
     of = _material_of(circuit, material)
-    zeros = Zeros.among(counts, least=least)
-    taken = zeros.replaced(counts, 0.5)
+    zeros = Zeros.of_counts(counts, least=least)
+    taken = zeros.replace_zeros(counts, 0.5)
     sigma = math.log(width) / math.sqrt(12)
     grid = _Grid.from_sizes(at)
     model = _Model(grid, _responses(circuit, of, grid.classes, t), len(at))
@@ -457,10 +457,12 @@ def oil_reports(
     alike = random.uniform(-0.5, 0.5, (DRAWS, 1, counts.shape[1]))
     apart = random.uniform(-0.5, 0.5, (DRAWS, *counts.shape))
     drawn = [
-        model.fit(zeros.replaced(counts * width**each, 0.5 + each)).rate
+        model.fit(zeros.replace_zeros(counts * width**each, 0.5 + each)).rate
         for each in (*alike, *apart)
     ]
-    ends = [model.fit(zeros.replaced(counts, part)).rate for part in (0.0, 1.0) if zeros.here.any()]
+    ends = [
+        model.fit(zeros.replace_zeros(counts, part)).rate for part in (0.0, 1.0) if zeros.here.any()
+    ]
     rates = np.array([np.cumsum(each[::-1])[::-1] for each in (fit.rate, *drawn, *ends)])
     psi = grid.shape(rates[0])
     weights = of.density * psi @ grid.classes.volumes  # type: ignore[operator]

@@ -95,10 +95,10 @@ def least_flow(circuit: OilCircuit, *, code: str, which: int = 0) -> float:
     while worst(low) <= 0:
         low -= 5.0
 
-    def capped(logarithm: float) -> float:
+    def capped_worst(logarithm: float) -> float:
         return min(worst(logarithm), 50.0)
 
-    return math.exp(brentq(capped, low, low + 5.0, xtol=1e-12))
+    return math.exp(brentq(capped_worst, low, low + 5.0, xtol=1e-12))
 
 
 @names_arguments

@@ -277,7 +277,7 @@ class ParticleShare(ContactUntil):
         return f"particles carry {percent(self.share)} of what the solids carry"
 
     def excess(self, loop: Loop, *, state: Array) -> float:
-        pressed = loop.pressed(state, loop.find_gap(state).d)
+        pressed = loop.press_at(state, loop.find_gap(state).d)
         eta = loop.present(state, pressed.d)
         own = float(loop.columns(pressed, "load") @ eta)
         all_solids = own + pressed.bare * pressed.asperities["force"]

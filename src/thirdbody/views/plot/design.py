@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...quantities.say import prefixed
+from ...quantities.say import readable_unit
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -49,7 +49,7 @@ def plot_trials(best: Best) -> Figure:
     place: dict[str, Any] = {**best.values, **best.objectives}
     for name in (x, y, labels[0]):
         about = points[name].attrs
-        sizes[name], unit = prefixed(place[name], about["units"])
+        sizes[name], unit = readable_unit(place[name], about["units"])
         at[name] = points[name].values / sizes[name]
         said[name] = fill(f"{about['long_name']} [{unit or 1}]", WIDTH)
     ok, front = points["feasible"].values, points["front"].values

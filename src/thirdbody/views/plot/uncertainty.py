@@ -327,7 +327,7 @@ def _input_label(data: Propagation, label: str) -> str:
 
 
 def _unit_of(data: Propagation, label: str) -> str:
-    from ...analysis.inputs import declared
+    from ...analysis.inputs import declared_quantity
 
     loads = {"pressure": "Pa", "F_star": "1", "d": "m"}
-    return loads.get(label) or declared(data.contact, label.split("+")[0].strip())["unit"]
+    return loads.get(label) or declared_quantity(data.contact, label.split("+")[0].strip())["unit"]

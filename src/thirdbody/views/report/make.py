@@ -21,7 +21,7 @@ from ...equilibrium.modes import FAINT
 from ...equilibrium.solve import solve
 from ...equilibrium.transitions import Transitions
 from ...errors import InvalidValue, RangeWarning, ThirdBodyError
-from ...quantities.progress import Stages, counted, nested
+from ...quantities.progress import Stages, count_contacts, nested_stages
 from ...study import Study, run_film, run_study
 from ...study.dirty_oil import dirty_oil
 from ...study.life import AskedDry
@@ -168,7 +168,7 @@ def curve_over(contact: Contact, critical: Transitions, loads: list[float]) -> E
 def _assess(
     study: Study, contact: Contact, given: ForceLoad[float], progress: Callable[[str], None]
 ) -> Assessment | None:
-    inner = nested(progress, len(ASSESSED))
+    inner = nested_stages(progress, len(ASSESSED))
     asked = study.uncertainty
     if asked is None:
         if isinstance(study.life, AskedDry):
@@ -194,9 +194,9 @@ def _slopes(
     names = ["A_t", "h"]
     if not contact.two_body:
         names.insert(0, "particle_load_share")
-    within = progress.within if isinstance(progress, Stages) else None
+    within = progress.report_contacts if isinstance(progress, Stages) else None
     try:
-        with counted(4 * len(inputs(contact)), within):
+        with count_contacts(4 * len(inputs(contact)), within):
             return sensitivity(contact, of=names, **given, quick=True)
     except ThirdBodyError:
         return None

@@ -8,14 +8,14 @@ from functools import cached_property
 from html import escape
 
 from ...analysis.assessment import WORDS as ASSESSMENT_WORDS
-from ...analysis.inputs import declared, words_of
+from ...analysis.inputs import declared_quantity, words_of
 from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import LEAST, costly, enough
 from ...contact.contact import Contact
 from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
-from ...equilibrium.words import unsolved
-from ...quantities.say import join_words, signed, value_of
+from ...equilibrium.words import unsolved_sentences
+from ...quantities.say import join_words, signed_number, value_of
 from ...study.toml import heading_of
 from ...version import __version__
 from .. import connector_words, nature_words, oil_words, plate_words, state_words
@@ -175,7 +175,7 @@ def _in_full(report: Found) -> list[str]:
 def _warnings(report: Found) -> list[str]:
     others = [each for each in (report.connector, report.plate, report.film) if each is not None]
     texts = [*(text for each in others for text in each.run_warnings), *report.result.warnings]
-    texts = [*dict.fromkeys(texts), *unsolved(report.result.states.status)]
+    texts = [*dict.fromkeys(texts), *unsolved_sentences(report.result.states.status)]
     if not texts:
         return []
     items = "".join(f"<li>{words(text)}</li>" for text in texts)
@@ -249,9 +249,9 @@ def _slopes(report: Found) -> list[str]:
     for label in order[:10]:
         value = report.slopes.inputs[label]
         unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
-        unit = unit or declared(report.contact, label.split("+")[0])["unit"]
+        unit = unit or declared_quantity(report.contact, label.split("+")[0])["unit"]
         each = (float(report.slopes.elasticity[name][label]) for name in (of, *others))
-        slopes = (signed(slope, 3) for slope in each)
+        slopes = (signed_number(slope, 3) for slope in each)
         rows.append([words_of(report.contact, label), value_of(float(value), unit), *slopes])
     sentence = (
         f"At {report.load(report.at)}, {strongest_inputs(report, of, order)}. The numbers tell by "

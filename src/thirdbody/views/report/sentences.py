@@ -9,16 +9,16 @@ from ...analysis.inputs import words_of
 from ...analysis.sensitivity import Sensitivity
 from ...equilibrium.columns import about
 from ...equilibrium.words import (
-    carried,
     happens,
     is_rare,
     mode_among,
     mode_of,
     mode_path,
     not_met,
+    particle_share_text,
     two_bodies,
 )
-from ...quantities.say import join_words, number, percent, signed, times, value_of
+from ...quantities.say import join_words, number, percent, signed_number, times, value_of
 from .found import Found
 
 MATTER = 3
@@ -83,7 +83,7 @@ def _carries(report: Found, i: int) -> str:
     if report.contact.two_body:
         return two_bodies()
     parts = {part.name: part.load_share[i] for part in states.populations}
-    share = carried(states.particle_load_share[i], parts)
+    share = particle_share_text(states.particle_load_share[i], parts)
     mode, held = states.mode[i], report.result.particles_in(i)
     where = " of a wide surface" * is_rare(mode, held)
     return f"{mode_among(mode, held)}, and {share}{where}"
@@ -172,7 +172,7 @@ def _first_input(report: Found) -> str:
     return (
         f"{_inputs_clause(report)}{words_of(report.contact, order[0])} moves the real contact area "
         "most: 1 % more of it makes "
-        f"{signed(slope, 2, '%')} of area."
+        f"{signed_number(slope, 2, '%')} of area."
     )
 
 
@@ -202,7 +202,7 @@ def strongest_inputs(report: Found, of: str, order: list[str]) -> str:
     if report.contact.two_body or of != "A_t":
         return most
     share = report.result.states.particle_load_share[report.at]
-    return f"{carried(share)}, which leaves that share little to answer with; {most}"
+    return f"{particle_share_text(share)}, which leaves that share little to answer with; {most}"
 
 
 def _order(slopes: Sensitivity, of: str) -> list[str]:

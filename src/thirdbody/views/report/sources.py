@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator
 from html import escape
 from typing import Any, NamedTuple
 
-from ...analysis.inputs import declared
+from ...analysis.inputs import declared_quantity
 from ...analysis.inputs import inputs as numbers_of
 from ...contact.contact import Contact
 from ...contact.output import AbstractOutput
@@ -237,7 +237,7 @@ def rows_of(contact: Contact) -> list[Row]:
     rough = contact.roughness
     if rough.eta is None and rough.eta_R_sigma is None:
         name = "roughness.eta_R_sigma"
-        told = declared(contact, name)
+        told = declared_quantity(contact, name)
         value = numbers_of(contact)[name]
         row = Row(name, told["symbol"], number(value), told["meaning"], True, value, "1")
         place = next(i for i, each in enumerate(rows) if each.name == "roughness.alpha")
