@@ -348,7 +348,9 @@ def run_dry_history(
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
     births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
-    numbers = np.array([loop.shape_numbers(y[loop.layout["contact"]]).T for y in seen.states]) / dry.area
+    numbers = (
+        np.array([loop.shape_numbers(y[loop.layout["contact"]]).T for y in seen.states]) / dry.area
+    )
     absent = ("film_share", *(f"{name}_{side}" for name in ("dents", "thrown") for side in (1, 2)))
     return DryHistory(
         loop=loop,
