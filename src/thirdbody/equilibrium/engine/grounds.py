@@ -107,7 +107,7 @@ class Displacements:
     which, basis : array (N,), (N, K)
         Cell of each state, and what its terms are there. Below zero, −1 − m for row m of ``alone``.
     alone : array (M, 429)
-        Of states whose bandwidth has series of its own: their sums.
+        Of states whose bandwidth has integrals of its own.
     tails : array (N,)
         What the series leave out, at most.
     known : array (N,)
