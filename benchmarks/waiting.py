@@ -170,10 +170,10 @@ def slider() -> float:
 
 
 def film() -> float:
-    from thirdbody.app.tabs.film import solved
+    from thirdbody.study.run import run_film_curve
 
     study = check(tomllib.loads((EXAMPLES / "oil_film.toml").read_text("utf-8")))
-    return here(lambda: solved(study))
+    return here(lambda: run_film_curve(study))
 
 
 if __name__ == "__main__":

@@ -322,7 +322,7 @@ def test_mistakes(changes, refusal):
 @pytest.mark.slow
 def test_load_on_buried_particles():
     """Against particles drawn at random: sizes, seats, and how deep each sits in either surface."""
-    from thirdbody.analysis.design.search import buried
+    from thirdbody.analysis.design.search import buried_share
 
     soft = STEEL.replace(H=2.5e9)
     dust = tb.Particles(
@@ -342,7 +342,7 @@ def test_load_on_buried_particles():
     deep = np.maximum(*one.depths)[:, 0] > one.radius[:, 0]
     share = load[deep].sum() / load.sum()
     error = np.sqrt(np.sum((load * (deep - share)) ** 2)) / load.sum()
-    found = buried(case, np.atleast_1d(state.d))[0]
+    found = buried_share(case, np.atleast_1d(state.d))[0]
     assert 0.2 < share < 0.8
     assert abs(found - share) < 4 * error
     # a share of the whole load: few deep particles do no harm

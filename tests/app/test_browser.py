@@ -5,7 +5,6 @@ work is done once. Screenshots of every tab, at two widths, light and dark, land
 $THIRDBODY_SCREENSHOTS where it names a folder.
 """
 
-import contextlib
 import os
 import re
 import sys
@@ -246,11 +245,11 @@ def looked_at(page, name):
             page,
             f"document.body.classList.contains('body--dark') === {str(scheme == 'dark').lower()}",
         )
-        when(page, FITS)
-        # the words of a figure follow its width late, on a busy machine by many seconds
-        with contextlib.suppress(sync_api.TimeoutError):
-            page.wait_for_function(f"() => !({CUT})().length", polling=100)
-        assert not page.evaluate(CUT), (name, width)
+        # figures and their words follow their places, which move late on a busy machine: both at once
+        try:
+            page.wait_for_function(f"() => ({FITS})() && !({CUT})().length", polling=100)
+        except sync_api.TimeoutError:
+            raise AssertionError((name, width, page.evaluate(CUT))) from None
         if width == 1280:
             assert not page.evaluate(UNREADABLE), (name, scheme)
         if folder:
