@@ -143,7 +143,7 @@ def direct_columns(contact: Contact, d: NDArray[np.float64], vary: Arrays) -> Co
             if np.all(found["doubt"] == ""):
                 return found
     out: Columns = {}
-    for which in _alike(vary, len(d)):
+    for which in _split_by_inputs(vary, len(d)):
         own = vary_contact(
             contact, {name: values[which[0]].item() for name, values in vary.items()}
         )
@@ -157,7 +157,7 @@ def direct_columns(contact: Contact, d: NDArray[np.float64], vary: Arrays) -> Co
     return out
 
 
-def _alike(arrays: Arrays, count: int) -> list[NDArray[np.intp]]:
+def _split_by_inputs(arrays: Arrays, count: int) -> list[NDArray[np.intp]]:
     """Which states have equal inputs."""
     groups = _groups(arrays, count)
     order = np.argsort(groups, kind="stable")
@@ -319,7 +319,7 @@ def _with_outputs(
         alike = dict(arrays)
     many = engine.available() and _differ(inputs, len(loads), fewest)
     solver = Solver(_separation, _outputs_at) if many else SOLVER
-    for which in _alike(alike, len(loads)):
+    for which in _split_by_inputs(alike, len(loads)):
         own = vary_contact(
             contact, {name: values[which[0]].item() for name, values in arrays.items()}
         )
@@ -552,7 +552,7 @@ def _by_groups(
 ) -> Columns:
     """Columns of one contact after another; ``why`` says what kept the compiled engine away."""
     parts = []
-    for which in _alike(arrays, len(loads)):
+    for which in _split_by_inputs(arrays, len(loads)):
         state = vary_contact(
             contact, {name: values[which[0]].item() for name, values in arrays.items()}
         )

@@ -144,7 +144,7 @@ class Block:
         words = {name: v for name, v in inputs.items() if v.dtype == object}
         numbers = {name: v for name, v in inputs.items() if v.dtype != object}
         out: Arrays = {}
-        for changes, which in _alike(words, len(loads)):
+        for changes, which in _split_by_words(words, len(loads)):
             contact = vary_contact(self.contact, changes) if changes else self.contact
             given = as_load(self.load, loads[which])
             vary = {name: values[which] for name, values in numbers.items()}
@@ -407,7 +407,7 @@ def _boxes(sizes: Sequence[int], box: Sequence[int]) -> Iterator[Box]:
     return itertools.product(*cuts)
 
 
-def _alike(
+def _split_by_words(
     words: Arrays, count: int
 ) -> Iterator[tuple[dict[str, object], slice | NDArray[np.intp]]]:
     """States with equal words: those words, and which states."""
