@@ -52,7 +52,7 @@ class _Loads(NamedTuple):
     """Whether it was one number; so are then the columns."""
     branch: str = ""
     """That of the states; without it they are on all of them."""
-    told: bool = True
+    with_notes: bool = True
     """Whether they come with the notes on the model's validity."""
 
 
@@ -466,7 +466,7 @@ def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separatio
         codes = int(status.codes[0])
         outputs = {name: values[0].item() for name, values in outputs.items()}
     notes: tuple[str, ...] = ()
-    if loads.told:
+    if loads.with_notes:
         branches = _branches(bound, target, d, loads.branch)
         notes = (*_warnings(contact, bound, full, d), *branches, *more)
     return Equilibrium(
