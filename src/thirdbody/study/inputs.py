@@ -48,10 +48,8 @@ class Input:
 
 def field_of(table: str, key: str) -> str:
     """The dotted name of a field: sizes stand beside the other keys of [particles] in a file."""
-    particle_fields = {item.name for item in dataclasses.fields(Particles)} - {
-        "shape"
-    }  # a number of sizes
-    if re.fullmatch(r"particles(\.\d+)?", table) and key not in particle_fields:
+    fields = {item.name for item in dataclasses.fields(Particles)} - {"shape"}  # a number of sizes
+    if re.fullmatch(r"particles(\.\d+)?", table) and key not in fields:
         return f"{table}.diameter.{key}"
     return f"{table}.{key}"
 
