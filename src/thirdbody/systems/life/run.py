@@ -149,7 +149,7 @@ def life(
     """
     several = isinstance(until, Iterable) and not isinstance(until, Until | str)
     waits: tuple[Until, ...] = tuple(until) if several else (until,)  # type: ignore[assignment,arg-type]
-    if wrong := [each for each in waits if not isinstance(each, Until)]:
+    if wrong := [goal for goal in waits if not isinstance(goal, Until)]:
         rule = 'must hold what a history waits for, e.g. tb.until.iso4406("21/19/16")'
         raise InvalidValue(Problem("until", rule, repr(wrong[0]), code=Mistake.KIND))
     if oil is None and contact is None:
@@ -162,37 +162,37 @@ def life(
     of_contact: dict[str, Any] = {
         "debris": debris, "running_in": running_in, "stays": stays, "worn_area": worn_area
     }  # fmt: skip
-    found: LifeHistory | DryHistory
+    history: LifeHistory | DryHistory
     if contact is None:
         assert oil is not None
-        given = of_contact | {"keep": keep}
-        if lost := [*conditions, *(name for name, value in given.items() if value)]:
+        contact_options = of_contact | {"keep": keep}
+        if lost := [*conditions, *(name for name, value in contact_options.items() if value)]:
             raise InvalidValue(Problem(lost[0], "needs a contact", code=Mistake.IDLE))
-        if idle := [each for each in waits if isinstance(each, ContactUntil)]:
+        if idle := [goal for goal in waits if isinstance(goal, ContactUntil)]:
             raise InvalidValue(Problem("until", "needs a contact", idle[0].name, code=Mistake.IDLE))
-        found = run_oil_history(oil, **shared)
+        history = run_oil_history(oil, **shared)
     else:
         use = ContactInUse(contact=contact, **of_contact)
         _check_parts(use)
         need_duration(duration)
-        asked = {"contact": contact, "oil": oil} | conditions | of_contact | shared
+        inputs = {"contact": contact, "oil": oil} | conditions | of_contact | shared
         file = None if keep is None else Path(keep)
         if oil is not None:
             film = read_conditions(FilmConditions, conditions)
-            kept = KeptRates(file, plain_inputs(asked))
-            found = run_film_history(use, film, oil=oil, kept=kept, **shared)
+            kept = KeptRates(file, plain_inputs(inputs))
+            history = run_film_history(use, film, oil=oil, kept=kept, **shared)
         else:
-            of_oil = [each for each in waits if not isinstance(each, ContactUntil)]
+            of_oil = [goal for goal in waits if not isinstance(goal, ContactUntil)]
             if of_oil:
                 raise InvalidValue(
                     Problem("until", "needs an oil", of_oil[0].name, code=Mistake.IDLE)
                 )
             dry = read_conditions(DryConditions, conditions)
-            kept = KeptRates(file, plain_inputs(asked))
-            found = run_dry_history(use, dry, kept=kept, **shared)
-    for note in found.warnings:
+            kept = KeptRates(file, plain_inputs(inputs))
+            history = run_dry_history(use, dry, kept=kept, **shared)
+    for note in history.warnings:
         tell_of_range(note)
-    return found
+    return history
 
 
 def _check_parts(use: ContactInUse) -> None:
@@ -203,7 +203,7 @@ def _check_parts(use: ContactInUse) -> None:
             Problem("stays", "must be from 0 to 1 [1]", repr(use.stays), code=Mistake.RANGE)
         )
     area = use.worn_area
-    if area is not None and not (len(area) == 2 and all(is_positive(each) for each in area)):
+    if area is not None and not (len(area) == 2 and all(is_positive(value) for value in area)):
         problems.append(
             Problem("worn_area", "must be two areas above 0 [m^2]", repr(area), code=Mistake.RANGE)
         )

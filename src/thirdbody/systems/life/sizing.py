@@ -85,7 +85,7 @@ def least_flow(circuit: OilCircuit, *, code: str, which: int = 0) -> float:
     def worst(logarithm: float) -> float:
         return _worst(circuit.replace(**{f"filters.{which}.flow": math.exp(logarithm)}), code)
 
-    others = tuple(each for i, each in enumerate(circuit.filters) if i != which)
+    others = tuple(oil_filter for i, oil_filter in enumerate(circuit.filters) if i != which)
     if _worst(circuit.replace(filters=others), code) <= 0:
         return 0.0
     high = math.log(FASTEST * circuit.volume)
@@ -131,9 +131,13 @@ def filter_for_code(
     >>> filter_for_code(oil, code="16/15/14", filters=sheets).name
     'β = 5'
     """
-    own = circuit.filters[which]
-    for each in filters:
-        tried = each if each.flow is not None else each.replace(flow=own.flow)
+    present_filter = circuit.filters[which]
+    for oil_filter in filters:
+        tried = (
+            oil_filter
+            if oil_filter.flow is not None
+            else oil_filter.replace(flow=present_filter.flow)
+        )
         exchanged = tuple(tried if i == which else f for i, f in enumerate(circuit.filters))
         if _worst(circuit.replace(filters=exchanged), code) <= 0:
             return tried
@@ -162,8 +166,8 @@ def time_of_event(circuit: OilCircuit, *, until: Until, duration: float) -> floa
     351
     """
     stops = until.replace(stops=True)
-    found = run_oil_history(circuit, duration=duration, until=(stops,), times=[0.0, duration])
-    reached = [each.time for each in found.events if each.name == stops.name]
+    history = run_oil_history(circuit, duration=duration, until=(stops,), times=[0.0, duration])
+    reached = [event.time for event in history.events if event.name == stops.name]
     return reached[0] if reached else math.inf
 
 
@@ -206,7 +210,8 @@ def longest_time(circuits: Mapping[str, OilCircuit], *, until: Until, duration: 
     if not circuits:
         raise InvalidValue(Problem("circuits", "must hold one at least", code=Mistake.EMPTY))
     times = {
-        name: time_of_event(each, until=until, duration=duration) for name, each in circuits.items()
+        name: time_of_event(circuit, until=until, duration=duration)
+        for name, circuit in circuits.items()
     }
     best = list(times)[int(np.argmax(list(times.values())))]
     return Longest(best, times[best], times)

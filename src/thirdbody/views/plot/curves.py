@@ -283,8 +283,8 @@ def regimes(
         edgecolor="white",
         linewidth=0.8,
     )
-    for part, hatch in zip(stacked, HATCHES.values(), strict=True):
-        part.set_hatch(2 * hatch)
+    for layer, hatch in zip(stacked, HATCHES.values(), strict=True):
+        layer.set_hatch(2 * hatch)
     _dress(ax, against, "A_t", xlog=against in ("F_star", "pressure"))
     ax.set_ylabel(r"Part of the real area $A_e,\,A_{ep},\,A_p\,/A_t$ [%]")
     ax.set_ylim(0, 1)
@@ -410,8 +410,8 @@ def _critical_loads(
             elif (before, after) == ("hybrid", "s-s"):
                 marks.append((load, r"$F^*_{cr2}$"))
         return marks
-    found = (("$F^*_{cr1}$", transitions.F_cr1), ("$F^*_{cr2}$", transitions.F_cr2))
-    for name, critical in found:
+    named_loads = (("$F^*_{cr1}$", transitions.F_cr1), ("$F^*_{cr2}$", transitions.F_cr2))
+    for name, critical in named_loads:
         if critical.value is not None and x.min() <= critical.value <= x.max():
             marks.append((critical.value, name))
     return marks

@@ -50,10 +50,10 @@ OF_PARTICLES = ("mu_sa", "sa_share", "h_over_x")
 
 def bands_of(u: ArrayLike, changes: RegimeSpeeds | Mapping[str, float | None]) -> list[Band]:
     """Regimes over these speeds [m/s]: from, to and word of each."""
-    told = changes if isinstance(changes, Mapping) else changes._asdict()
+    speeds = changes if isinstance(changes, Mapping) else changes._asdict()
     low, high = float(np.min(u)), float(np.max(u))
-    slow = low if told["boundary"] is None else min(max(told["boundary"], low), high)
-    fast = high if told["full"] is None else min(max(told["full"], low), high)
+    slow = low if speeds["boundary"] is None else min(max(speeds["boundary"], low), high)
+    fast = high if speeds["full"] is None else min(max(speeds["full"], low), high)
     ends = [(low, slow, "boundary"), (slow, fast, "mixed"), (fast, high, "full film")]
     return [band for band in ends if band[0] < band[1]]
 

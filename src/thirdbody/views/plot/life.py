@@ -46,7 +46,7 @@ def draw_history(axes: Axes, history: LifeHistory) -> None:
     history : LifeHistory
     """
     hours = _hours(history)
-    codes = [[_code_number(part) for part in code.split("/")] for code in history.codes]
+    codes = [[_code_number(digits) for digits in code.split("/")] for code in history.codes]
     smooth = np.log2(np.maximum(history.counts / 1e6, 1e-9) / LEAST)
     styles = zip(SIZES.items(), np.transpose(codes), smooth.T, DASHES, strict=True)
     for (name, colour), numbers, exact, dash in styles:
@@ -113,8 +113,8 @@ def _hours(history: Histories) -> NDArray[np.float64]:
     return hours
 
 
-def _code_number(part: str) -> float:
-    return float(part.removeprefix(">")) if part != "-" else np.nan
+def _code_number(digits: str) -> float:
+    return float(digits.removeprefix(">")) if digits != "-" else np.nan
 
 
 def draw_masses(axes: Axes, history: Histories) -> None:
