@@ -291,15 +291,15 @@ def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     if name in _MODULES:
-        found = import_module(f".{_MODULES[name]}", __name__)
+        value = import_module(f".{_MODULES[name]}", __name__)
     elif name in _HOMES:
-        found = getattr(import_module(f".{_HOMES[name]}", __name__), name)
+        value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
     else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    globals()[name] = found
-    return found
+    globals()[name] = value
+    return value
 
 
 def __dir__() -> list[str]:
-    own = (name for name in globals() if name.startswith("__"))
-    return sorted({*own, *__all__})
+    special_names = (name for name in globals() if name.startswith("__"))
+    return sorted({*special_names, *__all__})

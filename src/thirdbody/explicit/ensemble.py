@@ -284,7 +284,7 @@ def ensemble(
         records = {} if kept is None else _read_surfaces(kept, total, key)
         left = [(i, task(i, grid)) for i in range(total) if i not in records]
         results = share_parts(
-            left, workers=workers, client=client, part="surface", smaller="a smaller size"
+            left, workers=workers, client=client, noun="surface", smaller="a smaller size"
         )
         with (
             closing(results),
