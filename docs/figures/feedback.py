@@ -40,7 +40,7 @@ def answer(contact: tb.Contact, *, exponent: float = EXPONENT, alpha: float | No
         laws.append(feedback.JunctionGrowth(alpha=alpha))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tb.errors.RangeWarning)
-        return tb.coupled(
+        return tb.equilibria.coupled(
             contact, pressure=5e6, sliding_speed=1.0, feedback=laws, cooling=PATH, limits="speed"
         )
 
