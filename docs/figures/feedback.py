@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from scipy.interpolate import PchipInterpolator
 
 import thirdbody as tb
-from thirdbody import feedback
+from thirdbody.systems import feedback
 
 COLD, MELT, EXPONENT = 293.0, 1793.0, 1.03
 STEEL = tb.materials["S45C"]
