@@ -128,13 +128,18 @@ def _call(start: str, parts: list[tuple[str, object]], end: str, indent: int, us
 
 def _name(kind: type) -> str:
     """Where users find a class."""
-    for home, prefix in (
-        (tb, "tb"),
-        (tb.asperity, "tb.asperity"),
-        (tb.particle, "tb.particle"),
-        (tb.outputs, "tb.outputs"),
+    for prefix, home in (
+        ("tb", tb),
+        ("tb.asperity", tb.asperity),
+        ("tb.distributions", tb.distributions),
+        ("tb.films", tb.films),
+        ("tb.grains", tb.grains),
+        ("tb.heights", tb.heights),
+        ("tb.outputs", tb.outputs),
+        ("tb.particle", tb.particle),
+        ("tb.surfaces", tb.surfaces),
     ):
-        if getattr(home, kind.__name__, None) is kind:
+        if kind.__name__ in home.__all__ and getattr(home, kind.__name__) is kind:
             return f"{prefix}.{kind.__name__}"
     return kind.__name__
 

@@ -100,7 +100,7 @@ class ParticleSum(ABC):
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
     >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e11,
-    ...                     diameter=tb.Monodisperse(mean=300e-9))
+    ...                     diameter=tb.distributions.Monodisperse(mean=300e-9))
     >>> made = particle_sum(tb.particle.Series(seat="plane"), tb.MaterialPair(steel, steel),
     ...                     tb.Roughness(sigma=100e-9, R=2.8e-6), dust)
     >>> f"{made.reach:.1e}", f"{made.fields(np.array([250e-9]))['F_sa'][0]:.3g} Pa"

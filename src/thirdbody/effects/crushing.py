@@ -53,7 +53,7 @@ class Crushing(AbstractOutput):
     >>> steel, quartz = tb.materials["S45C"], tb.materials["quartz"]
     >>> dust = tb.Particles(material=quartz, areal_density=1e7,
     ...                     diameter=tb.TruncatedGaussian(mean=10e-6, std=2e-6),
-    ...                     strength=tb.WeibullStrength.of(quartz))
+    ...                     strength=tb.grains.WeibullStrength.of(quartz))
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=dust,
     ...                      particle_law=tb.particle.Series(seat="plane"),
     ...                      roughness=tb.Roughness(sigma=1e-6, R=50e-6), outputs=Crushing())

@@ -333,7 +333,8 @@ def roots(
     ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
-    >>> [(round(state.d_star, 3), stable) for state, stable in tb.roots(contact, F_star=1e-5)]
+    >>> found = tb.equilibria.roots(contact, F_star=1e-5)
+    >>> [(round(state.d_star, 3), stable) for state, stable in found]
     [(3.048, True)]
     """
     _, values, _ = given_load(contact, pressure, F_star, None)

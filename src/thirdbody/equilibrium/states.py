@@ -92,7 +92,7 @@ def solve_states(
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> sigma = np.array([50e-9, 100e-9, 200e-9])
-    >>> states = tb.solve_states(contact, pressure=1e6, vary={"roughness.sigma": sigma})
+    >>> states = tb.equilibria.solve_states(contact, pressure=1e6, vary={"roughness.sigma": sigma})
     >>> states.A_t.dims, states["roughness.sigma"].units
     (('state',), 'm')
     """

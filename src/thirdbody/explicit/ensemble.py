@@ -246,7 +246,7 @@ def ensemble(
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=300e-9, R=3e-6),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=4e11,
-    ...                            diameter=tb.Monodisperse(mean=6e-7)))
+    ...                            diameter=tb.distributions.Monodisperse(mean=6e-7)))
     >>> found = ensemble(contact, surfaces=2, F_star=[1e-3], size=128, spacing=2e-7)
     >>> found.table.particle_load_share_cv.dims, found.surfaces
     (('F_star',), 2)

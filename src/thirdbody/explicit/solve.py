@@ -159,12 +159,12 @@ def solve(
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> rough = tb.synthetic.self_affine(
+    >>> rough = tb.surfaces.self_affine(
     ...     sigma=100e-9, hurst=0.8, shortest=8e-7, longest=6e-6, spacing=1e-7, points=128)
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=rough.roughness(),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=1e12,
-    ...                            diameter=tb.Monodisperse(mean=2e-7)))
+    ...                            diameter=tb.distributions.Monodisperse(mean=2e-7)))
     >>> state = tb.explicit.solve(contact, rough, F_star=1e-3)
     >>> state.converged, 0 < state.particle_load_share < 1
     (True, True)

@@ -222,8 +222,8 @@ class Ellipticity(Value):
 
         Examples
         --------
-        >>> from thirdbody import Uniform
-        >>> slender = Ellipticity.from_distribution(Uniform(low=1, high=5))
+        >>> from thirdbody import distributions
+        >>> slender = Ellipticity.from_distribution(distributions.Uniform(low=1, high=5))
         >>> mean = sum(share * (ratio + 1 / ratio) for ratio, _, share in slender.classes)
         >>> len(slender.ratios), round(mean, 6)
         (5, 3.402359)

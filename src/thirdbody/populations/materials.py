@@ -63,7 +63,7 @@ class Material(Value):
     K_c : float, optional
         Fracture toughness K_c [Pa √m].
     sigma_0, x_0, m, size_exponent : float, optional
-        Strength of grains, as in `thirdbody.WeibullStrength.of`.
+        Strength of grains, as in `thirdbody.grains.WeibullStrength.of`.
 
     Raises
     ------

@@ -284,8 +284,9 @@ class Mixture(Distribution):
 
     Examples
     --------
-    >>> from thirdbody import Monodisperse
-    >>> both = Mixture(parts=(Monodisperse(mean=1e-7), Monodisperse(mean=3e-7)), weights=(3, 1))
+    >>> from thirdbody import distributions
+    >>> parts = (distributions.Monodisperse(mean=1e-7), distributions.Monodisperse(mean=3e-7))
+    >>> both = Mixture(parts=parts, weights=(3, 1))
     >>> round(both.mean_diameter * 1e9, 6)
     150.0
     """

@@ -460,10 +460,11 @@ def propagate_life(
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz),
-    ...     ingress=tb.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[1e6, 3e5], material=quartz),
-    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz),
+    ...     ingress=tb.oil.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[1e6, 3e5],
+    ...                                        material=quartz),
+    ...     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> found = propagate_life(oil, vary={"ingress": tb.Uncertain.lognormal(median=1, gsd=2)},
     ...                        duration=36000.0, samples=64)
     >>> [code.split("/")[0] for code in found.codes]

@@ -132,7 +132,7 @@ class Connector(Value):
     >>> import thirdbody as tb
     >>> bronze = tb.materials["CuSn8"]
     >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e6,
-    ...                     diameter=tb.Monodisperse(mean=10e-6))
+    ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))
     >>> plug = Connector(radius=2e-3, surfaces=tb.MaterialPair(bronze, bronze), particles=dust,
     ...                  contacts=20)
     >>> f"{plug.failure(0.0):.4f} of one, {plug.failure_of_all(0.0):.2f} of 20, without force"

@@ -99,7 +99,7 @@ class ContactProbability(Value):
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
     >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e9,
-    ...                     diameter=tb.Monodisperse(mean=10e-6))
+    ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))
     >>> relay = ContactProbability(radius=5e-3, surfaces=tb.MaterialPair(steel, steel),
     ...                            particles=dust.replace(areal_density=3e6))
     >>> round(relay.in_the_way, 3)

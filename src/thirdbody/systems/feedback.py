@@ -1,4 +1,4 @@
-"""What friction and heat change of the contact that makes them: laws for `thirdbody.coupled`."""
+"""What friction and heat change of the contact that makes them: laws for `equilibria.coupled`."""
 
 from __future__ import annotations
 

@@ -81,7 +81,7 @@ def natures(contact: Contact) -> tuple[Nature, ...]:
     >>> import thirdbody as tb
     >>> steel = tb.materials["100Cr6"]
     >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e6,
-    ...                     diameter=tb.Monodisperse(mean=10e-6))
+    ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=dust,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> (found,) = natures(contact)

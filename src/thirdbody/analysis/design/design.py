@@ -121,8 +121,8 @@ class Best(Record):
     >>> best = tb.design(
     ...     contact,
     ...     vary={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
-    ...     objective=tb.Objective(of="A_t", aim="smallest"),
-    ...     limits=[tb.Limit(of="plastic_share", most=0.1)],
+    ...     objective=tb.objectives.Objective(of="A_t", aim="smallest"),
+    ...     limits=[tb.objectives.Limit(of="plastic_share", most=0.1)],
     ...     pressure=[1e6, 5e6],
     ... )
     >>> [round(float(x) * 1e9) for x in best.values.values()], best.active, best.at_bound

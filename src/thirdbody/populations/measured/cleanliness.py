@@ -328,8 +328,8 @@ def iso4406_of(*, density: float, diameter: Distribution) -> str:
 
     Examples
     --------
-    >>> from thirdbody import Monodisperse
-    >>> iso4406_of(density=300e6, diameter=Monodisperse(mean=5e-6))
+    >>> from thirdbody import distributions
+    >>> iso4406_of(density=300e6, diameter=distributions.Monodisperse(mean=5e-6))
     '15/0/0'
     """
     scale = _table("cleanliness")["iso4406"]

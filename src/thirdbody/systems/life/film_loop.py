@@ -5,8 +5,8 @@ r"""Contacts in an oil film: the oil brings particles, the contacts return debri
           p_{ss} + p_{sa} = \bar p\,(1 - 1/\gamma)
 
 with N = V n, the terms of `OilCircuit`, and the gap that the film leaves under its own part of the
-load, as `thirdbody.mixed_film` has it. Passage of the contacts is short against all else: what
-stands in them is ε times a layer of oil.
+load, as `thirdbody.films.mixed_film` has it. Passage of the contacts is short against all else:
+what stands in them is ε times a layer of oil.
 
 Every size of a class comes with the mean layer of its class, eq. (4a) of classes. With a layer of
 its own for each size, larger ones come more: what particles above the film wear is then 1 % more

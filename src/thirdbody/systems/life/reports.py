@@ -417,9 +417,9 @@ def oil_reports(
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> circuit = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("20/18/15", material=quartz), ingress=(),
-    ...     filters=tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3))
+    >>> circuit = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("20/18/15", material=quartz), ingress=(),
+    ...     filters=tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3))
     >>> found = oil_reports([0.0, 9e5], reports=["20/18/15", "18/16/13"], circuit=circuit)
     >>> [f"{rate:.2g}" for rate in found.rate]
     ['1.3e+06', '4.2e+05', '5.6e+04']

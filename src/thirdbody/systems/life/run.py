@@ -115,7 +115,7 @@ def life(
     duration : float
         How long at most [s].
     until : Until or sequence of Until, optional
-        What it waits for: ``tb.until.iso4406("21/19/16")``, ``tb.until.filter_full()``.
+        What it waits for: ``tb.oil.until.iso4406("21/19/16")``, ``tb.oil.until.filter_full()``.
     times : array, optional
         At which the oil is kept [s]; evenly and in the logarithm by default, and at every event.
 
@@ -138,11 +138,12 @@ def life(
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz),
-    ...     ingress=tb.Ingress.from_counts(sizes=[4e-6, 6e-6, 14e-6], counts=[1e6, 3e5, 1e4],
-    ...                                    material=quartz),
-    ...     filters=tb.Filter(sizes=(4e-6, 10e-6), betas=(75.0, 1000.0), flow=1e-3, capacity=0.05))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz),
+    ...     ingress=tb.oil.Ingress.from_counts(sizes=[4e-6, 6e-6, 14e-6], counts=[1e6, 3e5, 1e4],
+    ...                                        material=quartz),
+    ...     filters=tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(75.0, 1000.0), flow=1e-3,
+    ...                           capacity=0.05))
     >>> history = tb.life(oil=oil, duration=3.6e6)
     >>> history.codes[-1], history.steady()[0].code
     ('17/15/11', '17/15/11')

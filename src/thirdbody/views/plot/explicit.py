@@ -53,12 +53,12 @@ def explicit(state: ExplicitState) -> Figure:
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> rough = tb.synthetic.self_affine(
+    >>> rough = tb.surfaces.self_affine(
     ...     sigma=100e-9, hurst=0.8, shortest=8e-7, longest=6e-6, spacing=1e-7, points=64)
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=rough.roughness(),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=2e12,
-    ...                            diameter=tb.Monodisperse(mean=2e-7)))
+    ...                            diameter=tb.distributions.Monodisperse(mean=2e-7)))
     >>> len(explicit(tb.explicit.solve(contact, rough, F_star=2e-3)).axes)  # two are colour bars
     6
     """

@@ -71,7 +71,7 @@ def stribeck(
     Parameters
     ----------
     curve : xarray.Dataset or mapping
-        From `thirdbody.stribeck`, or its columns.
+        From `thirdbody.films.stribeck`, or its columns.
     changes : RegimeSpeeds or mapping
         From `lubrication.regime_speeds`.
     speed : float, optional
@@ -96,7 +96,7 @@ def stribeck(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> given = dict(conjunction=tb.films.Point(R=9.5e-3), load=20.0,
     ...              oil=tb.films.Oil(eta=0.02, alpha=2e-8))
-    >>> curve = tb.stribeck(contact, speed=np.geomspace(0.01, 10, 20), **given)
+    >>> curve = tb.films.stribeck(contact, speed=np.geomspace(0.01, 10, 20), **given)
     >>> len(stribeck(curve, regime_speeds(contact, **given)).axes)
     2
     """
