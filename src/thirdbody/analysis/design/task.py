@@ -75,7 +75,7 @@ def design_task(
     if scatter and not problems:
         try:
             moved = drawn_inputs(contact, scatter, load, cases, "scatter[{!r}]")
-            drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
+            drawn = moved, latin(samples, len(moved.distributions), seed, 0, samples)
         except InvalidValue as error:
             problems += error.problems
     if problems:

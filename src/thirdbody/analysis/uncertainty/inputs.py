@@ -329,7 +329,7 @@ class Drawn(NamedTuple):
     """Uncertain inputs of a contact: what moves, and how it is distributed."""
 
     moved: tuple[Moved | str, ...]
-    known: tuple[Uncertain, ...]
+    distributions: tuple[Uncertain, ...]
 
     def moved_numbers(self, values: Sequence[object]) -> Arrays:
         """Every number of the contact that moves, from the values of the inputs."""
@@ -344,7 +344,7 @@ class Drawn(NamedTuple):
     def points(self, u: Array) -> Arrays:
         """Numbers of the contact at points of the unit cube (N, k)."""
         return self.moved_numbers(
-            [distribution.quantile(u[:, j]) for j, distribution in enumerate(self.known)]
+            [distribution.quantile(u[:, j]) for j, distribution in enumerate(self.distributions)]
         )
 
     @property

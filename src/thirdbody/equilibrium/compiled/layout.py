@@ -222,7 +222,7 @@ class Rules:
         self._places: dict[Hashable, tuple[int, int]] = {}
         self._rules: list[Array] = []
         self._count = 0
-        self.own = 0
+        self.of_single_states = 0
         """Numbers in the rules of single states."""
 
     def add(self, key: Hashable, rows: Array) -> tuple[int, int]:
@@ -234,7 +234,7 @@ class Rules:
     def add_each(self, rows: Array) -> Records:
         """`RULE` records (M,) of rules (M, k, n), one for each state."""
         count, k, n = rows.shape
-        self.own += rows.size if count > 1 else 0
+        self.of_single_states += rows.size if count > 1 else 0
         out = np.empty(count, RULE)
         out["begin"], out["nodes"] = self._count + k * n * np.arange(count), n
         self._rules.append(rows.ravel())

@@ -75,7 +75,7 @@ class Rows:
     def _finish(self) -> None:
         self.panels, self.inverses = self._panels.all_panels()
         self.edges = self.panels["edge"].copy()
-        self.rules, self.own = self._rules.all_rules(), self._rules.own
+        self.rules, self.of_single_states = self._rules.all_rules(), self._rules.of_single_states
 
     @property
     def arrays(self) -> tuple[np.ndarray, ...]:
