@@ -17,7 +17,7 @@ from thirdbody.numerics.sampling import sobol
 pytestmark = pytest.mark.check
 FOLDER = Path(__file__).parents[1] / "examples"
 EXAMPLES = sorted(path.stem for path in FOLDER.glob("*.toml"))
-SEEDS = (0, 3, 7, 11)
+SEEDS = (0, 3, 7)
 
 # four sampled inputs: 24 orders
 SAMPLED = (
