@@ -145,6 +145,7 @@ np.random.default_rng = _told
 
 def pytest_collection_finish():
     gc.freeze()
+    gc.set_threshold(10_000, 20, 20)  # what a test leaves is small, and most of it no garbage
     gc.enable()
 
 

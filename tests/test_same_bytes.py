@@ -17,7 +17,7 @@ from thirdbody.numerics.sampling import sobol
 pytestmark = pytest.mark.check
 FOLDER = Path(__file__).parents[1] / "examples"
 EXAMPLES = sorted(path.stem for path in FOLDER.glob("*.toml"))
-SEEDS = (0, 3, 7, 11)
+SEEDS = (0, 3, 7)
 
 # four sampled inputs: 24 orders
 SAMPLED = (
@@ -179,8 +179,7 @@ def every_command(name):
     path = study(name)
     return [
         ["solve", path],
-        ["solve", path, "--csv", f"{name}-states.csv"],
-        ["solve", path, "--json"],
+        ["solve", path, "--json", "--csv", f"{name}-states.csv"],
         ["film", path, "--json", "--csv", f"{name}-film.csv", "--figure", f"{name}-film.pdf"],
         ["compare", path, "--csv", f"{name}-compare.csv"],
         ["table", path, "--out", f"{name}-table.csv", "--tolerance", "1e-3"],

@@ -36,7 +36,12 @@ def wheel(tmp_path_factory):
         check=True,
     )
     shutil.rmtree(folder / "source")
-    return folder / "site"
+    site = folder / "site"
+    found = [sys.executable, "-c", "import thirdbody; print(thirdbody.__file__)"]
+    told = os.environ | {"PYTHONPATH": str(site)}
+    found = subprocess.run(found, env=told, capture_output=True, text=True, check=True)
+    assert Path(found.stdout.strip()).is_relative_to(site)
+    return site
 
 
 def installed(site):
@@ -44,9 +49,6 @@ def installed(site):
     told = os.environ | {"PYTHONPATH": str(site), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def call(*arguments):
-        found = [sys.executable, "-c", "import thirdbody; print(thirdbody.__file__)"]
-        found = subprocess.run(found, env=told, capture_output=True, text=True, check=True)
-        assert Path(found.stdout.strip()).is_relative_to(site)
         command = [sys.executable, str(site / "bin" / "thirdbody"), *arguments]
         done = subprocess.run(command, env=told, capture_output=True, text=True, encoding="utf-8")
         assert done.returncode == 0, done.stderr
@@ -61,6 +63,10 @@ def run(request, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "80")
     return here if request.param == "here" else installed(request.getfixturevalue("wheel"))
+
+
+# what these ask of the wheel, other stories ask of it too
+in_this_process = pytest.mark.parametrize("run", ["here"], indirect=True)
 
 
 @pytest.fixture
@@ -92,6 +98,7 @@ def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness(run, solved):
     assert sentence in " ".join(shown.split())
 
 
+@in_this_process
 def test_an_additive_by_size_and_weight_per_cent(run, solved):
     run("new", "additive")
     usual, more = (
@@ -146,6 +153,7 @@ def test_the_text_of_the_package_index():
     assert example in (ROOT / "README.md").read_text("utf-8")
 
 
+@in_this_process
 def test_how_often_does_this_connector_fail_to_close(run):
     assert run("new", "connector").strip() == "thirdbody probability connector.toml"
     often = json.loads(run("probability", "connector.toml", "--json"))["states"]
@@ -157,6 +165,7 @@ def test_how_often_does_this_connector_fail_to_close(run):
     assert often["failure_of_all"][2] < 1e-4
 
 
+@in_this_process
 def test_how_high_does_a_wafer_stand_over_a_grain(run):
     assert run("new", "wafer-chuck").strip() == "thirdbody plate wafer-chuck.toml"
     usual = json.loads(run("plate", "wafer-chuck.toml", "--json"))

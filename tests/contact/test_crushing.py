@@ -405,7 +405,8 @@ def test_explicit_grains_break_one_by_one(fragments):
     sizes = tb.TruncatedGaussian(mean=14e-6, std=5e-6, n=2)
     strength = STRENGTH.replace(fragments=fragments, x_c=2e-6)
     gaps = np.geomspace(24e-6, 0.2e-6, 500)
-    loads = closing(rng, sizes.sample(rng, 5000 if fragments == "gone" else 1200), gaps, strength)
+    grains = sizes.sample(rng, {"gone": 5000, "footprint": 1200, "all": 600}[fragments])
+    loads = closing(rng, grains, gaps, strength)
     average, scale = average_of(strength, sizes)
     at = np.array([160, 260, 330, 400, 460, 499])
     expected = scale**2 * average.average(gaps[at] / scale, average.top - gaps[at] / scale)[:, 0]

@@ -163,11 +163,10 @@ def errors(got, want, sigma):
 
 
 @pytest.mark.parametrize("name", [*CASES, *SEVERAL])
-@pytest.mark.parametrize("seed", [1, 2])
-def test_states_hold_to_tables_of_each(name, seed):
+def test_states_hold_to_tables_of_each(name):
     several = name in SEVERAL
     case, more = SEVERAL[name] if several else CASES[name]
-    vary, loads = drawn(more, 6 if several else 20, seed, ROUGH if several else USUAL)
+    vary, loads = drawn(more, 6 if several else 20, 1, ROUGH if several else USUAL)
     got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
     known = got["doubt"] == ""
     assert known.mean() > (0.5 if several else 0.7)

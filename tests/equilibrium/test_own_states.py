@@ -315,20 +315,15 @@ def hold_breaking(kind, count, unlike, seed):
     assert np.all(got["error"][sure] <= 1e-10)
 
 
-@pytest.mark.spread(4)
-@pytest.mark.parametrize(
-    ("kind", "unlike"),
-    [("plain", True), ("gone", False), ("not confined", False), ("from zero", False)],
-)
-def test_particles_that_break_hold_to_the_slow_path(kind, unlike):
-    hold_breaking(kind, 2, unlike, 7)
+def test_particles_that_break_hold_to_the_slow_path():
+    hold_breaking("plain", 2, unlike=True, seed=7)
 
 
 @pytest.mark.check
 @pytest.mark.parametrize("unlike", [False, True])
 @pytest.mark.parametrize("kind", BREAKING)
 def test_many_random_states_that_break(kind, unlike):
-    hold_breaking(kind, 4, unlike, 9)
+    hold_breaking(kind, 2, unlike, 9)
 
 
 def test_particles_of_one_size_that_break_are_for_the_numpy_engine():
@@ -758,13 +753,14 @@ def test_many_random_states_of_loads_that_jump(law, body, unlike):
 
 
 @pytest.mark.check
-@pytest.mark.parametrize("unlike", [False, True])
 @pytest.mark.parametrize(
-    ("law", "seat", "body", "sizes"),
-    # a shadow that jumps at one size: the load may rise, which is for the NumPy engine
+    ("law", "seat", "body", "sizes", "unlike"),
     [
         case
-        for case in product(LAWS, SEATS, BODIES, SIZES)
+        # of the last four any three in all their combinations, which is every second case
+        for law, *ways in product(LAWS, *(enumerate(each) for each in (SEATS, BODIES, SIZES)))
+        for case in [(law, *(name for _, name in ways), sum(place for place, _ in ways) % 2 == 1)]
+        # a shadow that jumps at one size: the load may rise, which is for the NumPy engine
         if not (case[0] == "projected" and case[1] == "plane" and case[3] == "one size")
     ],
 )
