@@ -146,13 +146,13 @@ def solve_on_ground(
     found: tuple[NDArray[np.generic], ...],
 ) -> None:
     """Solve states of particles on one field of heights, into what is to be found."""
-    from .grounded import SPLINES, solve_grounded
+    from .grounded import EXACT, ROUGH, SPLINES, solve_grounded
 
     known = ground.displacements
     solve_grounded(
         *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
         *(ground.numbers[here], ground.seats[here], ground.sections[here]),
         *(known.series, known.alone, known.which[here], known.basis[here]),
-        *(SPLINES, rule),
+        *(SPLINES, rule, ROUGH if is_rough() else EXACT),
         *found,
     )
