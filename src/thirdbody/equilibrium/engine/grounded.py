@@ -72,16 +72,19 @@ BESIDE, NEAREST = 30, 22
 """Rows beside a cell that decide what the spline is there: others change it by 1e-11 of what they
 are themselves. And so many at least, 1e-8, where asperities leave their table below."""
 MOST_ROWS = 16_384
-NEGLIGIBLE, LONG, CLOSE, ABOVE = 1e-8, 128, 0.1, 48
-"""Part of the load from where on rows are solved; where that is more than so many rows up, part of
-it from which on, and rows above these."""
+LONG, CLOSE, ABOVE = 128, 0.1, 48
+"""Where the rows to be solved are more than so many, part of the load from which on, and rows above
+these."""
 LOOSE = 1e-5
 """Accuracy of u [σ] coming down."""
-EXACT, ROUGH = np.array([1e-13, 1e-9, 1e-9, BESIDE, NEAREST, 0, 1, SETTLED]), np.array([1e-8, 1e-8, 1e-6, 9, 6, 1, 0, 1e-7])
-"""With what care a state is solved, for itself or as one of many samples: accuracy of u [σ] of rows
-beside the root and of any that the spline needs, the largest error, rows beside a cell and the
-least of them, and whether states of one contact side by side share their rows."""
-OF_ROOT, OF_ROWS, WORST, MANY, LEAST, SHARES, LEVEL, CELL = range(8)
+OF_ROOT, OF_ROWS, WORST, MANY, LEAST, SHARES, LEVEL, OF_CELLS, NEGLIGIBLE = range(9)
+"""Of the care with which a state is solved: accuracy of u [σ] of rows beside the root and of any
+that the spline needs, the largest error, rows beside a cell and the least of them, whether states
+of one contact side by side share their rows, level of the rules that lay cells over the gap and
+what these may leave out, and the part of the load from where on rows are solved."""
+EXACT = np.array([1e-13, 1e-9, 1e-9, BESIDE, NEAREST, 0, 1, SETTLED, 1e-8])
+ROUGH = np.array([1e-8, 1e-8, 1e-6, 9, 6, 1, 0, 1e-7, 1e-4])
+"""Care for a state, and for one of many samples."""
 AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
 KEPT, ROUNDS, OLDER = 6, 40, 5
@@ -94,7 +97,7 @@ SAFE, FADES = 20.0, 0.43
 FEWER, PART = 3, 1.0
 """So many rows less on either side say how much the others leave out: this part of the difference,
 at most, where each row fades to 0.43 (0.43³ is 0.08)."""
-SETTLED_T = 4e-11
+OF_TABLES = 4e-11
 """What the ground of tables, which is iterated to 1e-12, may be off: some ten times that where
 particles press down each other's."""
 DONE, GUESSED, NONE = 2, 1, 0
@@ -483,7 +486,7 @@ def _begin(field, held, care, target, h, rows, work, out):
     count = int(own[ROWS])
     work[3][0] = 0.0
     if target > 0:
-        k, rounds = _first_row(field, held, NEGLIGIBLE * target, count - 1, rows, work, out)
+        k, rounds = _first_row(field, held, care[NEGLIGIBLE] * target, count - 1, rows, work, out)
         if k > LONG:  # all the way down from particles that carry little
             near, n = _first_row(field, held, CLOSE * target, k, rows, work, out)
             k, rounds = min(k, near + ABOVE), rounds + n
@@ -555,7 +558,7 @@ def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts
         return h, rounds, fate, math.inf
     if target > 0:
         h = own[LOWEST] + (k + t) * own[STEP]
-    error = own[LEFT] + SETTLED_T + _error_of(field, k, low, high, rows)
+    error = own[LEFT] + OF_TABLES + _error_of(field, k, low, high, rows)
     error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
     if slope < 0:
         error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
@@ -571,7 +574,7 @@ def _lay_section(given, sides, rules, care, scratch, cells, floor, section):
     if count <= 0:
         return 0.0, TOO_LONG
     laid, left = lay_gaps(
-        given, sides, panels, count, rules[int(care[LEVEL])], rules[0, POLYNOMIAL:], care[CELL],
+        given, sides, panels, count, rules[int(care[LEVEL])], rules[0, POLYNOMIAL:], care[OF_CELLS],
         cells, floor, edges, values[0], values[1], out,
     )  # fmt: skip
     section[CELLS] = laid
@@ -581,7 +584,9 @@ def _lay_section(given, sides, rules, care, scratch, cells, floor, section):
 
 
 @scalar
-def _lay_sections(i, parts, bodies, rules, care, scratch, cells, floor, sections, left, fates, sides):
+def _lay_sections(
+    i, parts, bodies, rules, care, scratch, cells, floor, sections, left, fates, sides
+):
     """Lay the cells of every section of state i anew that differs from that of the state before.
 
     What they leave out, at most, what became of them, and whether none differs.
@@ -609,7 +614,7 @@ def _lay_sections(i, parts, bodies, rules, care, scratch, cells, floor, sections
 
 
 @scalar
-def _is_ground_alike(i, skins, tables, grounds, seats, alone, which, basis):
+def _is_ground_alike(i, skins, tables, grounds, seats, which, basis):
     """Whether all but the particles of state i is that of the state before."""
     keep_apart()
     if not is_alike(grounds[i], grounds[i - 1]) or not is_alike(skins[i, 0], skins[i - 1, 0]):
@@ -620,8 +625,6 @@ def _is_ground_alike(i, skins, tables, grounds, seats, alone, which, basis):
     for s in range(seats.shape[1]):
         if not is_alike(seats[i, s], seats[i - 1, s]):
             return False
-    if which[i] < 0 and which[i - 1] < 0:
-        return is_alike(alone[-1 - which[i]], alone[-1 - which[i - 1]])
     return which[i] == which[i - 1] and is_alike(basis[i], basis[i - 1])
 
 
@@ -671,7 +674,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
         own = grounds[i]
         own[LEFT] += worst
         if not (same and care[SHARES] == 1 and fate[i - 1] == OK and _is_ground_alike(
-            i, skins, tables, grounds, seats, alone, which, basis
+            i, skins, tables, grounds, seats, which, basis
         )):  # fmt: skip
             lines[5][:] = NONE
             lay_surface(skins[i], tables[i], surface)

@@ -110,13 +110,13 @@ def solve(
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
     if numbers.ground is not None:
         fate[~numbers.ground.displacements.known] = f.NO_SERIES
-    rule = rules(bool(numbers.inside[0, 0] > 0))
+    rule, samples = rules(bool(numbers.inside[0, 0] > 0)), is_rough()  # threads do not see that
 
     def solve_from(start: int) -> None:
         here = slice(start, start + AT_ONCE)
         found = goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]
         if numbers.ground is not None:
-            solve_on_ground(numbers, numbers.ground, here, rule, found)
+            solve_on_ground(numbers, numbers.ground, here, rule, samples, found)
             return
         from .balance import solve_own
 
@@ -143,6 +143,7 @@ def solve_on_ground(
     ground: Grounds,
     here: slice,
     rule: Array,
+    samples: bool,
     found: tuple[NDArray[np.generic], ...],
 ) -> None:
     """Solve states of particles on one field of heights, into what is to be found."""
@@ -153,6 +154,6 @@ def solve_on_ground(
         *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
         *(ground.numbers[here], ground.seats[here], ground.sections[here]),
         *(known.series, known.alone, known.which[here], known.basis[here]),
-        *(SPLINES, rule, ROUGH if is_rough() else EXACT),
+        *(SPLINES, rule, ROUGH if samples else EXACT),
         *found,
     )
