@@ -106,14 +106,16 @@ def of_particles() -> Iterator[tuple[str, tb.Contact, tuple[str, ...]]]:
     )
     printed = (*ROUGHNESS[:2], DENSITY, *SIZES[:2], BODY[0], *SURFACE)
     yield "Horng2022", contact(law=tb.particle.Horng2022()), printed
-    grit = tb.Angular(roundness=0.25, angle=math.radians(35))
+    grit = tb.grains.Angular(roundness=0.25, angle=math.radians(35))
     angle, roundness = "particles.shape.angle", "particles.shape.roundness"
     for seat, inputs in (
         ("rough", (*SOME, BODY[1], SURFACE[0], angle, roundness)),
         ("plane", (*SOME, angle)),
     ):
         yield f"angular {seat}", contact(hard.replace(shape=grit), seat=seat), inputs
-    strength = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+    strength = tb.grains.WeibullStrength(
+        sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9
+    )
     names = tuple(f"particles.strength.{each}" for each in ("sigma_0", "m", "size_exponent"))
     for seat, inputs in (
         ("rough", (ROUGHNESS[0], DENSITY, *SIZES[:2], BODY[0], SURFACE[0], *names)),
@@ -128,11 +130,11 @@ def of_particles() -> Iterator[tuple[str, tb.Contact, tuple[str, ...]]]:
     ):
         yield f"LogNormal {seat}", contact(wide, seat=seat), inputs
     edges, counts = (4e-6, 6e-6, 14e-6, 70e-6), (1350.0, 396.0, 56.6)  # of an oil 18/16/13
-    dirt = tb.PowerLaw(edges=edges, counts=counts, slopes=(3.41, 2.45, 3.34))
+    dirt = tb.distributions.PowerLaw(edges=edges, counts=counts, slopes=(3.41, 2.45, 3.34))
     for kind, particles in (("hard", hard), ("squashed", soft)):
         oil = contact(particles.replace(diameter=dirt, areal_density=1e6))
         yield f"dirt of an oil, {kind}", oil, (ROUGHNESS[0], DENSITY, BODY[0], *SURFACE, FRICTION)
-    one = hard.replace(diameter=tb.Monodisperse(mean=300e-9))
+    one = hard.replace(diameter=tb.distributions.Monodisperse(mean=300e-9))
     inputs = (ROUGHNESS[0], SIZES[0], BODY[0])
     field = contact().replace(asperity_law=tb.asperity.Field())
     yield "field, Series rough", field, (*ROUGHNESS, DENSITY, SIZES[0], BODY[0], SURFACE[0])
@@ -167,7 +169,7 @@ def of_asperities() -> Iterator[tuple[str, tb.Contact, tuple[str, ...]]]:
         yield f"heights {name}", bare.replace(roughness=rough), three[:2]
     field = bare.replace(asperity_law=law.Field())
     yield "asperity field", field, (*ROUGHNESS, *SURFACE)
-    shapes = tb.Ellipticity(ratios=(1.0, 3.0))
+    shapes = tb.surfaces.Ellipticity(ratios=(1.0, 3.0))
     rough = bare.roughness.replace(ellipticity=shapes)
     elliptic = bare.replace(roughness=rough, asperity_law=law.EllipticCEB())
     yield "elliptic population", elliptic, (ROUGHNESS[0],)

@@ -46,7 +46,7 @@ class Row(NamedTuple):
 
 def heights(points: int) -> Array:
     """The map, of RMS slope `SLOPE`."""
-    surface = tb.synthetic.self_affine(
+    surface = tb.surfaces.self_affine(
         sigma=1e-7,
         hurst=0.8,
         shortest=8 * SPACING,

@@ -20,16 +20,16 @@ BREAKING, TABLES = 50_000, 2.0
 STEEL = tb.Material(E=206e9, nu=0.29, H=7.37e9)  # 60 HRC
 KINDS: dict[str, dict[str, Any]] = {
     "spheres": {},
-    "angular": {"shape": tb.Angular(roundness=0.25, angle="35 deg")},
+    "angular": {"shape": tb.grains.Angular(roundness=0.25, angle="35 deg")},
     "squashed": {"material": tb.Material(E=193e9, nu=0.29, H=1.36e9)},
-    "breaking": {"strength": tb.WeibullStrength.of(tb.materials["quartz"])},
+    "breaking": {"strength": tb.grains.WeibullStrength.of(tb.materials["quartz"])},
 }
 
 
 def contact(kind: str) -> tb.Contact:
     """Grains of 5 to 40 µm between hardened steels."""
     dust: dict[str, Any] = {"material": tb.materials["quartz"], "areal_density": 1e7}
-    dust["diameter"] = tb.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3,))
+    dust["diameter"] = tb.distributions.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3,))
     return tb.Contact(
         surfaces=tb.MaterialPair(STEEL, STEEL),
         roughness=tb.Roughness(sigma=50e-9, R=20e-6),

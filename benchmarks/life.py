@@ -23,19 +23,19 @@ RTOL = 1e-6
 """Of the steps of Radau."""
 
 
-def oil(rate: float) -> tb.OilCircuit:
+def oil(rate: float) -> tb.oil.OilCircuit:
     """200 L with one filter, dust that comes in from 4 µm on."""
-    return tb.OilCircuit(
+    return tb.oil.OilCircuit(
         volume=0.2,
-        start=tb.OilDirt.from_iso4406("18/16/13", material=QUARTZ, largest=60e-6),
-        ingress=tb.Ingress.from_counts(
+        start=tb.oil.OilDirt.from_iso4406("18/16/13", material=QUARTZ, largest=60e-6),
+        ingress=tb.oil.Ingress.from_counts(
             sizes=[4e-6, 6e-6, 14e-6],
             counts=[rate, 0.3 * rate, 0.01 * rate],
             material=QUARTZ,
             largest=60e-6,
         ),
-        filters=tb.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3),
-        classes=tb.SizeClasses.covering(smallest=0.25e-6, largest=64e-6),
+        filters=tb.oil.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3),
+        classes=tb.oil.SizeClasses.covering(smallest=0.25e-6, largest=64e-6),
     )
 
 
@@ -60,14 +60,14 @@ def run(rate: float) -> None:
         contacts=20.0,
         entry_ratio=0.01,
         worn_area=(1e-3, 1e-3),
-        debris=tb.Debris.boundary_lubricated(hardness=9e9),
-        running_in=tb.RunningIn(sigma_end=60e-9),
+        debris=tb.oil.Debris.boundary_lubricated(hardness=9e9),
+        running_in=tb.oil.RunningIn(sigma_end=60e-9),
         duration=3.6e6,
     )
     print(found.codes[-1], f"σ = {found.more['sigma'][1][-1] * 1e9:.2f} nm,", found.reproduction)
 
 
-def drawn(index: int) -> tuple[tb.OilCircuit, float]:
+def drawn(index: int) -> tuple[tb.oil.OilCircuit, float]:
     """A circuit without events, drawn at random over real ranges, and a duration [s]."""
     rng = np.random.default_rng(index)
 
@@ -78,13 +78,13 @@ def drawn(index: int) -> tuple[tb.OilCircuit, float]:
     beta, rate = log(1.5, 100), log(1e3, 1e9)
     number = int(rng.integers(10, 22))
     moving = 0.5 * volume / duration
-    circuit = tb.OilCircuit(
+    circuit = tb.oil.OilCircuit(
         volume=volume,
-        start=tb.OilDirt.from_iso4406(f"{number}/{number - 2}/{number - 5}", material=QUARTZ),
-        ingress=tb.Ingress.from_counts(
+        start=tb.oil.OilDirt.from_iso4406(f"{number}/{number - 2}/{number - 5}", material=QUARTZ),
+        ingress=tb.oil.Ingress.from_counts(
             sizes=[4e-6, 6e-6, 14e-6], counts=[rate, 0.3 * rate, 0.01 * rate], material=QUARTZ
         ),
-        filters=tb.Filter(
+        filters=tb.oil.Filter(
             sizes=(first, first * log(1.2, 4)),
             betas=(beta, beta * log(1, 200)),
             flow=log(1e-6, 1e-2),

@@ -13,6 +13,7 @@ import thirdbody  # noqa: E402
 # the API pages call things by the names that users write
 for _name in thirdbody._MODULES:
     sys.modules.setdefault(f"thirdbody.{_name}", getattr(thirdbody, _name))
+sys.modules.setdefault("thirdbody.oil.until", thirdbody.oil.until)
 
 project = "thirdbody"
 author = "The thirdbody developers"

@@ -49,7 +49,7 @@ def states(diameter, concentration):
         "particles.diameter.std": 0.1 * diameter,
         "particles.areal_density": np.array(density),
     }
-    every = [tb.solve_states(study.contact, pressure=p, vary=vary) for p in pressure]
+    every = [tb.equilibria.solve_states(study.contact, pressure=p, vary=vary) for p in pressure]
     plastic = [state["A_p"] / state["A_t"] for state in every]
     return np.mean([state["mu"] for state in every], axis=0), np.max(plastic, axis=0)
 

@@ -35,7 +35,7 @@ ball = tb.films.Point(R=9.5e-3)
 oil = tb.films.Oil(eta=0.02, alpha=2e-8, eyring_stress=5e6)
 speeds = np.geomspace(5e-3, 20, 160)
 clean_curve, dirty_curve = (
-    tb.stribeck(contact, conjunction=ball, oil=oil, load=20.0, speed=speeds, slide_roll=0.05)
+    tb.films.stribeck(contact, conjunction=ball, oil=oil, load=20.0, speed=speeds, slide_roll=0.05)
     for contact in (clean, dirty)
 )
 

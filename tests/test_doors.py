@@ -40,9 +40,15 @@ def test_what_is_no_contact_is_refused(name, function, given):
 
 
 def test_the_main_functions_are_looked_at():
-    assert {"solve", "solve_states", "sweep", "table", "transitions", "assess", "design"} <= {
-        name for name, _ in OF_CONTACT
-    }
+    assert {
+        "solve",
+        "equilibria.solve_states",
+        "sweep",
+        "table",
+        "transitions",
+        "assess",
+        "design",
+    } <= {name for name, _ in OF_CONTACT}
 
 
 # ---------------------------------------------------------------------------- sizes

@@ -3,11 +3,8 @@
 import ast
 from collections import Counter
 from pathlib import Path
-from types import ModuleType
 
 import pytest
-
-import thirdbody
 
 pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
@@ -74,26 +71,6 @@ def test_no_room_is_reached_through_a_string():
     # packages of others, by the name that their extra has
     assert hidden.pop("analysis/sweep/streaming.py")
     assert hidden == {}
-
-
-def test_every_name_of_the_library_holds_something():
-    """A module that is named at the top says what it holds."""
-    for name in thirdbody.__all__:
-        found = getattr(thirdbody, name)
-        if isinstance(found, ModuleType):
-            held = getattr(found, "__all__", None) or [n for n in vars(found) if n[0] != "_"]
-            assert held, name
-            assert all(hasattr(found, each) for each in held), name
-
-
-def test_every_name_that_was_at_the_top_stands_in_a_named_module():
-    """`dir` lists what users write most; a name that it leaves out goes on working."""
-    modules = [n for n in thirdbody.__all__ if isinstance(getattr(thirdbody, n), ModuleType)]
-    inside = {each for n in modules for each in getattr(thirdbody, n).__all__}
-    unlisted = set(thirdbody._HOMES) - set(thirdbody.__all__)
-    assert unlisted
-    assert unlisted <= inside
-    assert {n for n in dir(thirdbody) if not n.startswith("_")} == set(thirdbody.__all__)
 
 
 BARE = {

@@ -35,7 +35,7 @@ EXCEPTIONS = {
     r"films\.\w+\.warnings": HOOK,
     r"explicit\.\w+\.draw": HOOK,
     r"explicit\.solve": PRESSED,
-    r"Objective\.cost": HOOK,
+    r"objectives\.Objective\.cost": HOOK,
     r"particle\.AbstractParticleLaw\.single": GAP,
 }
 """Where two numbers may stand without their names, and why."""

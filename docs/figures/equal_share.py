@@ -26,7 +26,7 @@ def ratio(number, pressure, sigma=100e-9, R=3.5e-6):
             diameter=tb.TruncatedGaussian(mean=0.3 * sigma, std=0.03 * sigma),
         ),
     )
-    return tb.equal_share_size(contact, pressure=pressure)
+    return tb.equilibria.equal_share_size(contact, pressure=pressure)
 
 
 if __name__ == "__main__":

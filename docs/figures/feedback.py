@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from scipy.interpolate import PchipInterpolator
 
 import thirdbody as tb
-from thirdbody import feedback
+from thirdbody.systems import feedback
 
 COLD, MELT, EXPONENT = 293.0, 1793.0, 1.03
 STEEL = tb.materials["S45C"]
@@ -40,7 +40,7 @@ def answer(contact: tb.Contact, *, exponent: float = EXPONENT, alpha: float | No
         laws.append(feedback.JunctionGrowth(alpha=alpha))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tb.errors.RangeWarning)
-        return tb.coupled(
+        return tb.equilibria.coupled(
             contact, pressure=5e6, sliding_speed=1.0, feedback=laws, cooling=PATH, limits="speed"
         )
 

@@ -26,14 +26,14 @@ DASHES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)))
 
 def load(x, gaps, fragments):
     """Load [N] of one grain of size x, the mean of many."""
-    strength = fragments and tb.WeibullStrength.of(QUARTZ, fragments=fragments)
+    strength = fragments and tb.grains.WeibullStrength.of(QUARTZ, fragments=fragments)
     density = 1e-3 / x**2
     contact = tb.Contact(
         surfaces=tb.MaterialPair(BEARING, BEARING),
         roughness=tb.Roughness(sigma=50e-9, R=20e-6),
         particles=tb.Particles(
             material=QUARTZ,
-            diameter=tb.Monodisperse(mean=x),
+            diameter=tb.distributions.Monodisperse(mean=x),
             areal_density=density,
             strength=strength,
         ),
@@ -69,7 +69,7 @@ def draw_shapes():
     sphere = law.single(1.0, 1 - eps, surfaces=pair, particle=QUARTZ)["force"]
     left.plot(eps, sphere / (np.pi / 4 * BEARING.H), "k:", lw=1.2, label="sphere")
     for i, (roundness, degrees) in enumerate([(0.5, 45), (0.25, 35), (0.25, 25), (0.15, 18)]):
-        shape = tb.Angular(roundness=roundness, angle=f"{degrees} deg")
+        shape = tb.grains.Angular(roundness=roundness, angle=f"{degrees} deg")
         found = law.of_shape(shape).single(1.0, 1 - eps, surfaces=pair, particle=QUARTZ)["force"]
         label = f"$R_w$ = {roundness:g}, {degrees}°"
         left.plot(eps, found / (np.pi / 4 * BEARING.H), f"C{i}", ls=DASHES[i], label=label)
@@ -98,7 +98,7 @@ def draw_map():
     for i, name in enumerate(NAMES):
         grain = tb.materials[name]
         hardness = np.geomspace(0.5e9, min(grain.H, 12e9), 121)
-        breakage = Breakage.of_material(tb.WeibullStrength.of(grain), grain, 1.0)
+        breakage = Breakage.of_material(tb.grains.WeibullStrength.of(grain), grain, 1.0)
         sizes = []
         for H in hardness:
             body = BEARING.replace(H=float(H))

@@ -41,7 +41,7 @@ def grooves(dirty: tb.Contact, *, pressure: float) -> np.ndarray:
     free = np.pi / 4 * size * DENSITY < 0.9
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tb.RangeWarning)
-        found = tb.solve_states(
+        found = tb.equilibria.solve_states(
             dirty, pressure=pressure, vary={"particles.areal_density": DENSITY[free]}
         )
     out = np.full(DENSITY.shape, np.nan)

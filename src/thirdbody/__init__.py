@@ -2,45 +2,84 @@
 
 Populations say what lies in the interface, laws say what one contact does, a `Contact`
 integrates laws over populations, and `solve` finds the separation that balances the load.
+
+Describe
+    `Contact`, `MaterialPair`, `Material`, `materials`, `Roughness`, `Particles`,
+    `TruncatedGaussian`, `LogNormal`; `load_study` reads a study file
+Solve
+    `solve`, `sweep`, `transitions`, `compare`, `table`
+How sure
+    `assess`, `sensitivity`, `propagate`, `Uncertain`
+Decide
+    `design`, `life`; `cite` names the works behind an answer
+
+Modules hold the rest:
+
+surfaces, heights
+    measured, drawn and made surfaces; heights of asperities
+distributions, sizes, dust, grains
+    sizes of particles, measured sizes, cleanliness codes, grains that break
+asperity, particle, outputs
+    laws of one contact, and what a solved contact does
+equilibria, objectives, results, errors
+    more states, what a design is asked, answers and errors by their names
+films, oil, systems
+    lubricated contacts, the life of an oil, bodies and bearings
+explicit, plot, reference
+    every particle at its place, figures, exact solutions
 """
 
 from typing import TYPE_CHECKING, Any
 
 from .version import __version__ as __version__
 
-# names "as" themselves: reached at the top too, and listed in a module of their own
 # isort: off
 if TYPE_CHECKING:
     from . import (
         effects as outputs,
-        errors as errors,
-        explicit as explicit,
+        equilibria,
+        errors,
+        explicit,
+        films,
+        grains,
+        objectives,
+        oil,
         reference,
-        results as results,
-        systems as systems,
+        results,
+        surfaces,
+        systems,
     )
     from .analysis.assess import assess
-    from .analysis.assessment import Assessment as Assessment
     from .analysis.compare import compare
     from .analysis.design.design import design
-    from .analysis.design.equal_share import equal_share_size
-    from .analysis.design.problem import Limit, Objective, Suspension
-    from .analysis.sensitivity import Sensitivity as Sensitivity, sensitivity
+    from .analysis.sensitivity import sensitivity
     from .analysis.sweep.sweep import sweep
     from .analysis.uncertainty.inputs import Uncertain
-    from .analysis.uncertainty.propagation import Propagation as Propagation, propagate
+    from .analysis.uncertainty.propagation import propagate
     from .contact.citations import cite
     from .contact.contact import Contact
-    from .equilibrium.columns import Equilibrium as Equilibrium
-    from .equilibrium.critical_loads import critical_loads
-    from .equilibrium.solve import pull_off, roots, solve
-    from .equilibrium.states import solve_states
+    from .equilibrium.solve import solve
     from .equilibrium.table.make import table
-    from .equilibrium.transitions import (
-        Critical as Critical,
-        Transitions as Transitions,
-        TurningPoint as TurningPoint,
-        transitions,
+    from .equilibrium.transitions import transitions
+    from .laws import asperity, particle
+    from .populations import distributions, heights
+    from .populations.distributions import LogNormal, TruncatedGaussian
+    from .populations.materials import Material, MaterialPair, materials
+    from .populations.measured import cleanliness as dust, sizes
+    from .populations.particles import Particles
+    from .populations.roughness import Roughness
+    from .study.whole import load_study
+    from .systems.life.run import life
+    from .views import plot
+
+    # names "as" themselves: they stand in a module that is listed, and work at the top too
+    from .equilibria import (
+        coupled as coupled,
+        critical_loads as critical_loads,
+        equal_share_size as equal_share_size,
+        pull_off as pull_off,
+        roots as roots,
+        solve_states as solve_states,
     )
     from .errors import (
         InvalidValue as InvalidValue,
@@ -50,21 +89,30 @@ if TYPE_CHECKING:
         SlowWarning as SlowWarning,
         ThirdBodyError as ThirdBodyError,
     )
-    from .laws import asperity, particle
-    from .populations import distributions as distributions, heights as heights
+    from .films import mixed_film as mixed_film, stribeck as stribeck
+    from .grains import Angular as Angular, Sphere as Sphere, WeibullStrength as WeibullStrength
+    from .objectives import Limit as Limit, Objective as Objective, Suspension as Suspension
+    from .oil import (
+        Debris as Debris,
+        Filter as Filter,
+        Ingress as Ingress,
+        OilCircuit as OilCircuit,
+        OilDirt as OilDirt,
+        RunningIn as RunningIn,
+        SizeClasses as SizeClasses,
+        entry_ratio_from_dents as entry_ratio_from_dents,
+        oil_reports as oil_reports,
+        until as until,
+    )
     from .populations.distributions import (
         Distribution as Distribution,
-        Histogram,
-        LogNormal,
-        Mixture,
-        Monodisperse,
-        PowerLaw,
-        TruncatedGaussian,
-        Uniform,
-        Weibull,
+        Histogram as Histogram,
+        Mixture as Mixture,
+        Monodisperse as Monodisperse,
+        PowerLaw as PowerLaw,
+        Uniform as Uniform,
+        Weibull as Weibull,
     )
-    from .populations.ellipticity import Ellipticity
-    from .populations.finish import Finish
     from .populations.heights import (
         ExponentialHeights as ExponentialHeights,
         GaussianHeights as GaussianHeights,
@@ -73,112 +121,73 @@ if TYPE_CHECKING:
         JohnsonHeights as JohnsonHeights,
         WeibullHeights as WeibullHeights,
     )
-    from .populations.materials import Material, MaterialPair, materials
-    from .populations.measured import cleanliness as dust, sizes, synthetic, topography as surfaces
-    from .populations.measured.spectra import SpectralMoments as SpectralMoments
-    from .populations.measured.topography import Topography as Topography
-    from .populations.particles import Particles
-    from .populations.roughness import Roughness
-    from .populations.shape import Angular, Sphere
-    from .populations.strength import WeibullStrength
-    from .study.whole import load_study
+    from .populations.measured import synthetic as synthetic
+    from .results import (
+        Assessment as Assessment,
+        Critical as Critical,
+        Equilibrium as Equilibrium,
+        LifeHistory as LifeHistory,
+        Propagation as Propagation,
+        Sensitivity as Sensitivity,
+        Transitions as Transitions,
+        TurningPoint as TurningPoint,
+    )
+    from .surfaces import (
+        Ellipticity as Ellipticity,
+        Finish as Finish,
+        SpectralMoments as SpectralMoments,
+        Topography as Topography,
+    )
     from .systems import (
-        film_formulas as films,
-        feedback,
+        feedback as feedback,
         fractal as fractal,
         interaction as interaction,
         rough_body as rough_body,
         waviness as waviness,
     )
-    from .systems.coupled import coupled
-    from .systems.life import until as until
-    from .systems.life.circuit import OilCircuit
-    from .systems.life.debris import Debris
-    from .systems.life.entry import entry_ratio_from_dents
-    from .systems.life.history import LifeHistory as LifeHistory
-    from .systems.life.ingress import Ingress
-    from .systems.life.oil_dirt import OilDirt
-    from .systems.life.reports import oil_reports
-    from .systems.life.run import life
-    from .systems.life.size_classes import SizeClasses
-    from .systems.life.surfaces import RunningIn
-    from .systems.mixed_film import mixed_film
-    from .systems.oil_filter import Filter
-    from .systems.stribeck import stribeck
-    from .views import plot
 # isort: on
 
 __all__ = [
-    "Angular",
     "Contact",
-    "Debris",
-    "Ellipticity",
-    "Filter",
-    "Finish",
-    "Histogram",
-    "Ingress",
-    "Limit",
     "LogNormal",
     "Material",
     "MaterialPair",
-    "Mixture",
-    "Monodisperse",
-    "Objective",
-    "OilCircuit",
-    "OilDirt",
     "Particles",
-    "PowerLaw",
     "Roughness",
-    "RunningIn",
-    "SizeClasses",
-    "Sphere",
-    "Suspension",
     "TruncatedGaussian",
     "Uncertain",
-    "Uniform",
-    "Weibull",
-    "WeibullStrength",
     "asperity",
     "assess",
     "cite",
     "compare",
-    "coupled",
-    "critical_loads",
     "design",
     "distributions",
     "dust",
-    "entry_ratio_from_dents",
-    "equal_share_size",
+    "equilibria",
     "errors",
     "explicit",
-    "feedback",
     "films",
+    "grains",
     "heights",
     "life",
     "load_study",
     "materials",
-    "mixed_film",
-    "oil_reports",
+    "objectives",
+    "oil",
     "outputs",
     "particle",
     "plot",
     "propagate",
-    "pull_off",
     "reference",
     "results",
-    "roots",
     "sensitivity",
     "sizes",
     "solve",
-    "solve_states",
-    "stribeck",
     "surfaces",
     "sweep",
-    "synthetic",
     "systems",
     "table",
     "transitions",
-    "until",
 ]
 
 # imported when first used, to keep the start quick
@@ -186,13 +195,17 @@ _MODULES = {
     "asperity": "laws.asperity",
     "distributions": "populations.distributions",
     "dust": "populations.measured.cleanliness",
+    "equilibria": "equilibria",
     "errors": "errors",
     "explicit": "explicit",
     "feedback": "systems.feedback",
-    "films": "systems.film_formulas",
+    "films": "films",
     "fractal": "systems.fractal",
+    "grains": "grains",
     "heights": "populations.heights",
     "interaction": "systems.interaction",
+    "objectives": "objectives",
+    "oil": "oil",
     "outputs": "effects",
     "particle": "laws.particle",
     "plot": "views.plot",
@@ -200,7 +213,7 @@ _MODULES = {
     "results": "results",
     "rough_body": "systems.rough_body",
     "sizes": "populations.measured.sizes",
-    "surfaces": "populations.measured.topography",
+    "surfaces": "surfaces",
     "synthetic": "populations.measured.synthetic",
     "systems": "systems",
     "until": "systems.life.until",
@@ -284,22 +297,22 @@ _HOMES = {
     "table": "equilibrium.table.make",
     "transitions": "equilibrium.transitions",
 }
-"""The module of every other name; those that `__all__` leaves out stand in a named module too."""
+"""The module of every other name; one that `__all__` leaves out stands in a listed module too."""
 
 
 def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     if name in _MODULES:
-        found = import_module(f".{_MODULES[name]}", __name__)
+        value = import_module(f".{_MODULES[name]}", __name__)
     elif name in _HOMES:
-        found = getattr(import_module(f".{_HOMES[name]}", __name__), name)
+        value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
     else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    globals()[name] = found
-    return found
+    globals()[name] = value
+    return value
 
 
 def __dir__() -> list[str]:
-    own = (name for name in globals() if name.startswith("__"))
-    return sorted({*own, *__all__})
+    special_names = (name for name in globals() if name.startswith("__"))
+    return sorted({*special_names, *__all__})

@@ -48,8 +48,8 @@ def separation(contact: Any, pressure: float) -> float:
     """The separation d [m] that carries a pressure [Pa], where the load falls with d."""
 
     def excess(d: float) -> float:
-        found = state(contact, d)
-        return float(np.log((found["F_ss"] + found["F_sa"]) / pressure))
+        loads = state(contact, d)
+        return float(np.log((loads["F_ss"] + loads["F_sa"]) / pressure))
 
     low = high = 0.0
     for _ in range(MOST_STEPS):
@@ -73,8 +73,8 @@ def state(contact: Any, d: float) -> dict[str, float]:
     areas = (1 - shadow) * np.array(bare_areas) + (A_e, A_ep, A_p)
     A_t, A_sa = areas.sum(), A_e + A_ep + A_p
     split = dict(zip(("A_e", "A_ep", "A_p"), areas, strict=True))
-    own = {"A_t": A_t, "A_ss": A_t - A_sa, "A_sa": A_sa, "A_sa2": A_sa2, "shadow": shadow}
-    return {"F_ss": (1 - shadow) * F, "F_sa": F_sa, **own, **split}
+    totals = {"A_t": A_t, "A_ss": A_t - A_sa, "A_sa": A_sa, "A_sa2": A_sa2, "shadow": shadow}
+    return {"F_ss": (1 - shadow) * F, "F_sa": F_sa, **totals, **split}
 
 
 # ---------------------------------------------------------------- asperities
@@ -111,7 +111,7 @@ class Tip:
     def __call__(self, omega: Numbers) -> Array:
         y = np.asarray(omega) / self.omega_1
         branch = np.searchsorted(self.law.breakpoints, y, side="right")
-        regime = np.array([each.regime for each in self.law.branches])[branch]
+        regime = np.array([piece.regime for piece in self.law.branches])[branch]
         area = self.unit * self.law.reduced("area", y)
         areas = [np.where(regime == name, area, 0.0) for name in REGIMES]
         return np.stack([self.unit * self.H * self.law.reduced("force", y), *areas])
@@ -145,12 +145,12 @@ def particles(contact: Any, some: Particles, d: float) -> Array:
     cascade = None if some.strength is None else Cascade(some, one, two)
     for share, sizes in some.diameter.components:
         if cascade:
-            found = cascade.sum_over_sizes(sizes, gap, width)
+            sums = cascade.sum_over_sizes(sizes, gap, width)
         elif width:
-            found = over_sizes(sizes, on_seats, eps.tolist()) + over_sizes(sizes, embedded_rows)
+            sums = over_sizes(sizes, on_seats, eps.tolist()) + over_sizes(sizes, embedded_rows)
         else:
-            found = over_sizes(sizes, on_plane, splits=gap / (1 - eps[eps != 1]))
-        total += share * some.areal_density * found
+            sums = over_sizes(sizes, on_plane, splits=gap / (1 - eps[eps != 1]))
+        total += share * some.areal_density * sums
     footprint, projected = total[5:]
     covered = one.full / (np.pi / 4) * some.coverage
     shadows = dict(footprint=footprint, projected=projected, covered=covered, none=0.0)
@@ -223,7 +223,7 @@ class Faced(Side):
 
 def half_of(law: Any, E_star: float, surface: Material, particle: Material, shape: Shape) -> Side:
     """Contact on one surface: squashed if the particle is round and the softer body."""
-    softer = min(surface, particle, key=lambda each: each.H)
+    softer = min(surface, particle, key=lambda material: material.H)
     body = E_star, softer.H, softer.nu
     if isinstance(shape, Angular):
         if shape.faced:
@@ -353,13 +353,17 @@ class Deep(Side):
     ):
         super().__init__(law, 0.5, E_star, H, nu)
         self.tables = [series_of(name, ratio, m, E_star / H) for name in ("own", "area")]
-        self.hill, self.end, self.own = m / (3 * np.sqrt(3)), 0.475, own_part(ratio, m)
-        most, v_0 = H * max(1.0, 1 / ratio), np.log(1 - 0.95 * self.own)
+        self.hill, self.end, self.particle_share = m / (3 * np.sqrt(3)), 0.475, own_part(ratio, m)
+        most, v_0 = H * max(1.0, 1 / ratio), np.log(1 - 0.95 * self.particle_share)
         if self.disc(v_0)[0] < most:
             lean = -30.0
-            if self.own and self.disc(lean)[0] > most:
+            if self.particle_share and self.disc(lean)[0] > most:
                 lean = brentq(lambda v: self.disc(v)[0] - most, -30, v_0, xtol=1e-15)
-            self.end = 0.5 * min(-np.expm1(lean) / self.own, 0.999) if self.own else 0.4995
+            self.end = (
+                0.5 * min(-np.expm1(lean) / self.particle_share, 0.999)
+                if self.particle_share
+                else 0.4995
+            )
         elif ratio < 1:  # the softest were squeezed between rigid surfaces
             over = lambda u: np.divide(*self.table(np.array(u))) - most  # noqa: E731
             self.end = brentq(over, 0.375, 0.475, xtol=1e-16) if over(0.375) < 0 else 0.375
@@ -371,8 +375,8 @@ class Deep(Side):
             off = lambda u: self.area(u) - np.pi / 4  # noqa: E731
             points.append(brentq(off, wide[i - 1], wide[i], xtol=1e-16))
         points += [u for u in self.omega_1 * np.array(self.law.breakpoints) if u < self.cap]
-        if self.own:
-            points += [(0.5 - np.exp(v_0) / 2 / 4**i) / self.own for i in range(1, 25)]
+        if self.particle_share:
+            points += [(0.5 - np.exp(v_0) / 2 / 4**i) / self.particle_share for i in range(1, 25)]
         self.kinks = np.unique([u for u in points if u <= self.end])
 
     def table(self, delta: Array) -> tuple[Array, Array]:
@@ -384,7 +388,7 @@ class Deep(Side):
     def disc(self, log_t: Numbers) -> tuple[Array, Array]:
         """Mean pressure and area beyond the curves, of a half as high as t radii."""
         load, area = self.table(np.array(0.475))
-        t, thick = np.exp(log_t), 1 - 0.95 * self.own
+        t, thick = np.exp(log_t), 1 - 0.95 * self.particle_share
         rise = lambda area, t: 1 + self.hill * np.sqrt(area / (np.pi / 4)) / t  # noqa: E731
         return load / area * rise(area * thick / t, t) / rise(area, thick), area * thick / t
 
@@ -398,7 +402,7 @@ class Deep(Side):
         w = v**2 * (3 - 2 * v)
         bare = np.maximum(tip[1:].sum(axis=0), 1e-300)
         blended = np.maximum(tip[0], 1e-300) ** (1 - w) * load**w, bare ** (1 - w) * area**w
-        p, wide = self.disc(np.log1p(-2 * self.own * u))
+        p, wide = self.disc(np.log1p(-2 * self.particle_share * u))
         load = np.where(w == 0, tip[0], np.where(u > 0.475, p * wide, blended[0]))
         area = np.where(w == 0, tip[1:].sum(axis=0), np.where(u > 0.475, wide, blended[1]))
         areas = np.where(tip[1:] > 0, area, 0.0)
@@ -414,13 +418,15 @@ def own_part(ratio: float, m: float) -> float:
     rigid = [run for run in runs_of_the_table() if run["soft"] == 0]
     factors, rows = sorted({run["m"] for run in rigid}), []
     for f in factors:
-        x, found = zip(*sorted((r["x"], r["sink"]) for r in rigid if r["m"] == f), strict=True)
-        rows.append(np.array([np.interp(np.log(ratio), x, at) for at in zip(*found, strict=True)]))
+        x, sink_rows = zip(*sorted((r["x"], r["sink"]) for r in rigid if r["m"] == f), strict=True)
+        rows.append(
+            np.array([np.interp(np.log(ratio), x, at) for at in zip(*sink_rows, strict=True)])
+        )
     sinks = interpolate_rows(m, factors, rows)
     for i in range(1, 19):
         sinks[i] = min(max(sinks[i], sinks[i - 1]), sinks[i - 1] + 0.05)
-    part = 1 - sinks[-1] / 0.95
-    return part if part > 1e-3 else 0.0
+    share = 1 - sinks[-1] / 0.95
+    return share if share > 1e-3 else 0.0
 
 
 def place(eps: Numbers, low: float = 0.05, high: float = 0.95) -> Array:
@@ -461,8 +467,8 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Chebyshev:
     def row(run: dict[str, Any], eps: Array) -> Array:
         step = place(0.95, run["from"], run["to"]) - place(0.05, run["from"], run["to"])
         root = Chebyshev(run[name]["root"])(place(eps, run["from"], run["to"]))
-        own = name == "own" and run["rho"] not in (0, np.inf)
-        first = run[name]["first"] - (np.log(min(run["rho"], 1.0)) if own else 0.0)
+        shifted = name == "own" and run["rho"] not in (0, np.inf)
+        first = run[name]["first"] - (np.log(min(run["rho"], 1.0)) if shifted else 0.0)
         inside = eps <= run["to"] * (1 + 1e-9)
         return np.append(first, np.where(inside, root * np.sqrt(step / 2), 0.0))
 
@@ -551,11 +557,11 @@ class Cascade:
         grid = np.unique([*np.geomspace(1e-3 * self.eps[0], self.eps[-1], 4000), *self.eps])
         now = self.tension(grid)
         tops = np.flatnonzero((now[1:-1] > now[:-2]) & (now[1:-1] >= now[2:])) + 1
-        found = [minimize_scalar(
+        maxima = [minimize_scalar(
             lambda e: -self.tension(e), bounds=(grid[i - 1], grid[i + 1]), method="bounded",
             options={"xatol": 1e-14},
         ).x for i in tops]  # fmt: skip
-        self.tops = np.unique([*found, *self.eps])
+        self.tops = np.unique([*maxima, *self.eps])
 
     def tension(self, eps: Array) -> Array:
         """σ_t of a particle of size 1 [Pa]."""

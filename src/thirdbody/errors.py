@@ -312,8 +312,8 @@ def rank_notes(notes: Iterable[str]) -> list[str]:
     """
 
     def effect(note: str) -> float:
-        known = isinstance(note, Note) and not math.isnan(note.effect)
-        return note.effect if known else UNKNOWN  # type: ignore[attr-defined]
+        has_effect = isinstance(note, Note) and not math.isnan(note.effect)
+        return note.effect if has_effect else UNKNOWN  # type: ignore[attr-defined]
 
     worst: dict[str, str] = {}
     for note in sorted(notes, key=effect, reverse=True):
@@ -336,7 +336,8 @@ class InvalidValue(ThirdBodyError, ValueError):
 
     def __init__(self, *problems: str, code: Mistake | None = None):
         self.problems = tuple(
-            each if isinstance(each, Problem) else Problem("", each, code=code) for each in problems
+            problem if isinstance(problem, Problem) else Problem("", problem, code=code)
+            for problem in problems
         )
         super().__init__("\n".join(problems))
 
@@ -347,7 +348,7 @@ class InvalidValue(ThirdBodyError, ValueError):
 
     def under(self, owner: str) -> InvalidValue:
         """The same mistakes where what they are a part of goes by another name."""
-        return type(self)(*(each.under(owner) for each in self.problems))
+        return type(self)(*(problem.under(owner) for problem in self.problems))
 
 
 class NoEquilibrium(ThirdBodyError, RuntimeError):

@@ -354,10 +354,10 @@ def exponential_ke(
         for (c, m), low, high in zip(powers, edges[:-1], edges[1:], strict=True):
             # from the side on which the difference does not cancel
             if low * w > m + 1:
-                part = special.gammaincc(m + 1, low * w) - special.gammaincc(m + 1, high * w)
+                integral = special.gammaincc(m + 1, low * w) - special.gammaincc(m + 1, high * w)
             else:
-                part = special.gammainc(m + 1, high * w) - special.gammainc(m + 1, low * w)
-            out += c * w**-m * special.gamma(m + 1) * part
+                integral = special.gammainc(m + 1, high * w) - special.gammainc(m + 1, low * w)
+            out += c * w**-m * special.gamma(m + 1) * integral
         return out
 
     unit = math.pi * w * n  # ηA_c exp(−h − 1)
@@ -494,7 +494,7 @@ def elliptic_hertz(ratio: float) -> EllipticHertz:
             return math.log(elliprd(0, 1, kk) / elliprd(0, kk, 1) / ratio)
 
         k = math.exp(brentq(excess, -math.log(ratio) - 1e-9, 0.0, xtol=1e-16, rtol=1e-15))
-    return EllipticHertz(*(float(each) for each in _of_axes(ratio, k)))
+    return EllipticHertz(*(float(value) for value in _of_axes(ratio, k)))
 
 
 def _of_axes(ratio, k):

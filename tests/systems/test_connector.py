@@ -261,7 +261,7 @@ def test_a_curve_never_rises_with_the_force():
 def test_what_is_certain_is_what_the_sums_say(monkeypatch, number, height):
     """Chernoff's bounds against the sums, which without them are computed under every load."""
     kinds = plug(dust(number, tb.LogNormal(median=8e-6, gsd=1.4)))._kinds()
-    mean = sum(float(kind.each @ (kind.most * kind.x**2)) for kind in kinds)
+    mean = sum(float(kind.in_the_way @ (kind.most * kind.x**2)) for kind in kinds)
     loads = np.geomspace(1e-3 * mean, 1000 * max(mean, kinds[0].most * (8e-6) ** 2), 40)
     more, less = connector._certain(kinds, loads, height)
     assert less.any()

@@ -20,7 +20,9 @@ x = 300e-9  # m
 contact = tb.Contact(
     surfaces=tb.MaterialPair(steel, steel),
     roughness=tb.Roughness(sigma=1e-9, R=2.8e-6),  # nearly smooth: the gap is d
-    particles=tb.Particles(material=silica, diameter=tb.Monodisperse(mean=x), areal_density=1e11),
+    particles=tb.Particles(
+        material=silica, diameter=tb.distributions.Monodisperse(mean=x), areal_density=1e11
+    ),
     particle_law=tb.particle.Series(seat="plane"),
 )
 squeeze = np.geomspace(1e-4, 0.9, 200) * x

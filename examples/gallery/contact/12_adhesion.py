@@ -21,7 +21,7 @@ for sigma, style in ((1e-6, "-"), (1.5e-6, "--"), (2e-6, "-.")):  # m
         roughness=tb.Roughness(sigma=sigma, R=100e-6),
         asperity_law=tb.asperity.JKR(w=0.05, unloading=True),  # J/m²
     )
-    held, at = tb.pull_off(contact)
+    held, at = tb.equilibria.pull_off(contact)
     d = np.linspace(min(0.5 * sigma, at), 4 * sigma, 300)
     pressure = np.asarray(tb.solve(contact, d=d).pressure)
     ax.plot(d / sigma, pressure / 1e3, style, label=f"σ = {sigma * 1e6:g} µm")

@@ -24,7 +24,7 @@ contact = tb.Contact(
     particles=tb.Particles(
         material=tb.materials["Al2O3"],
         areal_density=1e10,  # 1/m²
-        diameter=tb.Monodisperse(mean=500e-9),  # m
+        diameter=tb.distributions.Monodisperse(mean=500e-9),  # m
     ),
     outputs=tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6),  # Pa
 )

@@ -28,7 +28,9 @@ ball = tb.films.Point(R=9.5e-3)  # m
 oil = tb.films.Oil(eta=0.02, alpha=2e-8, eyring_stress=5e6)  # Pa s, 1/Pa, Pa
 speed = np.geomspace(5e-3, 10, 80)  # m/s
 curves = {
-    label: tb.stribeck(contact, conjunction=ball, oil=oil, load=20.0, speed=speed, slide_roll=0.05)
+    label: tb.films.stribeck(
+        contact, conjunction=ball, oil=oil, load=20.0, speed=speed, slide_roll=0.05
+    )
     for label, contact in (("clean", clean), ("dirty", clean.replace(particles=debris)))
 }
 figure = Figure(figsize=(5.4, 4.8), layout="constrained")

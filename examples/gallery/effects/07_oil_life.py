@@ -15,14 +15,14 @@ from thirdbody.views.plot.life import draw_flows, draw_history
 
 quartz = tb.materials["quartz"]
 sheets = {
-    "coarse": tb.Filter.from_text("4=1.5, 10=10, 20=75"),
-    "usual": tb.Filter.from_text("4=5, 7=75, 14=1000"),
-    "fine": tb.Filter.from_text("2.5=5, 4=75, 7=1000"),
+    "coarse": tb.oil.Filter.from_text("4=1.5, 10=10, 20=75"),
+    "usual": tb.oil.Filter.from_text("4=5, 7=75, 14=1000"),
+    "fine": tb.oil.Filter.from_text("2.5=5, 4=75, 7=1000"),
 }
-oil = tb.OilCircuit(
+oil = tb.oil.OilCircuit(
     volume=0.2,
-    start=tb.OilDirt.from_iso4406("20/18/15", material=quartz),
-    ingress=tb.Ingress.of_dust("A3-lot", rate="125 mg/h", material=quartz),
+    start=tb.oil.OilDirt.from_iso4406("20/18/15", material=quartz),
+    ingress=tb.oil.Ingress.of_dust("A3-lot", rate="125 mg/h", material=quartz),
 )
 histories = {
     name: tb.life(

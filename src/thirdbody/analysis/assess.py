@@ -76,7 +76,7 @@ def assess(
     samples: int | None = None,
     seed: int = 0,
     title: str = "",
-    progress: Callable[[str], None] = lambda part: None,
+    progress: Callable[[str], None] = lambda stage: None,
 ) -> Assessment:
     r"""Mode at the operating load with its probability, margins, and what decides them.
 
@@ -134,16 +134,16 @@ def assess(
     ('hybrid', 'F_cr1', 'p-s')
     """
     load, _, one = given_load(contact, pressure, F_star, None)
-    given = pressure if load == "pressure" else F_star
+    load_value = pressure if load == "pressure" else F_star
     if not one:
-        count = np.size(given)  # type: ignore[arg-type]
+        count = np.size(load_value)  # type: ignore[arg-type]
         raise InvalidValue(
             f"{load}: an assessment is of one operating load, not {count}", code=Mistake.SHAPE
         )
     (page,) = assess_each(
         contact,
         load,
-        [float(given or 0.0)],
+        [float(load_value or 0.0)],
         vary=vary,
         samples=samples,
         seed=seed,
@@ -164,7 +164,7 @@ def assess_each(
     samples: int | None = None,
     seed: int = 0,
     title: str = "",
-    progress: Callable[[str], None] = lambda part: None,
+    progress: Callable[[str], None] = lambda stage: None,
 ) -> list[Assessment | NoEquilibrium]:
     """As `assess`, at each of several loads ("pressure" or "F_star"), or why there is no page.
 
@@ -176,12 +176,12 @@ def assess_each(
         vary = stated_ranges(contact)
         none = not vary
         notes += _whence(contact, vary)
-    own = [_own_state(contact, load, value) for value in loads]
-    held = [value for value, state in zip(loads, own, strict=True) if isinstance(state, _Own)]
+    states = [_own_state(contact, load, value) for value in loads]
+    held = [value for value, state in zip(loads, states, strict=True) if isinstance(state, _Own)]
     progress(PARTS[0])
     count = 0 if none else power_of_two(enough(contact, samples, vary))
     work = _Work(progress, contact, vary or _usual(contact), count)
-    work.first(load, held, own)
+    work.first(load, held, states)
     if held and not none:
         work.price(contact, vary, load, held, count)
     bands: Iterator[Propagation] = iter(())
@@ -191,23 +191,23 @@ def assess_each(
         at: Any = held if len(held) > 1 else held[0]
         outputs = min(count, MOST_OUTPUTS) * len(held) if contact.outputs else 0
         with work.show_part(count, count * len(held) + EVALUATED * work.critical, outputs):
-            found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
-        work.second(found)
-        bands = (found.at_load(i) for i in range(len(held)))
+            propagation = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
+        work.second(propagation)
+        bands = (propagation.at_load(i) for i in range(len(held)))
     progress(PARTS[1])
     slopes: dict[str, dict[str, float]] = {}
     with work.show_part(work.ends):
         out = [
             _page(title, next(bands), state, notes, slopes) if isinstance(state, _Own) else state
-            for state in own
+            for state in states
         ]
     progress(PARTS[2])
     with work.show_part(work.ways), roughly():
-        found_ways = iter(_changes([page for page in out if isinstance(page, Assessment)]))
+        changes_and_stops = iter(_changes([page for page in out if isinstance(page, Assessment)]))
     pages: list[Assessment | NoEquilibrium] = []
     for page in out:
         if isinstance(page, Assessment):
-            changes, stops = next(found_ways)
+            changes, stops = next(changes_and_stops)
             page = replace(page, changes=changes, stops=stops)
         pages.append(page)
     return pages
@@ -230,10 +230,10 @@ class _Outputs:
         if math.isnan(self.start):
             self.start, self.first = now, self.done
         elif not self.said and now > self.start + SURE:
-            each = (now - self.start) / (self.done - self.first)
-            if (whole := each * self.total) > LONG:
+            seconds = (now - self.start) / (self.done - self.first)
+            if (whole := seconds * self.total) > LONG:
                 self.progress.tell(
-                    f"about {self.total:,} states with outputs, {number(each, 2)} s each: some "
+                    f"about {self.total:,} states with outputs, {number(seconds, 2)} s each: some "
                     f"{duration(whole)}"
                 )
             self.said = True
@@ -314,22 +314,22 @@ class _Work:
         states = count * len(held) + CRITICAL_COST * self.critical
         self.progress.cost(states, seconds, "states")
 
-    def first(self, load: str, held: Sequence[float], own: Sequence[object]) -> None:
+    def first(self, load: str, held: Sequence[float], states: Sequence[object]) -> None:
         """The mode at each load, before anything is varied."""
-        modes = [state.mode or "none" for state in own if isinstance(state, _Own)]
+        modes = [state.mode or "none" for state in states if isinstance(state, _Own)]
         unit = "Pa" if load == "pressure" else "1"
         for value, mode in zip(held, modes, strict=True):
             self.tell(f"at {load} {value_of(value, unit)} the mode is {mode}; how sure, comes next")
 
-    def second(self, found: Propagation) -> None:
+    def second(self, propagation: Propagation) -> None:
         """How probable the modes are, before it is known what decides."""
-        for mode, share in found.mode_probability.items():
-            for value, one in zip(np.ravel(found.loads), np.ravel(share), strict=True):
+        for mode, share in propagation.mode_probability.items():
+            for value, one in zip(np.ravel(propagation.loads), np.ravel(share), strict=True):
                 if one > 0:
-                    unit = "Pa" if found.load == "pressure" else "1"
+                    unit = "Pa" if propagation.load == "pressure" else "1"
                     self.tell(
-                        f"at {found.load} {value_of(float(value), unit)} the mode is {mode} in "
-                        f"{percent(float(one))} of {found.samples} samples"
+                        f"at {propagation.load} {value_of(float(value), unit)} the mode is {mode} "
+                        f"in {percent(float(one))} of {propagation.samples} samples"
                     )
 
 
@@ -356,38 +356,38 @@ def _own_state(contact: Contact, load: str, value: float) -> _Own | NoEquilibriu
             state = solve(contact, **as_load(load, value))
         except NoEquilibrium as error:
             return error
-    told = dict.fromkeys(note_of(item.message) for item in heard)
-    notes = [f"Warning: {text}." for text in told]
+    texts = dict.fromkeys(note_of(item.message) for item in heard)
+    notes = [f"Warning: {text}." for text in texts]
     return _Own(str(state.mode), notes + about_fragments(contact, as_load(load, value)))
 
 
 def _page(
     title: str,
-    found: Propagation,
-    own: _Own,
+    propagation: Propagation,
+    state: _Own,
     notes: list[str],
     slopes: dict[str, dict[str, float]],
 ) -> Assessment | NoEquilibrium:
     """Assessment at one load, without its ``changes``; ``slopes`` caches elasticities."""
-    if found.solved == 0:
+    if propagation.solved == 0:
         return NoEquilibrium("no sample has an equilibrium; check the unit of the load")
-    decisive = _decisive(found)
-    others = [name for name in SHOWN[:4] if name in found.bands and name != decisive]
-    tornado = found.tornado([decisive, *others]) if found.inputs else {decisive: {}}
-    moved = {name.strip() for label in found.inputs for name in label.split("+")}
+    decisive = _decisive(propagation)
+    others = [name for name in SHOWN[:4] if name in propagation.bands and name != decisive]
+    tornado = propagation.tornado([decisive, *others]) if propagation.inputs else {decisive: {}}
+    moved = {name.strip() for label in propagation.inputs for name in label.split("+")}
     if decisive not in slopes:
-        slopes[decisive] = _elasticities(found, decisive)
+        slopes[decisive] = _elasticities(propagation, decisive)
     return Assessment(
         title=title,
-        propagation=found,
-        mode=own.mode,
+        propagation=propagation,
+        mode=state.mode,
         decisive=decisive,
         matter=_parts(tornado[decisive], logarithm=decisive in CRITICAL),
         tornado=tornado,
         elasticity=slopes[decisive],
         changes=(),
-        exact=tuple(name for name in all_inputs(found.contact) if name not in moved),
-        notes=(*notes, *own.notes, *_outside(found)),
+        exact=tuple(name for name in all_inputs(propagation.contact) if name not in moved),
+        notes=(*notes, *state.notes, *_outside(propagation)),
     )
 
 
@@ -417,14 +417,14 @@ EXPONENT = "particles.strength.size_exponent"
 
 def about_fragments(contact: Contact, load: Load[float]) -> list[str]:
     """Effect of the strength of fragments, which nobody has measured."""
-    if all(each.strength is None for each in contact.populations):
+    if all(population.strength is None for population in contact.populations):
         return []
     said = []
     for word, words in BEAR.items():
         broken = tuple(
-            each if each.strength is None
-            else each.replace(strength=each.strength.replace(fragments=word))
-            for each in contact.populations
+            population if population.strength is None
+            else population.replace(strength=population.strength.replace(fragments=word))
+            for population in contact.populations
         )  # fmt: skip
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RangeWarning)
@@ -447,35 +447,36 @@ def about_fragments(contact: Contact, load: Load[float]) -> list[str]:
     ]
 
 
-def _outside(found: Propagation) -> list[str]:
+def _outside(propagation: Propagation) -> list[str]:
     """Inputs whose own value their range does not allow."""
     return [
         Note(
-            f"The value {value_of(_nominal(found, label), unit_of(found.contact, label))} of the "
-            f"{words_of(found.contact, label)} lies outside what its range says; nominal results "
-            "and bands do not belong together.",
+            "The value "
+            f"{value_of(_nominal(propagation, label), unit_of(propagation.contact, label))} of the "
+            f"{words_of(propagation.contact, label)} lies outside what its range says; nominal "
+            "results and bands do not belong together.",
             code=f"uncertainty.outside.{label}",
         )
-        for label, known in found.inputs.items()
-        if _is_beyond(known, _nominal(found, label))
+        for label, distribution in propagation.inputs.items()
+        if _is_beyond(distribution, _nominal(propagation, label))
     ]
 
 
-def _is_beyond(known: Uncertain, value: float) -> bool:
+def _is_beyond(distribution: Uncertain, value: float) -> bool:
     """Whether a value is none that a range has; its ends are."""
-    low, high = known.quantile(0.0), known.quantile(1.0)
+    low, high = distribution.quantile(0.0), distribution.quantile(1.0)
     if math.isfinite(low) and math.isfinite(high):
         return not low <= value <= high
-    return not TINY < known.cdf(value) < 1 - TINY
+    return not TINY < distribution.cdf(value) < 1 - TINY
 
 
-def _decisive(found: Propagation) -> str:
+def _decisive(propagation: Propagation) -> str:
     """The critical load nearest to the load, or the share to rank inputs by."""
-    margins = {name: found.nominal.get(f"F/{name}", 0.0) for name in ("F_cr1", "F_cr2")}
+    margins = {name: propagation.nominal.get(f"F/{name}", 0.0) for name in ("F_cr1", "F_cr2")}
     exist = {name: abs(math.log(x)) for name, x in margins.items() if 0 < x < math.inf}
     if exist:
         return min(exist, key=lambda name: exist[name])
-    return "A_t" if found.contact.two_body else "particle_load_share"
+    return "A_t" if propagation.contact.two_body else "particle_load_share"
 
 
 def _parts(ends: Mapping[str, tuple[float, float]], *, logarithm: bool) -> dict[str, float]:
@@ -494,19 +495,19 @@ def _parts(ends: Mapping[str, tuple[float, float]], *, logarithm: bool) -> dict[
     return {label: ways[label] ** 2 / total for label in order}
 
 
-def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
+def _elasticities(propagation: Propagation, decisive: str) -> dict[str, float]:
     """d ln F_cr/d ln p of every input, where it exists."""
-    labels = [label for label in found.inputs if label != found.load]
+    labels = [label for label in propagation.inputs if label != propagation.load]
     out = dict.fromkeys(labels, math.nan)
     if decisive not in CRITICAL:
         return out
 
     def slopes(some: list[str]) -> dict[str, float]:
-        of = sensitivity(found.contact, of=decisive, to=some, quick=True)
-        found_here = of.elasticity[decisive]
-        return {label: float(found_here[label]) for label in some}
+        of = sensitivity(propagation.contact, of=decisive, to=some, quick=True)
+        elasticities = of.elasticity[decisive]
+        return {label: float(elasticities[label]) for label in some}
 
-    bare = found.contact.replace(outputs=())
+    bare = propagation.contact.replace(outputs=())
     try:
         return out | slopes([label for label in labels if moves(bare, label, QUICK)])
     except InvalidValue:  # one of them has none
@@ -526,12 +527,12 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tupl
     one = pages[0].propagation
     ways: dict[tuple[str, int], tuple[Drawn, Array]] = {}
     inputs = one.inputs or _usual(one.contact)
-    each = EACH_COSTLY if costly(one.contact, inputs) else EACH
-    for label, known in inputs.items():
+    stride = EACH_COSTLY if costly(one.contact, inputs) else EACH
+    for label, distribution in inputs.items():
         if label != one.load:
-            drawn = drawn_inputs(one.contact, {label: known}, one.load, float(one.loads))
+            drawn = drawn_inputs(one.contact, {label: distribution}, one.load, float(one.loads))
             for side in (-1, 1):
-                ways[label, side] = drawn, _path(one.contact, drawn, known, side, each)
+                ways[label, side] = drawn, _path(one.contact, drawn, distribution, side, stride)
     every = {(i, *way): where for i in range(len(pages)) for way, where in ways.items()}
     steps, stops = _departures(pages, every)
 
@@ -551,8 +552,8 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tupl
     for (i, label, side), (low, high, other) in steps.items():
         value, beyond = 0.5 * (low + high), math.nan
         if one.inputs:
-            known = one.inputs[label]
-            beyond = known.cdf(value) if side < 0 else 1 - known.cdf(value)
+            distribution = one.inputs[label]
+            beyond = distribution.cdf(value) if side < 0 else 1 - distribution.cdf(value)
         out[i].append(Change(label, value, other, beyond))
 
     def likely(change: Change) -> tuple[float, float]:
@@ -571,25 +572,25 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tupl
 
 def _usual(contact: Contact) -> dict[str, Uncertain]:
     """Inputs that are moved where none has a range: roughness, sizes, number, hardness."""
-    own = {name: value for name, value in all_inputs(contact).items() if value > 0}
+    values = {name: value for name, value in all_inputs(contact).items() if value > 0}
     labels: list[str] = ["roughness.sigma", "roughness.R"]
-    labels += [name for name in own if name.endswith(".areal_density")]
+    labels += [name for name in values if name.endswith(".areal_density")]
     sizes: dict[str, list[str]] = {}
-    for name in own:
-        owner, found, _ = name.rpartition(".diameter.")
-        if found and declared_quantity(contact, name)["unit"] == "m":
+    for name in values:
+        owner, separator, _ = name.rpartition(".diameter.")
+        if separator and declared_quantity(contact, name)["unit"] == "m":
             sizes.setdefault(owner, []).append(name)
     labels += ["+".join(names) for names in sizes.values()]
-    labels += [name for name in own if name.endswith(".material.H")]
+    labels += [name for name in values if name.endswith(".material.H")]
     both = ["surfaces.first.H", "surfaces.second.H"]
     labels += ["+".join(both)] if contact.surfaces.alike else both
-    ends = {label: own[label.partition("+")[0]] for label in labels}
+    ends = {label: values[label.partition("+")[0]] for label in labels}
     return {
         label: Uncertain.uniform(low=value / FAR, high=value * FAR) for label, value in ends.items()
     }
 
 
-def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int) -> Array:
+def _path(contact: Contact, drawn: Drawn, distribution: Uncertain, side: int, stride: int) -> Array:
     """Values of an input from where it is to as far as it may go."""
     (start,) = drawn.nominal
     (moved,) = drawn.moved
@@ -597,7 +598,7 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int
     if start > 0:
         values = start * np.geomspace(1.0, FAR**side, COARSE)
     else:
-        ends = np.array([known.quantile(0.0), known.quantile(1.0)])
+        ends = np.array([distribution.quantile(0.0), distribution.quantile(1.0)])
         values = np.linspace(start, start + side * (np.ptp(ends) + np.abs(ends).max()), COARSE)
 
     def fits(value: float) -> bool:
@@ -610,7 +611,7 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int
     good = [fits(float(value)) for value in values]
     open_way = values[: good.index(False)] if False in good else values
     last = len(open_way) - 1
-    return open_way[np.unique(np.append(np.arange(0, last, each), last))]
+    return open_way[np.unique(np.append(np.arange(0, last, stride), last))]
 
 
 Way = tuple[int, str, int]
@@ -627,14 +628,14 @@ def _departures(
     if not ways:
         return {}, {}
     one = pages[0].propagation
-    own = all_inputs(one.contact)
+    nominal = all_inputs(one.contact)
     counts = [len(values) for _, values in ways.values()]
     ends = np.cumsum([0, *counts])
     pieces = [slice(*pair) for pair in itertools.pairwise(ends.tolist())]
     vary: dict[str, Array] = {}
     for (drawn, values), piece in zip(ways.values(), pieces, strict=True):
         for name, moved in drawn.moved_numbers([values]).items():
-            vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = moved
+            vary.setdefault(name, np.full(ends[-1], nominal[name]))[piece] = moved
     loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
 
     def solve_some(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:

@@ -137,15 +137,15 @@ class Assessment:
         """The whole page as plain data ready for JSON."""
         from ..version import __version__
 
-        found = self.propagation
+        propagation = self.propagation
         return {
             "title": self.title,
             "version": __version__,
-            "contact": found.contact.to_dict(),
+            "contact": propagation.contact.to_dict(),
             "mode": self.mode,
             **plain_data(
                 {
-                    "propagation": found,
+                    "propagation": propagation,
                     "decisive": self.decisive,
                     "matter": self.matter,
                     "tornado": self.tornado,
@@ -155,33 +155,39 @@ class Assessment:
                 }
             ),
             "exact": list(self.exact),
-            "sentences": {part.title: list(part.sentences) for part in self.sections()},
+            "sentences": {section.title: list(section.sentences) for section in self.sections()},
             "notes": list(self.notes),
-            "citations": cite(found.contact).splitlines(),
+            "citations": cite(propagation.contact).splitlines(),
         }
 
     def _repr_html_(self) -> str:
         """The page for notebooks: a table for each part."""
         out = []
-        for part in self.sections():
-            rows = [notebook.Row(each[0], each[1:]) for each in (part.head, *part.rows) if each]
-            out.append(notebook.card(part.title, rows, part.sentences))
+        for section in self.sections():
+            rows = [
+                notebook.Row(cells[0], cells[1:])
+                for cells in (section.head, *section.rows)
+                if cells
+            ]
+            out.append(notebook.card(section.title, rows, section.sentences))
         return f"<div>{''.join(out)}</div>"
 
     # ------------------------------------------------------------------ words and tables
     def headline(self) -> str:
         """Mode, its probability and the load in one sentence."""
-        found = self.propagation
-        likely = max(found.mode_probability, key=lambda mode: found.mode_probability[mode])
+        propagation = self.propagation
+        likely = max(
+            propagation.mode_probability, key=lambda mode: propagation.mode_probability[mode]
+        )
         parts = [
-            f"{mode} {percent(share, found.mode_error[mode])}"
-            for mode, share in found.mode_probability.items()
+            f"{mode} {percent(share, propagation.mode_error[mode])}"
+            for mode, share in propagation.mode_probability.items()
             if share > 0
         ]
-        load = load_of(found.nominal["pressure"], found.nominal["F_star"])
-        if found.contact.two_body:
+        load = load_of(propagation.nominal["pressure"], propagation.nominal["F_star"])
+        if propagation.contact.two_body:
             return f"At {load} {two_bodies()}."
-        if not found.inputs:
+        if not propagation.inputs:
             return f"At {load} {mode_of(self.mode)}."
         agree = "" if likely == self.mode else f" The likeliest mode is {likely}."
         return (
@@ -190,13 +196,13 @@ class Assessment:
 
     def sections(self) -> list[Section]:
         """The page from top to bottom."""
-        found = self.propagation
-        said = (self.headline(),) if found.inputs else (self.headline(), NO_RANGES)
+        propagation = self.propagation
+        said = (self.headline(),) if propagation.inputs else (self.headline(), NO_RANGES)
         parts = [Section("Mode at the operating load", sentences=said)]
-        if not found.contact.two_body:
+        if not propagation.contact.two_body:
             parts.append(self.margins())
-        parts += [self._state(), self._inputs()] if found.inputs else [self._state()]
-        if not found.contact.two_body:
+        parts += [self._state(), self._inputs()] if propagation.inputs else [self._state()]
+        if not propagation.contact.two_body:
             parts.append(Section("What would change the mode", sentences=self._ways()))
         parts.append(Section("What this rests on", sentences=self.basis()))
         return parts
@@ -215,14 +221,14 @@ class Assessment:
 
     def margins(self) -> Section:
         """Critical loads, and how far the load is from them."""
-        found = self.propagation
-        if "F_cr1" not in found.bands:
-            return Section("Margins", sentences=(NO_CRITICAL.format(_law_of(found)),))
+        propagation = self.propagation
+        if "F_cr1" not in propagation.bands:
+            return Section("Margins", sentences=(NO_CRITICAL.format(_law_of(propagation)),))
         rows, sentences = [], []
-        E, uncertain = found.contact.E_ss, bool(found.inputs)
-        for name in (name for name in CRITICAL if name in found.bands):
-            nominal, (low, _, high) = found.nominal[name], self._band(name)
-            status = found.critical_status[name]
+        E, uncertain = propagation.contact.E_ss, bool(propagation.inputs)
+        for name in (name for name in CRITICAL if name in propagation.bands):
+            nominal, (low, _, high) = propagation.nominal[name], self._band(name)
+            status = propagation.critical_status[name]
             exists = status.get(CriticalStatus.FOUND, 0.0)
             rows.append(
                 (
@@ -234,9 +240,9 @@ class Assessment:
                 )
             )
         for name in ("F_cr1", "F_cr2"):
-            nominal, (low, _, high) = found.nominal[f"F/{name}"], self._band(f"F/{name}")
+            nominal, (low, _, high) = propagation.nominal[f"F/{name}"], self._band(f"F/{name}")
             if not 0 < nominal < math.inf:
-                sentences.append(not_met(name, found.nominal[name]))
+                sentences.append(not_met(name, propagation.nominal[name]))
                 continue
             band = f"{number(low, 3)} to {times(high)}"
             if times(low) == times(high):
@@ -250,46 +256,46 @@ class Assessment:
         return Section("Margins", head, tuple(rows), tuple(sentences), ("where", "exists", "F*"))
 
     def _state(self) -> Section:
-        found = self.propagation
+        propagation = self.propagation
         rows: list[tuple[str, ...]] = []
-        outputs = [name for each in found.contact.outputs for name in each.columns]
-        for name in (name for name in (*SHOWN, *outputs) if name in found.bands):
-            if found.contact.two_body and name.startswith("particle"):
+        outputs = [name for output in propagation.contact.outputs for name in output.columns]
+        for name in (name for name in (*SHOWN, *outputs) if name in propagation.bands):
+            if propagation.contact.two_body and name.startswith("particle"):
                 continue
             low, middle, high = self._band(name)
-            if not found.inputs:
-                rows.append((about_result(name).meaning, _amount(found.nominal[name], name)))
+            if not propagation.inputs:
+                rows.append((about_result(name).meaning, _amount(propagation.nominal[name], name)))
                 continue
-            each = (found.nominal[name], low, middle, high)
-            where = [found.probabilities.index(q) for q in BAND]
-            error = _error(float(np.max(found.error[name][where])), name)
-            rows.append((about_result(name).meaning, *(_amount(x, name) for x in each), error))
+            amounts = (propagation.nominal[name], low, middle, high)
+            where = [propagation.probabilities.index(q) for q in BAND]
+            error = _error(float(np.max(propagation.error[name][where])), name)
+            rows.append((about_result(name).meaning, *(_amount(x, name) for x in amounts), error))
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
-        lost = 1 - found.solved
-        told = [f"{percent(lost)} of the samples have no equilibrium."] if lost else []
-        close = crowded_samples([found.crowded]) if found.inputs else []
-        if found.crowded and not found.inputs:
+        lost = 1 - propagation.solved
+        sentences = [f"{percent(lost)} of the samples have no equilibrium."] if lost else []
+        close = crowded_samples([propagation.crowded]) if propagation.inputs else []
+        if propagation.crowded and not propagation.inputs:
             close = [Status.CROWDED.sentence]
-        told += [f"{each[0].upper()}{each[1:]}." for each in close]
-        if not found.inputs:
-            return Section("State", ("result", "value"), tuple(rows), tuple(told))
-        return Section("State", head, tuple(rows), tuple(told), ("error of the bands", "50 %"))
+        sentences += [f"{sentence[0].upper()}{sentence[1:]}." for sentence in close]
+        if not propagation.inputs:
+            return Section("State", ("result", "value"), tuple(rows), tuple(sentences))
+        return Section("State", head, tuple(rows), tuple(sentences), ("error of the bands", "50 %"))
 
     def _inputs(self) -> Section:
-        found = self.propagation
+        propagation = self.propagation
         rows = []
-        for label, part in self.matter.items():
-            known = found.inputs[label]
-            unit, value = unit_of(found.contact, label), _nominal(found, label)
+        for label, share in self.matter.items():
+            distribution = propagation.inputs[label]
+            unit, value = unit_of(propagation.contact, label), _nominal(propagation, label)
             low, high = self.tornado[self.decisive][label]
             slope = self.elasticity.get(label, math.nan)
             rows.append(
                 (
                     self._words(label),
                     value_of(value, unit),
-                    *(value_of(known.quantile(end), unit) for end in (0.05, 0.95)),
+                    *(value_of(distribution.quantile(end), unit) for end in (0.05, 0.95)),
                     *(_amount(end, self.decisive) for end in (low, high)),
-                    percent(part, least=1e-3),
+                    percent(share, least=1e-3),
                     number(0.0 if abs(slope) < 1e-4 else slope, 3),
                 )
             )
@@ -330,26 +336,29 @@ class Assessment:
 
     def load_changes(self) -> list[tuple[float, str]]:
         """Loads [Pa] at which the mode changes, and the mode beyond."""
-        found = self.propagation
+        propagation = self.propagation
         out = []
         for name, modes in (("F_cr1", ("p-s", "hybrid")), ("F_cr2", ("hybrid", "s-s"))):
-            critical = found.nominal.get(name, math.nan)
+            critical = propagation.nominal.get(name, math.nan)
             if 0 < critical < math.inf and self.mode in modes:
-                other = modes[0] if critical < found.nominal["F_star"] else modes[1]
-                out.append((critical * found.contact.E_ss, other))
+                other = modes[0] if critical < propagation.nominal["F_star"] else modes[1]
+                out.append((critical * propagation.contact.E_ss, other))
         return out
 
     def _ways(self) -> tuple[str, ...]:
-        found = self.propagation
+        propagation = self.propagation
         out = []
         for load, other in self.load_changes():
-            ratio = load / found.contact.E_ss / found.nominal["F_star"]
+            ratio = load / propagation.contact.E_ss / propagation.nominal["F_star"]
             out.append(
                 f"The load would have to {'fall' if ratio < 1 else 'rise'} to "
                 f"{value_of(load, 'Pa')} ({times(ratio)} the operating load) for {other}."
             )
         for change in self.changes:
-            unit, value = unit_of(found.contact, change.input), _nominal(found, change.input)
+            unit, value = (
+                unit_of(propagation.contact, change.input),
+                _nominal(propagation, change.input),
+            )
             word = "falling" if change.value < value else "rising"
             where = ": outside its range"
             if change.beyond >= RARE:
@@ -357,11 +366,15 @@ class Assessment:
             out.append(
                 f"{_upper(self._words(change.input))} {word} from "
                 f"{span(value, change.value, unit)} makes it {change.mode}"
-                f"{where if found.inputs else ''}."
+                f"{where if propagation.inputs else ''}."
             )
         out += self.stops_words()
-        changed = {each.input for each in self.changes} | {each.input for each in self.stops}
-        still = [label for label in found.inputs if label not in changed and label != found.load]
+        changed = {change.input for change in self.changes} | {stop.input for stop in self.stops}
+        still = [
+            label
+            for label in propagation.inputs
+            if label not in changed and label != propagation.load
+        ]
         if still:
             named = _upper("; ".join(map(self._words, still)))
             out.append(
@@ -390,14 +403,15 @@ class Assessment:
         """Sentences on the laws, ranges and sources of the assessment."""
         from ..version import __version__
 
-        found = self.propagation
-        sought = f" and {found.critical_samples} of the critical loads"
+        propagation = self.propagation
+        sought = f" and {propagation.critical_samples} of the critical loads"
         out = [
-            f"{found.samples} samples of the state{sought if found.critical_samples else ''} "
-            f"(scrambled Sobol points, seed {found.seed}); inputs independent of each "
+            f"{propagation.samples} samples of the state"
+            f"{sought if propagation.critical_samples else ''} "
+            f"(scrambled Sobol points, seed {propagation.seed}); inputs independent of each "
             f"other; thirdbody {__version__}."
         ]
-        if not found.inputs:
+        if not propagation.inputs:
             out = [f"The values of the study, taken as exactly known; thirdbody {__version__}."]
         elif self.exact:
             out.append(f"Taken as exactly known: {'; '.join(map(self._words, self.exact))}.")
@@ -452,8 +466,8 @@ def _upper(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def _law_of(found: Propagation) -> str:
-    return type(found.contact.particle_law).__name__
+def _law_of(propagation: Propagation) -> str:
+    return type(propagation.contact.particle_law).__name__
 
 
 def _amount(value: float, name: str) -> str:
@@ -475,7 +489,7 @@ def unit_of(contact: Contact, label: str) -> str:
     return units.get(label) or declared_quantity(contact, label.split("+")[0])["unit"]
 
 
-def _nominal(found: Propagation, label: str) -> float:
-    if label == found.load:
-        return float(found.loads)
-    return all_inputs(found.contact)[label.split("+")[0].strip()]
+def _nominal(propagation: Propagation, label: str) -> float:
+    if label == propagation.load:
+        return float(propagation.loads)
+    return all_inputs(propagation.contact)[label.split("+")[0].strip()]

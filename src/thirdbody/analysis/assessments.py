@@ -47,16 +47,16 @@ class Assessments:
         """Everything as plain data ready for JSON: every page as `Assessment.to_dict` has it."""
         from ..version import __version__
 
-        each = [page.to_dict() for page in self.pages]
-        for page, d in zip(each, self.separations, strict=False):
+        pages = [page.to_dict() for page in self.pages]
+        for page, d in zip(pages, self.separations, strict=False):
             page["separation"] = d
         return {
             "title": self.title,
             "version": __version__,
             "asked": self.asked,
-            "loads": each,
+            "loads": pages,
             "unsolved": list(self.unsolved),
-            "sentences": {part.title: list(part.sentences) for part in self.sections()},
+            "sentences": {section.title: list(section.sentences) for section in self.sections()},
             "notes": list(self.notes),
             "citations": cite(self.pages[0].propagation.contact).splitlines(),
         }
@@ -75,23 +75,23 @@ class Assessments:
         parts = [self._modes()]
         if not self._two_body:
             margins = self.pages[0].margins()
-            own = margins.sentences if not margins.rows else ()
-            parts.append(margins._replace(title="Critical loads", sentences=own))
+            sentences = margins.sentences if not margins.rows else ()
+            parts.append(margins._replace(title="Critical loads", sentences=sentences))
             parts.append(self._changes())
         parts.append(Section("What this rests on", sentences=self._basis()))
         return parts
 
     def _basis(self) -> tuple[str, ...]:
         """Sentences on all loads, then on single ones."""
-        each = [page.basis() for page in self.pages]
-        common = [said for said in each[0] if all(said in other for other in each)]
-        own = [
+        bases = [page.basis() for page in self.pages]
+        common = [said for said in bases[0] if all(said in other for other in bases)]
+        of_single_pages = [
             f"At {self._loads(page)[0]}: {said}"
-            for page, basis in zip(self.pages, each, strict=True)
+            for page, basis in zip(self.pages, bases, strict=True)
             for said in basis
             if said not in common
         ]
-        return (*common, *own)
+        return (*common, *of_single_pages)
 
     def _loads(self, page: Assessment) -> tuple[str, str]:
         nominal = page.propagation.nominal
@@ -100,19 +100,21 @@ class Assessments:
     def _modes(self) -> Section:
         rows = []
         for i, page in enumerate(self.pages):
-            found = page.propagation
-            own = [*self._loads(page)]
-            own += [value_of(d, "m") for d in self.separations[i : i + 1]]
-            own.append(page.mode or "no contact")
+            propagation = page.propagation
+            cells = [*self._loads(page)]
+            cells += [value_of(d, "m") for d in self.separations[i : i + 1]]
+            cells.append(page.mode or "no contact")
             if self._uncertain and not self._two_body:
-                own.append(percent(found.mode_probability.get(page.mode, math.nan)))
+                cells.append(percent(propagation.mode_probability.get(page.mode, math.nan)))
             if not self._two_body:
-                own.append(percent(found.nominal["particle_load_share"]))
-                margins = (found.nominal.get(f"F/{name}", math.nan) for name in ("F_cr1", "F_cr2"))
-                own += ["-" if not 0 < x < math.inf else number(x, 3) for x in margins]
+                cells.append(percent(propagation.nominal["particle_load_share"]))
+                margins = (
+                    propagation.nominal.get(f"F/{name}", math.nan) for name in ("F_cr1", "F_cr2")
+                )
+                cells += ["-" if not 0 < x < math.inf else number(x, 3) for x in margins]
             else:
-                own.append(percent(found.nominal["A_t"]))
-            rows.append(tuple(own))
+                cells.append(percent(propagation.nominal["A_t"]))
+            rows.append(tuple(cells))
         head = ["pressure", "F*", *["separation d"] * bool(self.separations), "mode"]
         if self._two_body:
             head.append("real area")
@@ -139,20 +141,23 @@ class Assessments:
         """What would change the mode at each load: the load itself, then inputs alone."""
         rows, said = [], []
         for page in self.pages:
-            found, load = page.propagation, self._loads(page)[0]
+            propagation, load = page.propagation, self._loads(page)[0]
             ways = page.load_changes()
             for to, other in ways:
                 share = "" if self._uncertain else None
                 rows.append(_row(load, "load", load, value_of(to, "Pa"), other, share))
             for change in page.changes:
-                unit, value = unit_of(found.contact, change.input), _nominal(found, change.input)
+                unit, value = (
+                    unit_of(propagation.contact, change.input),
+                    _nominal(propagation, change.input),
+                )
                 cells = value_of(value, unit, 3), value_of(change.value, unit, 3)
                 share = percent(change.beyond, least=RARE) if self._uncertain else None
-                words = words_of(found.contact, change.input)
+                words = words_of(propagation.contact, change.input)
                 rows.append(_row(load, words, *cells, change.mode, share))
             said += [text for text in page.stops_words() if text not in said]
             if not (ways or page.changes):
-                loads = load_of(found.nominal["pressure"], found.nominal["F_star"])
+                loads = load_of(propagation.nominal["pressure"], propagation.nominal["F_star"])
                 said.append(f"At {loads} nothing was found that alone changes the mode.")
         cases = ("in cases",) * self._uncertain
         head = ("at the load", "what alone changes", "from", "to", "mode there", *cases)

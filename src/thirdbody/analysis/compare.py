@@ -93,10 +93,10 @@ class Persson:
         slope = math.sqrt(2 * m_2)
         area = np.vectorize(math.erf)(math.sqrt(2) * pressure / (contact.E_ss * slope))
         none, unknown = np.zeros_like(area), np.full_like(area, np.nan)
-        known = {"F_ss_star": pressure / contact.E_ss, "mode": "s-s", "status": "ok"}
-        known |= dict.fromkeys(("A_t", "A_ss", "A_e"), area)
-        known |= dict.fromkeys(("A_sa", "A_ep", "A_p", "particle_load_share"), none)
-        return SimpleNamespace(**dict.fromkeys(KEPT, unknown) | known)
+        columns = {"F_ss_star": pressure / contact.E_ss, "mode": "s-s", "status": "ok"}
+        columns |= dict.fromkeys(("A_t", "A_ss", "A_e"), area)
+        columns |= dict.fromkeys(("A_sa", "A_ep", "A_p", "particle_load_share"), none)
+        return SimpleNamespace(**dict.fromkeys(KEPT, unknown) | columns)
 
 
 # -------------------------------------------------------------------------- comparing
@@ -212,20 +212,20 @@ def comparison_of(
 
     load, values, _ = given_load(contact, pressure, F_star, None)
     if load == "F_star":
-        given = np.atleast_1d(np.asarray(F_star, dtype=float))
-        loads = {"F_star": given, "pressure": values}
+        load_values = np.atleast_1d(np.asarray(F_star, dtype=float))
+        loads = {"F_star": load_values, "pressure": values}
     else:
-        given = values
+        load_values = values
         loads = {"pressure": values, "F_star": values / contact.E_ss}
     rows = _rows(contact, laws)
-    solved = [_solve_law(contact, law, as_force_load(load, given)) for law in rows.values()]
+    solved = [_solve_law(contact, law, as_force_load(load, load_values)) for law in rows.values()]
     notes, common = _without_repeats(solved)
     used = [
         _contact_with_law(contact, law)
         for law in rows.values()
         if isinstance(law, AbstractAsperityLaw)
     ]
-    cited = "\n".join(cite(each) for each in used)
+    cited = "\n".join(cite(with_law) for with_law in used)
     if any(isinstance(law, Persson) for law in rows.values()):
         cited += f"\n{Persson.citation}"
     return Comparison(
@@ -282,43 +282,44 @@ def _without_repeats(solved: list[_Solved]) -> tuple[list[list[str]], tuple[str,
     What is told of the own law, with other numbers, is not told again of the others.
     """
     common = solved[0].heard
-    known = {code_of(text) for text in common}
+    common_codes = {code_of(text) for text in common}
     notes = [
-        note + [text for text in heard if code_of(text) not in known] for _, note, heard in solved
+        note + [text for text in heard if code_of(text) not in common_codes]
+        for _, note, heard in solved
     ]
     return notes, common
 
 
 def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persson | type]:
     """The laws to compare by label, the contact's own first; a class where no law can be made."""
-    own = contact.asperity_law
+    own_law = contact.asperity_law
     by_year = sorted(REGISTRY.values(), key=lambda law: (law.year, law.name))
     if laws is None:
-        asked: list[object] = [law.name for law in by_year if not _special(law)]
-        asked += [Persson.name] if contact.two_body else []
+        chosen: list[object] = [law.name for law in by_year if not _special(law)]
+        chosen += [Persson.name] if contact.two_body else []
     elif isinstance(laws, (str, AbstractAsperityLaw)):
-        asked = [laws]
+        chosen = [laws]
     else:
-        asked = list(laws)
+        chosen = list(laws)
     problems: list[str] = []
-    found: list[AbstractAsperityLaw | Persson | type] = [own]
-    for item in asked:
+    compared: list[AbstractAsperityLaw | Persson | type] = [own_law]
+    for item in chosen:
         if isinstance(item, AbstractAsperityLaw):
-            found.append(item)
+            compared.append(item)
         elif item == Persson.name:
-            found.append(Persson())
+            compared.append(Persson())
         elif isinstance(item, str) and item in REGISTRY:
-            found.append(own if item == own.name else _usual(REGISTRY[item]))
+            compared.append(own_law if item == own_law.name else _usual(REGISTRY[item]))
         else:
             hint = guess(str(item), REGISTRY, show=repr, otherwise=None, cutoff=0.4)
-            known = ", ".join([*(law.name for law in by_year), Persson.name])
-            rule = f": {item!r} names no asperity law ({known})"
+            options = ", ".join([*(law.name for law in by_year), Persson.name])
+            rule = f": {item!r} names no asperity law ({options})"
             problems.append(Problem("laws", rule, hint=hint, code=Mistake.UNKNOWN))
-    if not asked:
+    if not chosen:
         problems.append(is_empty("laws", "give at least one law, or leave it out for all"))
     if problems:
         raise InvalidValue(*problems)
-    return {_label(law): law for law in found}
+    return {_label(law): law for law in compared}
 
 
 def _special(law: type) -> bool:
@@ -417,7 +418,7 @@ def _outside(contact: Contact, state: Equilibrium) -> list[str]:
     law, R = contact.asperity_law, contact.roughness.R
     E_star, H = contact.E_ss, contact.surfaces.H
     body: dict[str, float] = dict(R=R, E_star=E_star, H=H)
-    bound = law.bound(**body, nu=contact.surfaces.softer.nu)
+    law_in_contact = law.bound(**body, nu=contact.surfaces.softer.nu)
     out = []
     w = getattr(law, "w", None)
     if w is not None:
@@ -425,14 +426,16 @@ def _outside(contact: Contact, state: Equilibrium) -> list[str]:
         out.append(
             f"w = {w:g} J/m², Tabor number {tabor:.2g} (z_0 = 0.2 nm); meant for: {law.valid_range}"
         )
-    limit = bound.valid_to * float(bound.yield_interference(**body))
+    limit = law_in_contact.valid_to * float(law_in_contact.yield_interference(**body))
     d = np.atleast_1d(np.asarray(state.d, dtype=float))
     if math.isinf(limit) or not np.any(np.isfinite(d)):
         return out
-    share = _share_beyond(contact, bound, float(np.nanmin(d)), limit, body)
+    share = _share_beyond(contact, law_in_contact, float(np.nanmin(d)), limit, body)
     if share > TELLING:
-        part = percent(share, digits=2 if share > 0.095 else 1)
-        out.append(f"at the highest load {part} of the asperities' area is {bound.beyond}")
+        share_text = percent(share, digits=2 if share > 0.095 else 1)
+        out.append(
+            f"at the highest load {share_text} of the asperities' area is {law_in_contact.beyond}"
+        )
     return out
 
 
@@ -479,10 +482,10 @@ def flat(
     laws: list[str], columns: Mapping[str, NDArray[np.generic]], notes: list[str]
 ) -> dict[str, list[object]]:
     """Columns (laws, N) with a row for each law and load; None where nothing is to be told."""
-    each = len(columns["A_t"][0])
-    rows = {"law": [law for law in laws for _ in range(each)]}
+    count = len(columns["A_t"][0])
+    rows = {"law": [law for law in laws for _ in range(count)]}
     rows |= {name: np.asarray(values).ravel().tolist() for name, values in columns.items()}
-    rows["note"] = [note for note in notes for _ in range(each)]
+    rows["note"] = [note for note in notes for _ in range(count)]
     return {
         name: [None if value == "" or value != value else value for value in column]
         for name, column in rows.items()

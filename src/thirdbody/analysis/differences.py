@@ -95,10 +95,10 @@ class Slope(NamedTuple):
         best = self.error <= other.error
         return Slope(*(np.where(best, a, b) for a, b in zip(self, other, strict=True)))
 
-    def less(self, ratio: Slope, own: Slope) -> Slope:
+    def less(self, ratio: Slope, of_held: Slope) -> Slope:
         """c_p − (c_d/g_d) g_p."""
-        error = np.abs(ratio.value) * own.error + ratio.error * np.abs(own.value)
-        rest = (part - ratio.value * other for part, other in zip(self, own, strict=True))
+        error = np.abs(ratio.value) * of_held.error + ratio.error * np.abs(of_held.value)
+        rest = (field - ratio.value * other for field, other in zip(self, of_held, strict=True))
         return Slope(*rest)._replace(error=self.error + error)
 
 
@@ -123,7 +123,7 @@ class Entry(NamedTuple):
 
 def _entries(total: Slope, size: Array, scale: float | Array, doubtful: float) -> list[Entry]:
     """Notes on derivatives (M, C) over ``scale``, for columns of this size."""
-    value, error, _, below, above = (part / scale for part in total)
+    value, error, _, below, above = (field / scale for field in total)
     error = np.abs(error)
     status = np.full(value.shape, "ok", dtype=object)
     worst = np.divide(total.error, size, out=np.zeros_like(size), where=size > 0)
@@ -211,30 +211,32 @@ class Places:
 
     def slopes_on_paths(self, moved: Sequence[Input], slope_of_held: Array) -> list[Slope]:
         """Derivatives with every input moved on a path on which what is held stays nearly."""
-        found: dict[int, Slope] = {}
+        slopes: dict[int, Slope] = {}
         pending = list(range(len(moved)))
         paths = self._paths(moved, slope_of_held) if pending else np.empty((len(self.d), 0))
         for step in self.rule.steps:
             inputs = [moved[j] for j in pending]
-            offsets = [_room(self.contact, each, step, self.rule.reach) for each in inputs]
+            offsets = [
+                _room(self.contact, moved_input, step, self.rule.reach) for moved_input in inputs
+            ]
             if inputs:
                 values = self._on_paths(inputs, paths[:, pending], offsets, step)
             left = []
             for i, j in enumerate(pending):
                 slope = _slope(values[:, i], offsets[i], step)
-                found[j] = found[j].better(slope) if j in found else slope
+                slopes[j] = slopes[j].better(slope) if j in slopes else slope
                 centre = values[:, i, np.flatnonzero(offsets[i] == 0)[0]]
-                if not _good(found[j], centre, self.rule):
+                if not _good(slopes[j], centre, self.rule):
                     left.append(j)
             pending = left
-        return [found[j] for j in range(len(moved))]
+        return [slopes[j] for j in range(len(moved))]
 
     def _paths(self, moved: Sequence[Input], slope_of_held: Array) -> Array:
         """dd/dt of every input (M, J) on its path, from two states each."""
         if self.held is None or not self.rule.follows:
             return np.zeros((len(self.d), len(moved)))
         step, reach = self.rule.steps[0], self.rule.reach
-        rooms = [_room(self.contact, each, step, reach) for each in moved]
+        rooms = [_room(self.contact, moved_input, step, reach) for moved_input in moved]
         pairs = [
             room[reach - 1 : reach + 2 : 2] if room[reach] == 0 else room[:2] for room in rooms
         ]
@@ -254,9 +256,9 @@ class Places:
         t = step * np.stack(offsets)
         d = self.d[:, None, None] + paths[..., None] * t
         changes: dict[str, Array] = {}
-        for j, each in enumerate(moved):
-            for name, values in each.numbers_at(t[j]).items():
-                start = each.values[each.names.index(name)]
+        for j, moved_input in enumerate(moved):
+            for name, values in moved_input.numbers_at(t[j]).items():
+                start = moved_input.values[moved_input.names.index(name)]
                 changes.setdefault(name, np.full(d.shape, start))[:, j] = values
         return self.values(d, changes)
 
@@ -264,24 +266,26 @@ class Places:
         """Derivatives of every column with every input, and with the load where it has a name."""
         centre, slope = self.along_d()
         size = np.abs(centre[:, :-1])
-        columns, own = _last_apart(slope)
-        steep = np.where(own.value == 0, 1.0, own.value)
-        ratio = Slope(*(part / steep for part in columns))
+        columns, held_slope = _last_apart(slope)
+        steep = np.where(held_slope.value == 0, 1.0, held_slope.value)
+        ratio = Slope(*(field / steep for field in columns))
         ratio = ratio._replace(
-            error=(columns.error + np.abs(ratio.value) * own.error) / np.abs(steep)
+            error=(columns.error + np.abs(ratio.value) * held_slope.error) / np.abs(steep)
         )
         out = {}
         partial = self.slopes_on_paths(moved, slope.value[:, -1])
-        for each, (of_columns, of_held) in zip(moved, map(_last_apart, partial), strict=True):
+        for moved_input, (of_columns, of_held) in zip(
+            moved, map(_last_apart, partial), strict=True
+        ):
             total = of_columns.less(ratio, of_held)
-            out[each.label] = self._entries_of(total, size, each.scales[0])
+            out[moved_input.label] = self._entries_of(total, size, moved_input.scales[0])
         if load == self.held:
             level = centre[:, -1:]
-            out[load] = self._entries_of(Slope(*(level * part for part in ratio)), size, level)
+            out[load] = self._entries_of(Slope(*(level * field for field in ratio)), size, level)
         elif load == "d" and self.held is None:
             out[load] = self._entries_of(columns, size, self.length[:, None])
         elif load:
-            out[load] = self._entries_of(Slope(*(0 * part for part in columns)), size, 1.0)
+            out[load] = self._entries_of(Slope(*(0 * field for field in columns)), size, 1.0)
         return out
 
     def _entries_of(self, total: Slope, size: Array, scale: float | Array) -> list[Entry]:
@@ -290,7 +294,7 @@ class Places:
 
 def _last_apart(slope: Slope) -> tuple[Slope, Slope]:
     """Slopes of the columns and of what is held."""
-    return Slope(*(part[:, :-1] for part in slope)), Slope(*(part[:, -1:] for part in slope))
+    return Slope(*(field[:, :-1] for field in slope)), Slope(*(field[:, -1:] for field in slope))
 
 
 def _good(slope: Slope, centre: Array, rule: Rule) -> bool:

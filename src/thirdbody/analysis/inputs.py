@@ -53,16 +53,16 @@ def inputs(contact: Contact) -> dict[str, float]:
 
 def _numbers(value: Value, prefix: str) -> Iterator[tuple[str, float]]:
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
-        part = getattr(value, item.name)
-        if "quantity" in item.metadata and part is not None:
-            yield prefix + item.name, part
-        elif isinstance(part, Value):
-            yield from _numbers(part, f"{prefix}{item.name}.")
-        elif isinstance(part, tuple):
-            for place, each in enumerate(part):
-                label = each.name if isinstance(each, AbstractOutput) else place
-                if isinstance(each, Value):
-                    yield from _numbers(each, f"{prefix}{item.name}.{label}.")
+        field_value = getattr(value, item.name)
+        if "quantity" in item.metadata and field_value is not None:
+            yield prefix + item.name, field_value
+        elif isinstance(field_value, Value):
+            yield from _numbers(field_value, f"{prefix}{item.name}.")
+        elif isinstance(field_value, tuple):
+            for place, member in enumerate(field_value):
+                label = member.name if isinstance(member, AbstractOutput) else place
+                if isinstance(member, Value):
+                    yield from _numbers(member, f"{prefix}{item.name}.{label}.")
 
 
 class Input(NamedTuple):
@@ -81,10 +81,12 @@ class Input(NamedTuple):
 def input_of(contact: Contact, label: str, where: str = "vary[{!r}]") -> Input:
     """The input of a dotted name, or of several joined by "+"; mistakes say ``where`` it stands."""
     names = tuple(name.strip() for name in label.split("+"))
-    known = inputs(contact)
-    if problems := [_no_input(contact, name, known, where) for name in names if name not in known]:
+    numbers = inputs(contact)
+    if problems := [
+        _no_input(contact, name, numbers, where) for name in names if name not in numbers
+    ]:
         raise InvalidValue(*problems)
-    values = tuple(known[name] for name in names)
+    values = tuple(numbers[name] for name in names)
     if len(names) > 1:
         if problems := [
             Problem(
@@ -150,13 +152,13 @@ def words_of(contact: Contact, label: str) -> str:
     >>> words_of(contact, "roughness.R"), words_of(contact, "surfaces.first.H+surfaces.second.H")
     ('mean asperity radius', 'hardness of both surfaces')
     """
-    each = [_words_and_owner(contact, name.strip()) for name in label.split("+")]
-    meanings = list(dict.fromkeys(meaning for meaning, _ in each))
-    owners = list(dict.fromkeys(owner for _, owner in each))
+    pairs = [_words_and_owner(contact, name.strip()) for name in label.split("+")]
+    meanings = list(dict.fromkeys(meaning for meaning, _ in pairs))
+    owners = list(dict.fromkeys(owner for _, owner in pairs))
     if owners == [BODIES["surfaces.first"], BODIES["surfaces.second"]]:
         owners = ["of both surfaces"]
     if len(owners) > 1 and len(meanings) > 1:
-        return join_words([f"{meaning} {owner}".strip() for meaning, owner in each])
+        return join_words([f"{meaning} {owner}".strip() for meaning, owner in pairs])
     return f"{join_words(meanings)} {join_words(owners)}".strip()
 
 
@@ -170,16 +172,16 @@ def _words_and_owner(contact: Contact, name: str) -> tuple[str, str]:
         return name, ""
     first, _, place = name.partition(".")
     if first == "particles" and (number := place.partition(".")[0]).isdecimal():
-        part = contact.value_at(f"particles.{number}")
-        called = part.name or part.material.name or f"population {int(number) + 1}"
+        population = contact.value_at(f"particles.{number}")
+        called = population.name or population.material.name or f"population {int(number) + 1}"
         law = "law of " if place.partition(".")[2].startswith("law.") else ""
         return meaning, f"of {law}{called}"
     return meaning, next((said for of, said in BODIES.items() if name.startswith(f"{of}.")), "")
 
 
-def _no_input(contact: Contact, name: str, known: Iterable[str], where: str) -> Problem:
+def _no_input(contact: Contact, name: str, numbers: Iterable[str], where: str) -> Problem:
     """Why a name is not an input that can be varied."""
-    if unknown := next(unknown_inputs(contact, [name], list(known), where), None):
+    if unknown := next(unknown_inputs(contact, [name], list(numbers), where), None):
         return unknown
     place = where.format(name)
     if name in ("roughness.eta", "roughness.eta_R_sigma"):

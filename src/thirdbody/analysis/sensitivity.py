@@ -120,7 +120,7 @@ class Sensitivity(Record):
         InvalidValue
             There is no such load.
         """
-        counts = [np.size(each) for row in self.elasticity.values() for each in row.values()]
+        counts = [np.size(values) for row in self.elasticity.values() for values in row.values()]
         need_place("at", at, max(counts, default=1))
 
         def one(value: Any) -> float:
@@ -176,24 +176,27 @@ class Sensitivity(Record):
         (2.81±0.15)×10⁻⁷, 2.8066±0.0073
         """
         problems = []
-        for label, given in vary.items():
+        for label, uncertain in vary.items():
             if label not in self.inputs:
-                known = ", ".join(self.inputs)
+                options = ", ".join(self.inputs)
                 problems.append(
-                    Problem("", f"vary[{label!r}] must be one of {known}", code=Mistake.OPTION)
+                    Problem("", f"vary[{label!r}] must be one of {options}", code=Mistake.OPTION)
                 )
-            elif not is_uncertain(given):
+            elif not is_uncertain(uncertain):
                 problems.append(
                     Problem(
-                        f"vary[{label!r}]", "must be a ufloat", f"{given!r:.60}", code=Mistake.KIND
+                        f"vary[{label!r}]",
+                        "must be a ufloat",
+                        f"{uncertain!r:.60}",
+                        code=Mistake.KIND,
                     )
                 )
-            elif not np.allclose(given.nominal_value, self.inputs[label], rtol=1e-9, atol=0):
+            elif not np.allclose(uncertain.nominal_value, self.inputs[label], rtol=1e-9, atol=0):
                 problems.append(
                     Problem(
                         f"vary[{label!r}]",
                         f"must be about {self.inputs[label]!r}, which the slopes are taken at",
-                        f"{given}",
+                        f"{uncertain}",
                         code=Mistake.RANGE,
                     )
                 )
@@ -205,13 +208,14 @@ class Sensitivity(Record):
                 return float(value if i is None or np.ndim(value) == 0 else value[i])
 
             slopes = [
-                (as_float(self.derivative[of][label]), given) for label, given in vary.items()
+                (as_float(self.derivative[of][label]), uncertain)
+                for label, uncertain in vary.items()
             ]
             if unknown := [label for label, (slope, _) in zip(vary, slopes, strict=True)
                            if not math.isfinite(slope)]:  # fmt: skip
-                told = self.status[of][unknown[0]]
+                reason = self.status[of][unknown[0]]
                 raise InvalidValue(
-                    f"{of} has no slope to {unknown[0]}: {told}", code=Mistake.BEYOND
+                    f"{of} has no slope to {unknown[0]}: {reason}", code=Mistake.BEYOND
                 )
             return shift_value(as_float(self.value[of]), slopes)
 
@@ -227,7 +231,7 @@ class Sensitivity(Record):
             notebook.Row(
                 to,
                 [notebook.words_of(np.ravel(row[to])[0]) for row in self.elasticity.values()],
-                "" if (told := quantity_of(self.contact, to)) is None else told["meaning"],
+                "" if (quantity := quantity_of(self.contact, to)) is None else quantity["meaning"],
             )
             for to in self.inputs
         ]
@@ -236,11 +240,11 @@ class Sensitivity(Record):
 
 def _default_inputs(contact: Contact) -> list[str]:
     """Every input that may move; joined where several decide (who is softer, which side wider)."""
-    known = inputs(contact)
+    numbers = inputs(contact)
     pair = contact.surfaces
     alike = pair.alike
     groups: dict[object, list[str]] = {}
-    for name, value in known.items():
+    for name, value in numbers.items():
         side, _, last = name.rpartition(".")
         body = side in ("surfaces.first", "surfaces.second") or side.endswith(".material")
         if body and last == "H":
@@ -353,21 +357,21 @@ def sensitivity(
     if not set(plain) - set(NUMBERS):
         contact = contact.replace(outputs=())
     loads = {"F_star": F_star, "pressure": pressure, "d": d}
-    given = {name: value for name, value in loads.items() if value is not None}
+    loads_by_name = {name: value for name, value in loads.items() if value is not None}
     load = ""
-    if given or plain:
+    if loads_by_name or plain:
         load, _, _ = given_load(contact, pressure, F_star, d)
     labels = _labels(contact, to, load)
     moved = [input_of(contact, name, TO) for name in dict.fromkeys(labels) if name != load]
 
     rule = QUICK if quick else FULL
     with watch_contacts("sensitivity", 2 * rule.reach * len(moved), progress):
-        value, entries = _values_and_slopes(contact, results, given, moved, load, rule)
+        value, entries = _values_and_slopes(contact, results, loads_by_name, moved, load, rule)
 
-    start: dict[str, Any] = {each.label: each.values[0] for each in moved}
+    start: dict[str, Any] = {moved_input.label: moved_input.values[0] for moved_input in moved}
     if load in labels:
-        start[load] = np.atleast_1d(np.asarray(given[load], dtype=float))
-    one = {name: name in CRITICAL or np.ndim(given[load]) == 0 for name in results}
+        start[load] = np.atleast_1d(np.asarray(loads_by_name[load], dtype=float))
+    one = {name: name in CRITICAL or np.ndim(loads_by_name[load]) == 0 for name in results}
 
     def number(values: NDArray[np.generic], name: str) -> Any:
         return values.tolist()[0] if one[name] else values
@@ -384,8 +388,8 @@ def sensitivity(
 
     return Sensitivity(
         contact=contact,
-        load={load: given[load]} if load else {},
-        inputs={label: given[load] if label == load else start[label] for label in labels},
+        load={load: loads_by_name[load]} if load else {},
+        inputs={label: loads_by_name[load] if label == load else start[label] for label in labels},
         value={name: number(value[name], name) for name in results},
         derivative=table(lambda name, label: entries[name][label].derivative),
         elasticity=table(elasticity),
@@ -409,7 +413,11 @@ def _labels(contact: Contact, to: str | Sequence[str] | None, load: str) -> list
 
 def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     """The names of ``of``, each once."""
-    known = (*NUMBERS, *(name for each in contact.outputs for name in each.columns), *CRITICAL)
+    options = (
+        *NUMBERS,
+        *(name for output in contact.outputs for name in output.columns),
+        *CRITICAL,
+    )
     names = list(dict.fromkeys([of] if isinstance(of, str) else of))
     if not names:
         raise InvalidValue(is_empty("of", "name a column of Equilibrium or a critical load"))
@@ -418,11 +426,11 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
             "of",
             "has no derivative",
             repr(name),
-            hint=f"it must be one of {', '.join(known)}",
+            hint=f"it must be one of {', '.join(options)}",
             code=Mistake.OPTION,
         )
         for name in names
-        if name not in known
+        if name not in options
     ]:
         raise InvalidValue(*problems)
     return names
@@ -431,7 +439,7 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
 def _values_and_slopes(
     contact: Contact,
     results: Sequence[str],
-    given: Mapping[str, ArrayLike],
+    loads_by_name: Mapping[str, ArrayLike],
     moved: Sequence[Input],
     load: str,
     rule: Rule,
@@ -440,7 +448,7 @@ def _values_and_slopes(
     value: dict[str, Array] = {}
     entries: dict[str, dict[str, Entry]] = {}
     if plain := [name for name in results if name not in CRITICAL]:
-        state = solve(contact, **as_loads(given))
+        state = solve(contact, **as_loads(loads_by_name))
         columns = state.columns()
         value = {name: columns[name] for name in plain}
         entries = _of_columns(contact, state, moved, load, plain, rule)
@@ -464,18 +472,18 @@ def _of_columns(
     out = {
         name: {
             label: Entry(nothing.copy(), nothing.copy(), words.astype(object))
-            for label in (*(each.label for each in moved), load)
+            for label in (*(moved_input.label for moved_input in moved), load)
         }
         for name in columns
     }
-    known = np.flatnonzero(np.isfinite(d))
-    for start in range(0, len(known), AT_ONCE):
-        here = known[start : start + AT_ONCE]
+    solved = np.flatnonzero(np.isfinite(d))
+    for start in range(0, len(solved), AT_ONCE):
+        here = solved[start : start + AT_ONCE]
         places = Places(contact, d[here], None if load == "d" else load, columns, rule=rule)
         for label, entries in places.entries(moved, load).items():
             for name, entry in zip(columns, entries, strict=True):
-                for whole, part in zip(out[name][label], entry, strict=True):
-                    whole[here] = part
+                for whole, values in zip(out[name][label], entry, strict=True):
+                    whole[here] = values
     return out
 
 
@@ -484,15 +492,17 @@ def _of_critical(
 ) -> tuple[Array, dict[str, Entry]]:
     """A critical load to rounding, and its derivatives: there the share keeps its value."""
     share, level = CRITICAL[name]
-    found = transitions(contact).entries()[name]
-    why = "" if found.status == CriticalStatus.FOUND else found.status
+    critical = transitions(contact).entries()[name]
+    why = "" if critical.status == CriticalStatus.FOUND else critical.status
     if not why and not share:
         why = "the strongest bend is taken from a grid of loads and has no derivative"
     if why:
         none = Entry(np.array([np.nan]), np.array([np.nan]), np.array([why], dtype=object))
-        value = np.nan if found.value is None else found.value
-        return np.array([value]), dict.fromkeys((*(each.label for each in moved), load), none)
-    d = np.atleast_1d(solve(contact, F_star=found.value).d)
+        value = np.nan if critical.value is None else critical.value
+        return np.array([value]), dict.fromkeys(
+            (*(moved_input.label for moved_input in moved), load), none
+        )
+    d = np.atleast_1d(solve(contact, F_star=critical.value).d)
     for _ in range(8):
         places = Places(contact, d, share, ["F_star"], peak=level is None, rule=rule)
         centre, slope = places.along_d()

@@ -73,10 +73,10 @@ def beside_query(state: State, room: int) -> str:
     them, or of the examples, the tab lays beside.
     """
     studies = {"opened": state.opened if state.opened != state.study else None, "kept": state.kept}
-    told = {name: _code(study) for name, study in studies.items() if study is not None}
+    codes = {name: _code(study) for name, study in studies.items() if study is not None}
     if state.beside:
-        told["beside"] = quote(state.beside)
-    out = "".join(f"&{name}={text}" for name, text in told.items())
+        codes["beside"] = quote(state.beside)
+    out = "".join(f"&{name}={text}" for name, text in codes.items())
     return out if len(out) <= room else ""
 
 
@@ -111,9 +111,11 @@ def files_in(query: Mapping[str, str]) -> dict[str, str]:
     >>> files_in({"files": "part.x3p:12ab,../part.x3p:12ab,other"})
     {'part.x3p': '12ab'}
     """
-    pairs = [each.partition(":") for each in query.get("files", "").split(",", MOST_FILES)]
-    known = pairs[:MOST_FILES]
-    return {a: b for a, _, b in known if harmless(a) == a and re.fullmatch("[0-9a-f]{1,64}", b)}
+    pairs = [text.partition(":") for text in query.get("files", "").split(",", MOST_FILES)]
+    first_pairs = pairs[:MOST_FILES]
+    return {
+        a: b for a, _, b in first_pairs if harmless(a) == a and re.fullmatch("[0-9a-f]{1,64}", b)
+    }
 
 
 def surface_in(query: Mapping[str, str]) -> dict[str, str]:
@@ -125,14 +127,14 @@ def surface_in(query: Mapping[str, str]) -> dict[str, str]:
     ({}, {})
     """
     try:
-        told = json.loads(query.get("surface", "")[:2000])
+        reading = json.loads(query.get("surface", "")[:2000])
     except (ValueError, RecursionError):
         return {}
-    if not isinstance(told, dict) or not set(told) <= set(READ_AS):
+    if not isinstance(reading, dict) or not set(reading) <= set(READ_AS):
         return {}
-    if not all(isinstance(value, str) for value in told.values()):
+    if not all(isinstance(value, str) for value in reading.values()):
         return {}
-    return told if (name := told.get("file")) and harmless(name) == name else {}
+    return reading if (name := reading.get("file")) and harmless(name) == name else {}
 
 
 class Address:
@@ -144,7 +146,7 @@ class Address:
         self.mark = set_attributes(
             ui.element("div").classes("hidden"), {"data-step": "0", "data-address": ""}
         )
-        self.told = self._now()
+        self.written = self._now()
         self.tabs = 0
         """How often the tab was changed."""
 
@@ -155,7 +157,7 @@ class Address:
 
     def follow_study(self) -> str:
         """Follow the study; what is to be said about it."""
-        if self._now() != self.told:
+        if self._now() != self.written:
             if self.later is not None:
                 self.later.cancel()
             self.later = asyncio.get_running_loop().call_later(REST, self._write)
@@ -168,13 +170,13 @@ class Address:
         """The browser is there already."""
         if self.later is not None:
             self.later.cancel()
-        self.told = self._now()
+        self.written = self._now()
 
     def _write(self) -> None:
         now = self._now()
         _, at, tab, *_ = now
-        self.tabs += tab != self.told[2]
-        self.told = now
+        self.tabs += tab != self.written[2]
+        self.written = now
         query = "" if self._too_long() else query_of(self.state, at)
         if query:
             query += beside_query(self.state, LONGEST_LINK - len(query)) + "&"

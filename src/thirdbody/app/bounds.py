@@ -55,13 +55,13 @@ def refuse_large(study: dict[str, object]) -> None:
     Traceback (most recent call last):
     thirdbody.errors.InvalidValue: load.F_star.points = 1000000: the page takes at most 2000; ...
     """
-    found = []
+    problems = []
     for problem in _problems(study):
-        found.append(problem)
-        if len(found) == MOST_SAID:
+        problems.append(problem)
+        if len(problems) == MOST_SAID:
             break
-    if found:
-        raise InvalidValue(*found, code=Mistake.TOO_LARGE)
+    if problems:
+        raise InvalidValue(*problems, code=Mistake.TOO_LARGE)
 
 
 def _problems(study: dict[str, object]) -> Iterator[str]:

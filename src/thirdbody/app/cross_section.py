@@ -92,8 +92,8 @@ def profile(sigma: float, R: float, alpha: float, width: float, seed: int) -> tu
 
     # squared wave numbers spread so that <k²> = m2/m0 and <k⁴> = α <k²>²
     shape = 1 / (alpha - 1)
-    part = (np.arange(WAVES) + 0.5) / WAVES
-    k2 = gamma.ppf(part, shape, scale=m2 / m0 / shape)
+    probability = (np.arange(WAVES) + 0.5) / WAVES
+    k2 = gamma.ppf(probability, shape, scale=m2 / m0 / shape)
     k2 *= (m2 / m0) / k2.mean()
     rng = np.random.default_rng(seed)
     phases = rng.uniform(0, 2 * math.pi, WAVES)
@@ -120,7 +120,7 @@ def section(
     def room(other: int) -> tuple[Array, Array, dict[int, tuple[Array, Array]]]:
         x, z = profile(rough.sigma, rough.R, rough.alpha, width, seed + 1000 * other)
         every = {i: _chances(contact, dusts[i], z, h) for i in carriers}
-        return x, z, {i: found for i, found in every.items() if found[1].any()}
+        return x, z, {i: pair for i, pair in every.items() if pair[1].any()}
 
     rooms = map(room, range(PLACES))
     x, z, chances = next((r for r in rooms if len(r[2]) == len(carriers)), room(0))
@@ -166,7 +166,7 @@ def _shares(state: tb.Equilibrium) -> list[float]:
     if state.contact.two_body:
         return []
     if state.populations:
-        return [float(np.ravel(part.load_share)[0]) for part in state.populations]
+        return [float(np.ravel(population.load_share)[0]) for population in state.populations]
     return [float(np.ravel(state.particle_load_share)[0])]
 
 
@@ -191,8 +191,8 @@ def _draw_loaded_grain(
     """One of the particles of the model that are loaded."""
     at = int(rng.choice(len(x), p=chances / chances.sum()))
     # the parts of the population that are large enough there
-    part = 1 - chances[at] * rng.uniform(0, 1)
-    diameter = float(dust.diameter.ppf(part))
+    probability = 1 - chances[at] * rng.uniform(0, 1)
+    diameter = float(dust.diameter.ppf(probability))
     return Grain(number, diameter, float(x[at]), float(seats[at]), float(h - seats[at]))
 
 

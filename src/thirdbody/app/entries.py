@@ -86,7 +86,7 @@ class Entries:
         for name, (widget, read, show, whole) in self.shown.items():
             inner = f"{name}." if whole else name
             mine = [p for p in left if about_of(p) == name or about_of(p).startswith(inner)]
-            left = [each for each in left if each not in mine]
+            left = [problem for problem in left if problem not in mine]
             path = tuple(int(step) if step.isdecimal() else step for step in name.split("."))
             now = self.state.get(*path)
             if read is not None:
@@ -150,12 +150,12 @@ class Entries:
         """A table as it stands in the file, its mistakes below."""
 
         def read(text: str) -> object:
-            given = from_toml(text)
-            if other := [key for key in given if key != name]:
+            tables = from_toml(text)
+            if other := [key for key in tables if key != name]:
                 raise InvalidValue(
                     f"here stands [{name}] alone, not {', '.join(other)}", code=Mistake.CLASH
                 )
-            return given.get(name)
+            return tables.get(name)
 
         def set_text(event: ValueChangeEventArguments[Any]) -> None:
             try:
@@ -193,8 +193,8 @@ class Entries:
 
         if not isinstance(now, str):
             now = text_of(now)  # a mistake, which stands there as it is written
-        known = options if now in options else {now: now, **options}
-        menu = ui.select(known, value=now, label=label, on_change=set_choice)
+        choices = options if now in options else {now: now, **options}
+        menu = ui.select(choices, value=now, label=label, on_change=set_choice)
         set_attributes(
             menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)}
         )
@@ -211,13 +211,13 @@ class Entries:
     # ------------------------------------------------------------------ tables
     def table(self, *place: str | int) -> dict[str, object]:
         """A table of the study; an empty one where something else stands."""
-        given = self.state.get(*place)
-        return given if isinstance(given, dict) else {}
+        value = self.state.get(*place)
+        return value if isinstance(value, dict) else {}
 
     def material(self, place: Place, label: str) -> None:
         """A material of the library, or own values."""
         now = self.state.get(*place)
-        own = isinstance(now, dict)
+        is_table = isinstance(now, dict)
         library = self.state.library
         options = {OWN: OWN, **{name: name for name in library}}
 
@@ -225,19 +225,19 @@ class Entries:
             if value != OWN:
                 self.change(*place, value)
                 return
-            known = library[now] if isinstance(now, str) and now in library else None
-            given = {"E": known.E, "nu": known.nu, "H": known.H} if known else {}
-            self.change(*place, given or {"E": "205 GPa", "nu": 0.29, "H": "5 GPa"})
+            chosen = library[now] if isinstance(now, str) and now in library else None
+            values = {"E": chosen.E, "nu": chosen.nu, "H": chosen.H} if chosen else {}
+            self.change(*place, values or {"E": "205 GPa", "nu": 0.29, "H": "5 GPa"})
 
-        self.select(place, options, OWN if own else now, label, set_material)
-        if own:
-            for each in fields_of(tb.Material):
-                self.field(place, each)
+        self.select(place, options, OWN if is_table else now, label, set_material)
+        if is_table:
+            for field in fields_of(tb.Material):
+                self.field(place, field)
         elif isinstance(now, str) and now in library:
-            known = library[now]
+            chosen = library[now]
             ui.label(
-                f"E = {value_of(known.E, 'Pa')}, ν = {number(known.nu)}, "
-                f"H = {value_of(known.H, 'Pa')}"
+                f"E = {value_of(chosen.E, 'Pa')}, ν = {number(chosen.nu)}, "
+                f"H = {value_of(chosen.H, 'Pa')}"
             ).classes("hint")
 
     def variant(
@@ -265,12 +265,12 @@ class Entries:
         kind = registry.get(chosen)
         if kind is None:
             return
-        for each in fields_of(kind):
+        for field in fields_of(kind):
             if not isinstance(now, dict):
                 # an entry needs a table to stand in
-                self._word_entry(place, each, tag, chosen)
+                self._word_entry(place, field, tag, chosen)
             else:
-                self.field(place, each)
+                self.field(place, field)
         for item in dataclasses.fields(kind):
             if item.type == "AbstractAsperityLaw" and isinstance(now, dict):
                 label = f"{item.name}: asperity law inside"

@@ -93,19 +93,23 @@ ENTRIES = {
 def fields_of(kind: type) -> list[Field]:
     """The fields of a value class that a study file can set with one entry."""
     out = []
-    for each in declarations(kind):
-        if each.quantity is not None:
-            out.append(number_field(each.name, each.quantity, each.default, each.needed))
-        elif each.kind in ENTRIES or each.declared in FIELDS.keys() - NESTED:
-            entry, said = ENTRIES.get(each.kind, ("text", TOML))
+    for declaration in declarations(kind):
+        if declaration.quantity is not None:
+            out.append(
+                number_field(
+                    declaration.name, declaration.quantity, declaration.default, declaration.needed
+                )
+            )
+        elif declaration.kind in ENTRIES or declaration.declared in FIELDS.keys() - NESTED:
+            entry, said = ENTRIES.get(declaration.kind, ("text", TOML))
             out.append(
                 Field(
-                    name=each.name,
+                    name=declaration.name,
                     kind=entry,
-                    label=each.name,
-                    about=each.meaning or said,
-                    options=each.options,
-                    default=each.default,
+                    label=declaration.name,
+                    about=declaration.meaning or said,
+                    options=declaration.options,
+                    default=declaration.default,
                 )
             )
     return out
@@ -114,8 +118,8 @@ def fields_of(kind: type) -> list[Field]:
 def known_keys(study: dict[str, object], name: str) -> dict[str, dict[str, str]]:
     """What the reader of study files knows in one table and those inside: keys, what each is."""
     tables = [table for table in TABLES if table.name == name]
-    found = Describer(Path(), study).known_of(tables).keys
-    return {path: keys for path, keys in found.items() if path}
+    by_path = Describer(Path(), study).known_of(tables).keys
+    return {path: keys for path, keys in by_path.items() if path}
 
 
 def number_field(name: str, about: Quantity, default: object = None, needed: bool = True) -> Field:
@@ -182,8 +186,8 @@ VARIANTS = {
 def options_of(kind: Any) -> dict[str, str]:
     """The words of a registry and how a menu shows them."""
     return {
-        name: f"{name}: {title}" if (title := getattr(each, "title", "")) else name
-        for name, each in kind.items()
+        name: f"{name}: {title}" if (title := getattr(choice, "title", "")) else name
+        for name, choice in kind.items()
     }
 
 
@@ -219,7 +223,7 @@ def value_from(text: str, *, one: bool = False) -> object:
     except InvalidValue:
         return text
     if "," in text and text[0] not in '[{"':
-        return [value_of(part) for part in text.split(",") if part.strip()]
+        return [value_of(entry) for entry in text.split(",") if entry.strip()]
     return value_of(text)
 
 

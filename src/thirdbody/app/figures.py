@@ -97,7 +97,7 @@ class Figure(TypedDict):
 
 
 def _rgb(colour: Iterable[float]) -> str:
-    return "rgb(" + ",".join(str(round(255 * part)) for part in colour) + ")"
+    return "rgb(" + ",".join(str(round(255 * channel)) for channel in colour) + ")"
 
 
 MODE_FILLS = {name: _rgb(colour) for name, colour in MODE_COLOURS.items()}
@@ -156,7 +156,7 @@ def figure(
         "annotations": [],
     }
     made: Figure = {"data": data, "layout": {**layout, **more}, "config": CONFIG}
-    curves = [each["y"] for each in data if each.get("type") == "scatter" and each.get("y")]
+    curves = [trace["y"] for trace in data if trace.get("type") == "scatter" and trace.get("y")]
     if ylog and len(curves) == len(data):
         fix(made, "yaxis", span(upper_decades(curves), log=True))
     return made
@@ -184,8 +184,8 @@ TICKS = ((1.0, (1, 2, 5)), (0.6, (1, 2, 3, 4, 6, 8)))
 
 def _decades(data: list[Part], name: str) -> Part:
     """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two or so."""
-    known = [_array(each[name]) for each in data if each.get(name) is not None]
-    every = upper_decades(known) if name == "y" else np.concatenate([*known, [np.nan]])
+    arrays = [_array(trace[name]) for trace in data if trace.get(name) is not None]
+    every = upper_decades(arrays) if name == "y" else np.concatenate([*arrays, [np.nan]])
     every = every[np.isfinite(every) & (every > 0)]
     wide = float(np.log10(every.max() / every.min())) if every.size else 0.0
     if wide > 1.9:  # the browser writes powers a quarter larger than other numbers
@@ -263,12 +263,12 @@ def upper_decades(curves: Iterable[object]) -> np.ndarray:
     [1.0, 0.001, 1e-09, 1e-08]
     """
     every = [_array(curve).ravel() for curve in curves]
-    known = [curve[np.isfinite(curve) & (curve > 0)] for curve in every]
-    known = [curve for curve in known if curve.size]
-    if not known:
+    positive = [curve[np.isfinite(curve) & (curve > 0)] for curve in every]
+    positive = [curve for curve in positive if curve.size]
+    if not positive:
         return np.empty(0)
-    least = NEGLIGIBLE * max(curve.max() for curve in known)
-    kept = [c[c >= max(least, c.max() / 10.0**FOLLOWED)] for c in known]
+    least = NEGLIGIBLE * max(curve.max() for curve in positive)
+    kept = [c[c >= max(least, c.max() / 10.0**FOLLOWED)] for c in positive]
     return np.concatenate(kept)
 
 
@@ -286,11 +286,11 @@ def span(values: ArrayLike, *, log: bool = False, padded: bool = True) -> list[f
     >>> span([0.3, 4.2]), span([0.1, 100.0], log=True, padded=False)
     ([0.0, 5.0], [-1.0, 2.0])
     """
-    known = np.asarray(values, float).ravel()
-    known = known[np.isfinite(known) & ((known > 0) | (not log))]
-    if not known.size:
+    finite = np.asarray(values, float).ravel()
+    finite = finite[np.isfinite(finite) & ((finite > 0) | (not log))]
+    if not finite.size:
         return None
-    low, high = float(known.min()), float(known.max())
+    low, high = float(finite.min()), float(finite.max())
     if log:
         if not padded:
             return [float(np.log10(low)), float(np.log10(high))] if low < high else None

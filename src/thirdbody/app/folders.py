@@ -65,12 +65,12 @@ class Shelf:
         with contextlib.suppress(FileExistsError):
             _same(file, kept)
         os.utime(kept)
-        every = sorted(self.path.iterdir(), key=lambda each: (each != kept, -each.stat().st_mtime))
+        every = sorted(self.path.iterdir(), key=lambda path: (path != kept, -path.stat().st_mtime))
         room = LARGEST_SHELF
-        for each in every:
-            room -= each.stat().st_size
-            if room < 0 and each != kept:
-                each.unlink()
+        for path in every:
+            room -= path.stat().st_size
+            if room < 0 and path != kept:
+                path.unlink()
         return key
 
     def give(self, key: str, file: Path) -> bool:
@@ -105,12 +105,12 @@ def remove_left() -> list[Path]:
     except ImportError:
         return []  # without locks nobody knows whether a server is alive
     removed = []
-    for found in sorted(Path(tempfile.gettempdir()).glob(f"{PREFIX}*")):
+    for folder in sorted(Path(tempfile.gettempdir()).glob(f"{PREFIX}*")):
         with contextlib.suppress(OSError):
-            if found.is_symlink() or found.lstat().st_uid != os.getuid():
+            if folder.is_symlink() or folder.lstat().st_uid != os.getuid():
                 continue
-            with (found / LOCK).open("r+") as lock:
+            with (folder / LOCK).open("r+") as lock:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                shutil.rmtree(found)
-                removed.append(found)
+                shutil.rmtree(folder)
+                removed.append(folder)
     return removed

@@ -68,10 +68,10 @@ class Guard:
     def _is_own_request(self, headers: dict[str, str], scope: Message) -> bool:
         """Asked for under a name of its own, by nobody else than itself."""
         secure = scope.get("scheme", "http") in ("https", "wss")
-        own = _origin(f"{'https' if secure else 'http'}://{headers.get('host', '')}")
-        if self.hosts and (own is None or own[1] not in self.hosts):
+        origin = _origin(f"{'https' if secure else 'http'}://{headers.get('host', '')}")
+        if self.hosts and (origin is None or origin[1] not in self.hosts):
             return False
-        return "origin" not in headers or _origin(headers["origin"]) == own
+        return "origin" not in headers or _origin(headers["origin"]) == origin
 
     def _count_body(self, receive: Receive) -> Receive:
         """Ends a body that goes on beyond the limit without having said so."""
@@ -160,7 +160,7 @@ class Headers:
                     return
                 start, *parts = held
                 held.clear()
-                body = b"".join(part.get("body", b"") for part in parts)
+                body = b"".join(chunk.get("body", b"") for chunk in parts)
                 # texts of a study stand in it as data, in which < is escaped
                 body = body.replace(b"<script", f'<script nonce="{nonce}"'.encode())
                 start["headers"] = [

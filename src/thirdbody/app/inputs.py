@@ -149,22 +149,22 @@ class Inputs(ParticleInputs):
             self.other_fields("roughness")
             ui.button("Numbers instead", on_click=self._numbers).props("flat dense")
             return
-        given = self.table("roughness")
-        stated = "faces" if {"first", "second"} & given.keys() else "pair"
+        table = self.table("roughness")
+        stated = "faces" if {"first", "second"} & table.keys() else "pair"
         self.select(
             None,
             HEIGHTS_GIVEN,
-            stated if is_drawn(given) else "sigma",
+            stated if is_drawn(table) else "sigma",
             "heights given as",
             lambda word: self.change("roughness", ROUGHNESS_BEGUN[word]),
         )
-        if is_drawn(given):
+        if is_drawn(table):
             self._drawing_fields(stated == "faces")
-        for each in fields_of(tb.Roughness):
-            if not is_drawn(given):
-                self.field(("roughness",), each)
-            elif each.quantity is not None and each.name != "sigma":
-                better = number_field(each.name, each.quantity, each.default, needed=False)
+        for field in fields_of(tb.Roughness):
+            if not is_drawn(table):
+                self.field(("roughness",), field)
+            elif field.quantity is not None and field.name != "sigma":
+                better = number_field(field.name, field.quantity, field.default, needed=False)
                 self.field(("roughness",), better)
         self.variant(("roughness", "heights"), VARIANTS["heights"], "gaussian", "heights")
         self.ellipticity()
@@ -273,8 +273,8 @@ class Inputs(ParticleInputs):
             "bodies",
             lambda word: self.change("body", BODIES_BEGUN[word]),
         )
-        for each in fields_of(BODIES[kind]) if kind in BODIES else ():
-            self.field(("body",), each)
+        for field in fields_of(BODIES[kind]) if kind in BODIES else ():
+            self.field(("body",), field)
 
     def output_switches(self) -> None:
         """A switch for every output of the library."""
@@ -301,13 +301,13 @@ class Inputs(ParticleInputs):
         folded = [
             f for f in every if f.default is not None and self.state.get(*place, f.name) is None
         ]
-        for each in every:
-            if each not in folded:
-                self.field(place, each)
+        for field in every:
+            if field not in folded:
+                self.field(place, field)
         if folded:
             with ui.expansion("more").classes("w-full").props("dense"):
-                for each in folded:
-                    self.field(place, each)
+                for field in folded:
+                    self.field(place, field)
 
     def _switch(self, place: Place, on: bool) -> None:
         wanted = dict(self.table("outputs"))
@@ -323,13 +323,13 @@ class Inputs(ParticleInputs):
     # ------------------------------------------------------------------ uncertainty
     def uncertain(self) -> None:
         """What is known of the inputs: a row each."""
-        known = [e for e in inputs_of(self.state.study) if e.quantity and not e.idle]
-        meanings = {e.name: str(e.quantity["meaning"]) for e in known if e.quantity}
+        numbers = [e for e in inputs_of(self.state.study) if e.quantity and not e.idle]
+        meanings = {e.name: str(e.quantity["meaning"]) for e in numbers if e.quantity}
         names = {name: f"{name}: {meaning}" for name, meaning in meanings.items()}
         given_loads = [name for name in LOADS if self.state.get("load", name) is not None]
         names |= {f"load.{name}": f"load.{name}" for name in given_loads}
-        given = self.table("uncertainty", "inputs")
-        flat = _flat(given)
+        ranges = self.table("uncertainty", "inputs")
+        flat = _flat(ranges)
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
                 with ui.column().classes("grow gap-0"):
@@ -387,7 +387,7 @@ def _flat(tree: dict[str, object], path: str = "") -> dict[str, object]:
     out: dict[str, object] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
-        if isinstance(value, dict) and any(isinstance(part, dict) for part in value.values()):
+        if isinstance(value, dict) and any(isinstance(entry, dict) for entry in value.values()):
             out |= _flat(value, where)
         else:
             out[where] = value

@@ -50,7 +50,7 @@ class Job:
         self.ends: list[str] = []
         """How processes ended that were to answer."""
 
-    async def run(self, **asked: object) -> Any:
+    async def run(self, **arguments: object) -> Any:
         """The result of the task.
 
         Raises
@@ -71,7 +71,7 @@ class Job:
             self.ends.clear()
             while True:
                 try:
-                    return await self._run(surroundings, asked)
+                    return await self._run(surroundings, arguments)
                 except Died:  # which the next process need not be
                     if len(self.ends) == TRIES:
                         raise
@@ -79,7 +79,7 @@ class Job:
             RUNNING.discard(self)
 
     async def _run(
-        self, surroundings: dict[str, str], asked: dict[str, object]
+        self, surroundings: dict[str, str], arguments: dict[str, object]
     ) -> dict[str, object]:
         self.process = await asyncio.create_subprocess_exec(
             sys.executable,
@@ -94,7 +94,7 @@ class Job:
         try:
             if self.stopped:
                 raise Stopped
-            return await asyncio.wait_for(self._talk({"task": self.task} | asked), self.seconds)
+            return await asyncio.wait_for(self._talk({"task": self.task} | arguments), self.seconds)
         except TimeoutError:
             raise InvalidValue(
                 f"{self.task}: stopped after {self.seconds:g} s; ask for less",
@@ -103,13 +103,13 @@ class Job:
         finally:
             await self._end()
 
-    async def _talk(self, asked: dict[str, object]) -> Any:
+    async def _talk(self, request: dict[str, object]) -> Any:
         assert self.process is not None
         stdin, stdout = self.process.stdin, self.process.stdout
         assert stdin is not None
         assert stdout is not None
         with contextlib.suppress(ConnectionError):
-            stdin.write(json.dumps(asked).encode())
+            stdin.write(json.dumps(request).encode())
             await stdin.drain()
             stdin.close()
         try:
@@ -119,7 +119,7 @@ class Job:
                     self.report(float(said["done"]))
                 elif "problems" in said:
                     wrong = (Problem(**parts) for parts in said["problems"])
-                    raise InvalidValue(*(each.worded(without_paths) for each in wrong))
+                    raise InvalidValue(*(problem.worded(without_paths) for problem in wrong))
                 elif "result" in said:
                     result = said["result"]
                     for name in {"warnings", "notes"} & result.keys():

@@ -120,8 +120,8 @@ def first_study(kind: str, which: str = "") -> dict[str, object]:
 
 def oil_of(study: dict[str, object]) -> str:
     """What is in the oil of a study, as the form says it."""
-    given = study.get("particles")
-    first = given[0] if isinstance(given, list) else given
+    particles = study.get("particles")
+    first = particles[0] if isinstance(particles, list) else particles
     if not isinstance(first, dict):
         return "clean"
     return "code" if "iso4406" in first else "room" if "iso14644" in first else "grains"
@@ -249,8 +249,8 @@ class NewStudy:
         elif word != "clean":
             place = inputs.first_population(self.draft)
             inputs.material((*place, "material"), "material")
-            own = {"grains": ("median", "gsd"), "room": ()}[word]
-            for field in self._fields(*own):
+            names = {"grains": ("median", "gsd"), "room": ()}[word]
+            for field in self._fields(*names):
                 inputs.field(place, field)
             if word == "room":
                 about = "ISO 14644-1, e.g. 7"
@@ -281,11 +281,11 @@ class NewStudy:
         entry = ui.input("ISO 4406 code", value=several[0]["iso4406"]).classes("w-full")
         entry.props('dense data-path="new.code" hint="of the oil, e.g. 18/16/13"')
         entry.on("change", lambda: self._set_in_all("iso4406", str(entry.value or "")))
-        for i, each in enumerate(several):
+        for i, population in enumerate(several):
             share = Field(
                 name="share",
                 kind="text",
-                label=f"of them {each.get('name', 'particles')}",
+                label=f"of them {population.get('name', 'particles')}",
                 about="part of the counted particles, 0 to 1",
             )
             self.inputs.field(("particles", i), share)
@@ -297,7 +297,7 @@ class NewStudy:
         """The same entry in every population."""
         several = self.draft.get("particles")
         if isinstance(several, list):
-            self.draft.set("particles", [each | {key: value} for each in several])
+            self.draft.set("particles", [population | {key: value} for population in several])
 
     def _set_kind(self, kind: str) -> None:
         self.kind = kind

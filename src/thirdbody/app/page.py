@@ -74,21 +74,23 @@ class Start:
 
     def state(self, query: Mapping[str, str]) -> tuple[State, str]:
         """The state of a new page: that of the link, or the start; and what to tell."""
-        own = self.folders.new()
-        study, at, tab, told = self.read(query)
+        page_folder = self.folders.new()
+        study, at, tab, message = self.read(query)
         opened, kept, chosen = beside_in(query) if "study" in query else (None, None, "")
-        named = [name for each in (study, opened or {}, kept or {}) for name in files_of(each)]
+        named = [
+            name for one_study in (study, opened or {}, kept or {}) for name in files_of(one_study)
+        ]
         if self.folder is not None:
             for name in files_of(self.study):
                 beside = self.folder / name
                 if Path(name).name in named and beside.is_file():
-                    shutil.copyfile(beside, own / Path(name).name)
-        state = State(study, own, at, later=True)
+                    shutil.copyfile(beside, page_folder / Path(name).name)
+        state = State(study, page_folder, at, later=True)
         state.tab = tab
         state.opened, state.kept, state.beside = opened or study, kept, chosen
         state.shelf = self.folders.shelf
         self.give(state, query)
-        return state, told
+        return state, message
 
     def give(self, state: State, query: Mapping[str, str]) -> None:
         """What the address tells of files, and those that are still here."""
@@ -110,8 +112,8 @@ class Start:
             at = float(query["at"]) if "at" in query else None
             return from_link(query["study"]), at, tab, ""
         except (InvalidValue, ValueError) as error:
-            told = "; ".join(getattr(error, "problems", ["the link has no number after at="]))
-            return example(), None, tab, f"{told}; here is the example instead"
+            message = "; ".join(getattr(error, "problems", ["the link has no number after at="]))
+            return example(), None, tab, f"{message}; here is the example instead"
 
 
 def _plain_names(study: object) -> Any:
@@ -151,7 +153,7 @@ def _time(seconds: float) -> str:
     return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
 
 
-def page(state: State, told: str, start: Start) -> None:
+def page(state: State, message: str, start: Start) -> None:
     """Put everything on the page of one visitor; what is computed follows."""
 
     def close_state() -> None:
@@ -163,14 +165,14 @@ def page(state: State, told: str, start: Start) -> None:
     ui.add_css(LOOK)
     ui.add_body_html(RESIZE + FOLLOW)
     ui.colors(primary="#0072B2", accent="#D55E00", positive="#009E73", negative="#b3261e")
-    Page(state, told, start)
+    Page(state, message, start)
 
 
 class Page:
     """Header, entries at the side, sliders and tabs; and what happens between them."""
 
-    def __init__(self, state: State, told: str, start: Start) -> None:
-        self.state, self.told, self.start = state, told, start
+    def __init__(self, state: State, message: str, start: Start) -> None:
+        self.state, self.message, self.start = state, message, start
         self.waits: deque[tuple[float, float]] = deque(maxlen=MOST_WAITS)
         """When calls of this page waited for a process."""
         self.waiting: dict[str, ui.element] = {}
@@ -188,7 +190,7 @@ class Page:
         set_attributes(skip, {"href": f"#{whole.html_id}"})
         with whole.props('tabindex=-1 role=region aria-label="the answer"'):
             with ui.row().classes("w-full items-center gap-3"):
-                self.banner = ui.label(told).classes("problem")
+                self.banner = ui.label(message).classes("problem")
                 self.banner.props('role=alert data-said="page"')
                 self.retry = ui.button("Try again", icon="refresh", on_click=self._try_again)
                 self.retry.props('flat dense no-caps data-path="again"').set_visibility(False)
@@ -292,7 +294,7 @@ class Page:
             return
         wrong = self._wrong()
         if not self.retry.visible:  # mistakes that are mended are not told while the tab is drawn
-            self._say(wrong or self.told)
+            self._say(wrong or self.message)
         try:
             if not await self._draw_in_sight(state.tab):
                 return  # another tab is asked for
@@ -300,7 +302,7 @@ class Page:
             raise
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
-        self._say(wrong or self.told)
+        self._say(wrong or self.message)
         self.verdict.clock.set_text(_time_words(time.perf_counter() - state.began, state.began))
         await self.verdict.show_sentence()
         self.verdict.note(remark)

@@ -20,16 +20,16 @@ SIZES = (*VARIANTS["distribution"], *COUNTED)
 AMOUNTS = ("gap", "particle_density", "oil_density")
 
 
-def bins_in_words(given: Mapping[str, object]) -> str:
+def bins_in_words(bins: Mapping[str, object]) -> str:
     """What a counter found, in a few words.
 
     >>> bins_in_words({"edges": [1e-6, 2e-6, 4e-6], "counts": [5, 1]})
     '2 bins from 1 µm to 4 µm'
     """
-    edges = given.get("edges")
+    edges = bins.get("edges")
     if not isinstance(edges, list) or len(edges) < 2:
         return "bins in the study file"
-    ends = [value_of(each, "m") if isinstance(each, float) else text_of(each) for each in edges]
+    ends = [value_of(edge, "m") if isinstance(edge, float) else text_of(edge) for edge in edges]
     return f"{len(edges) - 1} bins from {ends[0]} to {ends[-1]}"
 
 
@@ -47,10 +47,10 @@ class ParticleInputs(Entries):
 
     def populations(self) -> list[Place]:
         """Where each population of particles stands."""
-        given = self.state.get("particles")
-        if isinstance(given, list):
-            return [("particles", i) for i in range(len(given))]
-        return [("particles",)] if given is not None else []
+        particles = self.state.get("particles")
+        if isinstance(particles, list):
+            return [("particles", i) for i in range(len(particles))]
+        return [("particles",)] if particles is not None else []
 
     def population(self, place: Place) -> None:
         """One population: material, sizes, how many."""
@@ -76,8 +76,8 @@ class ParticleInputs(Entries):
         if kind in COUNTED:
             self._build_count(place, kind, table[kind])
         elif kind in VARIANTS["distribution"]:
-            for each in fields_of(VARIANTS["distribution"][kind]):
-                self.field(place, each)
+            for field in fields_of(VARIANTS["distribution"][kind]):
+                self.field(place, field)
         self.amount(place, kind)
         self.field(place, Field(name="name", kind="string", label="name", about="in the results"))
         if not isinstance(table.get("strength"), dict):  # a table stands in the file alone
@@ -96,17 +96,17 @@ class ParticleInputs(Entries):
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
 
-    def _build_count(self, place: Place, kind: str, given: object) -> None:
+    def _build_count(self, place: Place, kind: str, count: object) -> None:
         """A code, or what a counter found, and their options."""
-        if isinstance(given, dict):  # dropped on the page
-            ui.label(f"{kind}: {bins_in_words(given)}").classes("hint")
+        if isinstance(count, dict):  # dropped on the page
+            ui.label(f"{kind}: {bins_in_words(count)}").classes("hint")
         else:
             examples = {"iso4406": "18/16/13", "test_dust": "A2", "sizes": "sizes.csv"}
             example = (examples | {"iso14644": "7"}).get(kind, "6")
             about = f"as written, e.g. {example}"
             self.field(place, Field(name=kind, kind="string", label=kind, about=about))
-        for each in COUNTED_FIELDS[kind]:
-            self.field(place, each)
+        for field in COUNTED_FIELDS[kind]:
+            self.field(place, field)
 
     def amount(self, place: Place, kind: object) -> None:
         """Per area, or a concentration and the gap; what settles is counted by its class."""
@@ -128,8 +128,8 @@ class ParticleInputs(Entries):
     def _set_sizes_kind(self, place: Place, word: str) -> None:
         """Another way to give the sizes: what does not go with it goes."""
         table = self.table(*place)
-        own = ("material", "name", "law", "strength", "conducts")
-        kept = {key: table[key] for key in own if key in table}
+        common = ("material", "name", "law", "strength", "conducts")
+        kept = {key: table[key] for key in common if key in table}
         if isinstance(shape := table.get("shape"), dict) and word != "weibull":
             kept["shape"] = shape
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
@@ -190,21 +190,21 @@ class ParticleInputs(Entries):
             "std": "24 nm",
             "areal_density": "1e11 / m^2",
         }
-        given = self.state.get("particles")
-        if given is None:
+        particles = self.state.get("particles")
+        if particles is None:
             self.change("particles", new)
             return
-        several = given if isinstance(given, list) else [given]
+        several = particles if isinstance(particles, list) else [particles]
         name = f"population {len(several) + 1}"
         self.change("particles", [*several, new | {"name": name}])
 
     def _remove(self, place: Place) -> None:
-        given = self.state.get("particles")
-        if not isinstance(given, list):
+        particles = self.state.get("particles")
+        if not isinstance(particles, list):
             study = {k: v for k, v in self.state.study.items() if k not in ("particles",)}
             study.pop("particle_law", None)
             self.state.replace(study)
             self.again()
             return
-        left = [each for i, each in enumerate(given) if i != place[1]]
+        left = [population for i, population in enumerate(particles) if i != place[1]]
         self.change("particles", left if len(left) > 1 else left[0])

@@ -41,31 +41,33 @@ def to_python(study: Study, at: float | None = None) -> str:
         lines += [f"film = {_code(study.film)}", "lubricated = film.stribeck_columns(contact)"]
     head = ["import numpy as np", "", "import thirdbody as tb"]
     for home in sorted({home for home, _ in homes}):
-        names = sorted((name for each, name in homes if each == home), key=_class_first)
+        names = sorted((name for module, name in homes if module == home), key=_class_first)
         head.append(f"from {home} import {', '.join(names)}")
     return "\n".join([*head, "", *lines]) + "\n"
 
 
 def _forces(body: Body, forces: np.ndarray) -> list[str]:
     """The lines that integrate over the contact under the forces that are told of."""
-    told = [float(force) for force in told_forces(forces)]
+    few_forces = [float(force) for force in told_forces(forces)]
     return [
         f"body = {_code(body)}",
-        f"pressed = [press(contact, body, force) for force in {told!r}]",
+        f"pressed = [press(contact, body, force) for force in {few_forces!r}]",
         r'print(*(each.sentence() for each in pressed), sep="\n")',
     ]
 
 
-def _homes(part: object) -> set[tuple[str, str]]:
+def _homes(value: object) -> set[tuple[str, str]]:
     """Modules and names of what a script imports beside `thirdbody`."""
-    if isinstance(part, tuple):
-        return set().union(*(_homes(item) for item in part))
-    if not isinstance(part, Value):
+    if isinstance(value, tuple):
+        return set().union(*(_homes(item) for item in value))
+    if not isinstance(value, Value):
         return set()
-    if isinstance(part, tb.Material) and part.name in tb.materials:
+    if isinstance(value, tb.Material) and value.name in tb.materials:
         return set()
-    own = {(type(part).__module__, type(part).__name__)} if "." not in _name(type(part)) else set()
-    return own.union(*(_homes(value) for _, value in _changed_fields(part)))
+    names = (
+        {(type(value).__module__, type(value).__name__)} if "." not in _name(type(value)) else set()
+    )
+    return names.union(*(_homes(inner) for _, inner in _changed_fields(value)))
 
 
 def _class_first(name: str) -> tuple[bool, str]:
@@ -76,12 +78,12 @@ def _changed_fields(value: Any) -> list[tuple[str, object]]:
     """The fields of a value that differ from their defaults."""
     out = []
     for item in dataclasses.fields(value):
-        own = getattr(value, item.name)
+        field_value = getattr(value, item.name)
         default = item.default
         if item.default_factory is not dataclasses.MISSING:
             default = item.default_factory()
-        if type(own) is not type(default) or own != default:
-            out.append((item.name, own))
+        if type(field_value) is not type(default) or field_value != default:
+            out.append((item.name, field_value))
     return out
 
 
@@ -90,42 +92,54 @@ LONG = 8
 """Numbers of a tuple beyond which it is looked whether they are a range."""
 
 
-def _code(part: object, indent: int = 0, used: int = 20) -> str:
+def _code(value: object, indent: int = 0, used: int = 20) -> str:
     """A value as it is written; what does not fit on a line is broken, field by field."""
-    if isinstance(part, tb.Material) and part.name in tb.materials:
-        known = tb.materials[part.name]
-        if known == part:
-            return f"tb.materials[{part.name!r}]"
-    if isinstance(part, Value):
-        given = [(f"{name}=", own) for name, own in _changed_fields(part)]
-        return _call(f"{_name(type(part))}(", given, ")", indent, used)
-    if isinstance(part, tuple):
-        if len(part) > LONG and all(isinstance(item, float) for item in part):
-            made = _numbers(np.array(part))
+    if isinstance(value, tb.Material) and value.name in tb.materials:
+        library_material = tb.materials[value.name]
+        if library_material == value:
+            return f"tb.materials[{value.name!r}]"
+    if isinstance(value, Value):
+        fields = [(f"{name}=", field_value) for name, field_value in _changed_fields(value)]
+        return _call(f"{_name(type(value))}(", fields, ")", indent, used)
+    if isinstance(value, tuple):
+        if len(value) > LONG and all(isinstance(item, float) for item in value):
+            made = _numbers(np.array(value))
             if made.startswith(("np.geomspace", "np.linspace")):
                 return f"tuple({made}.tolist())"
-        return _call("(", [("", item) for item in part], ",)", indent, used)
-    return repr(part)
+        return _call("(", [("", item) for item in value], ",)", indent, used)
+    return repr(value)
 
 
 def _call(start: str, parts: list[tuple[str, object]], end: str, indent: int, used: int) -> str:
-    flat = start + ", ".join(label + _code(own, 0, -9999) for label, own in parts) + end
+    flat = (
+        start
+        + ", ".join(label + _code(field_value, 0, -9999) for label, field_value in parts)
+        + end
+    )
     if used < 0 or indent + used + len(flat) <= WIDTH or not parts:
         return flat
     space = " " * (indent + 4)
-    rows = [f"{space}{label}{_code(own, indent + 4, len(label) + 1)}," for label, own in parts]
+    rows = [
+        f"{space}{label}{_code(field_value, indent + 4, len(label) + 1)},"
+        for label, field_value in parts
+    ]
     return "\n".join([start, *rows, " " * indent + end.lstrip(",")])
 
 
 def _name(kind: type) -> str:
     """Where users find a class."""
-    for home, prefix in (
-        (tb, "tb"),
-        (tb.asperity, "tb.asperity"),
-        (tb.particle, "tb.particle"),
-        (tb.outputs, "tb.outputs"),
+    for prefix, home in (
+        ("tb", tb),
+        ("tb.asperity", tb.asperity),
+        ("tb.distributions", tb.distributions),
+        ("tb.films", tb.films),
+        ("tb.grains", tb.grains),
+        ("tb.heights", tb.heights),
+        ("tb.outputs", tb.outputs),
+        ("tb.particle", tb.particle),
+        ("tb.surfaces", tb.surfaces),
     ):
-        if getattr(home, kind.__name__, None) is kind:
+        if kind.__name__ in home.__all__ and getattr(home, kind.__name__) is kind:
             return f"{prefix}.{kind.__name__}"
     return kind.__name__
 

@@ -43,7 +43,7 @@ class Question(NamedTuple):
         What the tab is for.
     kind : type
         The class that the table stands for.
-    own : tuple of Field
+    first_entries : tuple of Field
         Entries of the table beside those of the class, first.
     start : dict
         The table where the study has none.
@@ -56,7 +56,7 @@ class Question(NamedTuple):
     table: str
     about: str
     kind: type
-    own: tuple[Field, ...]
+    first_entries: tuple[Field, ...]
     start: dict[str, object]
     left_out: tuple[str, ...]
     contents: Callable[[Answer], Shown]
@@ -100,7 +100,7 @@ class QuestionTab:
                 change = ui.button("Change these", icon="edit", on_click=self._start_question)
                 set_attributes(change.props("no-caps"), {"data-path": f"{name}.add"})
                 return
-            for field in (*question.own, *fields_of(question.kind)):
+            for field in (*question.first_entries, *fields_of(question.kind)):
                 if field.name not in question.left_out:
                     self.inputs.field((name,), field)
             remove = ui.button("Remove", icon="delete", on_click=self._remove_question)
@@ -124,8 +124,8 @@ class QuestionTab:
         answer = self.state.answer
         assert answer is not None
         self.none.set_visibility(answer.contact.two_body)
-        for part in (self.words, self.beside):
-            part.set_visibility(not answer.contact.two_body)
+        for element in (self.words, self.beside):
+            element.set_visibility(not answer.contact.two_body)
         if answer.contact.two_body or answer is self.answer:
             return
         shown: Shown = await self.state.ask(self.question.contents)

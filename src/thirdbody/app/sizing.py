@@ -33,8 +33,10 @@ def with_size(study: dict[str, object], size: float) -> dict[str, object]:
         for item in dataclasses.fields(kind)
         if item.metadata.get("quantity", {}).get("unit") == "m"
     }
-    own = {name: number_of(table[name], about) for name, about in lengths.items() if name in table}
-    if not own or not all(map(math.isfinite, own.values())):
+    sizes = {
+        name: number_of(table[name], about) for name, about in lengths.items() if name in table
+    }
+    if not sizes or not all(map(math.isfinite, sizes.values())):
         return new
     made = kind(
         **{
@@ -44,6 +46,6 @@ def with_size(study: dict[str, object], size: float) -> dict[str, object]:
         }
     )
     factor = size / made.mean_diameter
-    for name, value in own.items():
+    for name, value in sizes.items():
         table[name] = engineering(value * factor, "m")
     return new

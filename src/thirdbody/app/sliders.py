@@ -30,15 +30,15 @@ REACH = 10.0
 """A slider goes so many times up and down."""
 
 
-def at_position(loads: np.ndarray, part: float) -> float:
+def at_position(loads: np.ndarray, fraction: float) -> float:
     """The load at a part of the way along the loads of the study, four digits of it."""
     first, last = float(loads[0]), float(loads[-1])
-    if part in (0.0, 1.0):
-        return last if part else first
+    if fraction in (0.0, 1.0):
+        return last if fraction else first
     if first > 0:
-        value = first * (last / first) ** part
+        value = first * (last / first) ** fraction
         return float(min(max(float(f"{value:.4g}"), first), last))
-    return first + (last - first) * part
+    return first + (last - first) * fraction
 
 
 def position_of(loads: np.ndarray, at: float) -> float:
@@ -115,8 +115,8 @@ class Knob:
         said = self.say(now).replace(" ", "\u00a0")
         self.text.set_text(f"{self.label} = {said}")
         self.slider.speak(self.say(now))
-        own, self.moved = self.moved and self.middle is not None, False
-        if not own:
+        moved_here, self.moved = self.moved and self.middle is not None, False
+        if not moved_here:
             inside = self.middle is not None and 1 / REACH <= now / self.middle <= REACH
             self.middle = self.middle if self.middle is not None and inside else now
             where = round(STEPS / 2 * math.log(now / self.middle) / math.log(REACH))
@@ -134,7 +134,7 @@ def shift_code(code: str, classes: int) -> str:
     >>> shift_code("18/16/13", 2), shift_code("9/2", -3)
     ('20/18/15', '6/0')
     """
-    return "/".join(str(max(int(each) + classes, 0)) for each in code.split("/"))
+    return "/".join(str(max(int(number) + classes, 0)) for number in code.split("/"))
 
 
 class CodeKnob(Knob):
@@ -148,10 +148,12 @@ class CodeKnob(Knob):
 
     def code(self) -> str:
         """The code of the study; empty where it has none, or several."""
-        given = self.state.get("particles")
-        every = given if isinstance(given, list) else [given]
+        particles = self.state.get("particles")
+        every = particles if isinstance(particles, list) else [particles]
         codes = {
-            str(each["iso4406"]) for each in every if isinstance(each, dict) and "iso4406" in each
+            str(population["iso4406"])
+            for population in every
+            if isinstance(population, dict) and "iso4406" in population
         }
         code = codes.pop() if len(codes) == 1 else ""
         return code if CODES.fullmatch(code) else ""
@@ -163,13 +165,16 @@ class CodeKnob(Knob):
 
     def follow(self, position: float) -> None:
         """Set the code of every population by the position of the slider."""
-        code, given = shift_code(self.first, round(position)), self.state.get("particles")
+        code, particles = shift_code(self.first, round(position)), self.state.get("particles")
         if not self.first or code == self.code():
             return
         self.moved = True
-        several = given if isinstance(given, list) else [given]
-        new = [each | {"iso4406": code} if "iso4406" in each else each for each in several]
-        study = self.state.study | {"particles": new if isinstance(given, list) else new[0]}
+        several = particles if isinstance(particles, list) else [particles]
+        new = [
+            population | {"iso4406": code} if "iso4406" in population else population
+            for population in several
+        ]
+        study = self.state.study | {"particles": new if isinstance(particles, list) else new[0]}
         self.state.replace(study, kind=self.place)
 
     def show_value(self) -> None:
@@ -178,13 +183,13 @@ class CodeKnob(Knob):
         self.box.set_visibility(bool(code))
         self.text.set_text(f"oil {code}")
         self.slider.speak(code)
-        own, self.moved = self.moved, False
-        if own or not code:
+        moved_here, self.moved = self.moved, False
+        if moved_here or not code:
             return
         here = [n for n in range(-MOST_SHIFTED, MOST_SHIFTED + 1) if self.first]
-        known = [n for n in here if shift_code(self.first, n) == code]
-        self.first = self.first if known else code
-        self.slider.set_value(known[0] if known else 0)
+        fitting = [n for n in here if shift_code(self.first, n) == code]
+        self.first = self.first if fitting else code
+        self.slider.set_value(fitting[0] if fitting else 0)
 
 
 class Sliders:
@@ -265,8 +270,8 @@ class Sliders:
         state = self.state
         if state.answer is None or state.answer.contact.two_body:
             return None
-        known = state.get(*Inputs.first_population(state), "distribution")
-        scalable = known not in (None, "mixture", "histogram", "power-law")
+        distribution = state.get(*Inputs.first_population(state), "distribution")
+        scalable = distribution not in (None, "mixture", "histogram", "power-law")
         return size_of(state.answer.contact) if scalable else None
 
     def _density(self) -> float | None:
@@ -298,8 +303,8 @@ class Sliders:
         self.moving = True
         try:
             at = self.state.operating_load
-            part = position_of(answer.loads, at)
-            self.load.set_value(round(STEPS * part))
+            fraction = position_of(answer.loads, at)
+            self.load.set_value(round(STEPS * fraction))
             self.load_label.set_text(_load_text(answer, at))
             self.load.speak(_load_text(answer, at))
             for knob in self.knobs:

@@ -239,7 +239,7 @@ class Solver:
         if self.closed or not wanted():
             raise asyncio.CancelledError
         ends: list[str] = []
-        asked = time.perf_counter()
+        called_at = time.perf_counter()
         while len(ends) < TRIES:
             began = time.perf_counter()
             process, pipe = self._free()
@@ -249,20 +249,20 @@ class Solver:
                 self._start_missing(spare=1)
             try:
                 pipe.send((call, args))
-                known = pipe.poll(self.seconds)
-                problems, found = pipe.recv() if known else (None, None)
+                answered = pipe.poll(self.seconds)
+                problems, answer = pipe.recv() if answered else (None, None)
                 break
             except (EOFError, OSError):
                 process.join(1.0)  # the pipe may close before the process has ended
                 # of those that were there before the call, more than one ended without it
-                if not ends or self.all.get(process, asked) >= asked:
+                if not ends or self.all.get(process, called_at) >= called_at:
                     ends.append(ended_by(process.exitcode))
                 self._kill(process, pipe)
                 if self.closed or not wanted():
                     raise asyncio.CancelledError from None
         else:
             raise Died(f"No answer: {ended_message(ends)}")
-        if not known:
+        if not answered:
             self._kill(process, pipe)
             raise InvalidValue(
                 f"stopped after {self.seconds:g} s: the page has no more time for one answer; ask "
@@ -272,31 +272,31 @@ class Solver:
         self.idle.put((process, pipe))
         if problems is not None:
             raise InvalidValue(*problems)
-        return cast(Found, found)
+        return cast(Found, answer)
 
     def _free(self) -> tuple[BaseProcess, Connection]:
         """An idle process: one that is there, that is started, or that becomes free meanwhile."""
         with contextlib.suppress(queue.Empty):
             while True:
-                known = self.idle.get_nowait()
-                if known is not None and known[0].is_alive():
-                    return known
-                if known is not None:
-                    self._kill(*known)
+                idle = self.idle.get_nowait()
+                if idle is not None and idle[0].is_alive():
+                    return idle
+                if idle is not None:
+                    self._kill(*idle)
         with self.lock:
             self.waiting += 1
         try:
             while True:
                 self._start_missing()
                 with contextlib.suppress(queue.Empty):
-                    found = self.idle.get(timeout=AGAIN)
+                    freed = self.idle.get(timeout=AGAIN)
                     break
         finally:
             with self.lock:
                 self.waiting -= 1
-        if found is None:
+        if freed is None:
             raise Died(f"No answer: a process that computes was not ready after {STARTS:g} s")
-        return found
+        return freed
 
     def _start_missing(self, *, spare: int = 0) -> None:
         """Start a process where more calls wait, and are to be expected, than some are for."""
@@ -378,7 +378,7 @@ def solver(warm: Callable[[], None] | None = None) -> Solver:
 async def ask_for_page(call: Callable[[*Args], Found], *args: *Args) -> Found:
     """`Solver.ask` for the page at hand; nothing comes back to one that was closed."""
     client = ui.context.client
-    found = await solver().ask(call, *args, wanted=lambda: not client._deleted)
+    answer = await solver().ask(call, *args, wanted=lambda: not client._deleted)
     if client._deleted:
         raise asyncio.CancelledError
-    return found
+    return answer

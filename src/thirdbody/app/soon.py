@@ -14,20 +14,20 @@ class Soon:
     """Calls a function once for many requests that come together, and never twice at a time."""
 
     def __init__(self, call: Callable[[], Awaitable[None]]) -> None:
-        self.call, self.asked, self.running = call, False, False
+        self.call, self.waiting, self.running = call, False, False
         self.client = ui.context.client
 
     def __call__(self) -> None:
-        self.asked = True
+        self.waiting = True
         if not self.running:
             self.running = True
             background_tasks.create(self._run())
 
     async def _run(self) -> None:
         try:
-            while self.asked and not self.client._deleted:
+            while self.waiting and not self.client._deleted:
                 await asyncio.sleep(0.005)
-                self.asked = False
+                self.waiting = False
                 with self.client:
                     await self.call()
         finally:

@@ -102,8 +102,8 @@ class Answer:
     def solve(self, values: ArrayLike, *more: AbstractOutput) -> tb.Equilibrium:
         """States under these loads, with more outputs; warnings become notes."""
         contact = self.contact
-        known = {type(each) for each in contact.outputs}
-        if new := [each for each in more if type(each) not in known]:
+        kinds = {type(output) for output in contact.outputs}
+        if new := [output for output in more if type(output) not in kinds]:
             contact = contact.replace(outputs=(*contact.outputs, *new))
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", RangeWarning)
@@ -190,23 +190,25 @@ def look(study: Tables, folder: Path, surface: Measured | None = None) -> Looked
         refuse_foreign_files(study, folder)
         tables = {key: value for key, value in study.items() if key != "roughness"}
         refuse_large_files(folder, files_of(tables))
-        if isinstance(own := study.get("materials"), str):
-            mine = tb.materials.load(folder / own)
+        if isinstance(file_name := study.get("materials"), str):
+            mine = tb.materials.load(folder / file_name)
             library = {name: mine[name] for name in mine}
-        given = copy.deepcopy(study)
+        to_check = copy.deepcopy(study)
         if surface is not None:
             problems += surface.get("problems", [])
-            given["roughness"] = surface.get("roughness", {"sigma": 1e-7, "R": 1e-6})
-        found, left_out = _check_study(given, folder)
+            to_check["roughness"] = surface.get("roughness", {"sigma": 1e-7, "R": 1e-6})
+        checked, left_out = _check_study(to_check, folder)
         problems += left_out
         if surface is not None:
-            found = dataclasses.replace(found, notes=(*surface.get("notes", []), *found.notes))
-        answer = None if len(problems) > len(left_out) else Answer(found)
+            checked = dataclasses.replace(
+                checked, notes=(*surface.get("notes", []), *checked.notes)
+            )
+        answer = None if len(problems) > len(left_out) else Answer(checked)
     except InvalidValue as error:
         problems += error.problems
     except (ThirdBodyError, OSError) as error:
         problems += [Problem("", str(error))]
-    problems = [each.worded(without_paths) for each in dict.fromkeys(problems)]
+    problems = [problem.worded(without_paths) for problem in dict.fromkeys(problems)]
     if (more := len(problems) - MOST_TOLD) > 0:
         code = problems[MOST_TOLD].code
         problems[MOST_TOLD:] = [Problem("", f"and {more} more mistakes", code=code)]
@@ -219,7 +221,7 @@ def _check_study(study: Tables, folder: Path) -> tuple[Study, list[Problem]]:
         return check(study, folder=folder), []
     except InvalidValue as error:
         outputs = study.get("outputs")
-        places = [each.place.split(".") for each in error.problems]
+        places = [problem.place.split(".") for problem in error.problems]
         if not isinstance(outputs, dict) or any(place[0] != "outputs" for place in places):
             raise
         wrong = {name for place in places for name in place[1:2]}
@@ -227,8 +229,8 @@ def _check_study(study: Tables, folder: Path) -> tuple[Study, list[Problem]]:
         if len(kept) == len(outputs):
             raise
         rest = {key: value for key, value in study.items() if key != "outputs"}
-        found, more = _check_study(rest | ({"outputs": kept} if kept else {}), folder)
-        return found, [*error.problems, *more]
+        checked, more = _check_study(rest | ({"outputs": kept} if kept else {}), folder)
+        return checked, [*error.problems, *more]
 
 
 def surface_key(study: Tables, folder: Path) -> str:
@@ -236,10 +238,10 @@ def surface_key(study: Tables, folder: Path) -> str:
     rough = study.get("roughness")
     names = files_of({"topography": rough.get("topography")}) if isinstance(rough, dict) else []
     files = [folder / name for name in names if Path(name).name == name]
-    found = [file.stat() for file in files if file.is_file()]
-    if not found:
+    stats = [file.stat() for file in files if file.is_file()]
+    if not stats:
         return ""  # of the library, or none
-    marks = [(each.st_size, each.st_mtime_ns) for each in found]
+    marks = [(stat.st_size, stat.st_mtime_ns) for stat in stats]
     return json.dumps([rough, study.get("asperity_law"), marks], default=str)
 
 
@@ -253,8 +255,8 @@ def _call_and_learn(
 ) -> tuple[Found, Tables]:
     """What a function of an answer gives, and what the answer has learned by it."""
     before = set(answer.__dict__) - {"notes"}
-    found = call(answer, *args)
-    return found, {key: value for key, value in answer.__dict__.items() if key not in before}
+    result = call(answer, *args)
+    return result, {key: value for key, value in answer.__dict__.items() if key not in before}
 
 
 class State:
@@ -411,15 +413,15 @@ class State:
             refuse_foreign_files(study, self.folder)
             if self._unread():
                 await self._measure()
-            found = await ask_for_page(look, study, self.folder, self._surface())
+            looked = await ask_for_page(look, study, self.folder, self._surface())
         except Died:
             raise  # which says nothing of the study: it is read when it is asked for again
         except InvalidValue as error:
-            found = None, [each.worded(without_paths) for each in error.problems], None
-        self._take(study, found)
+            looked = None, [problem.worded(without_paths) for problem in error.problems], None
+        self._take(study, looked)
 
-    def _take(self, study: Tables, found: Looked) -> None:
-        answer, self.problems, library = found
+    def _take(self, study: Tables, looked: Looked) -> None:
+        answer, self.problems, library = looked
         self.library = tb.materials if library is None else library
         self.answer = self.answer if answer is None else answer
         self.current = answer is not None
@@ -429,9 +431,9 @@ class State:
         """What a function of the answer and more arguments gives, computed beside the server."""
         answer = self.answer
         assert answer is not None
-        found, more = await ask_for_page(_call_and_learn, call, answer, args)
+        result, more = await ask_for_page(_call_and_learn, call, answer, args)
         answer.__dict__.update(more)
-        return found
+        return result
 
     # ------------------------------------------------------------------ files
     def note_file(self, name: str, key: str | None) -> None:
@@ -447,7 +449,7 @@ class State:
     def file_keys(self) -> dict[str, str]:
         """The files that studies and tabs name, with their keys."""
         studies = [self.study, self.opened, self.kept or {}]
-        names = [*(name for each in studies for name in files_of(each))]
+        names = [*(name for study in studies for name in files_of(study))]
         names.append(self.surface.get("file", ""))
         return {name: self.files[name] for name in names if name in self.files}
 
@@ -465,18 +467,18 @@ class State:
         tables = {k: v for k, v in self.study.items() if k in ("roughness", "asperity_law")}
         self.reading = Job("roughness", seconds=SECONDS)
         try:
-            found: Measured = await self.reading.run(study=tables, folder=str(self.folder))
+            measured: Measured = await self.reading.run(study=tables, folder=str(self.folder))
         except Died:
             raise
         except InvalidValue as error:
-            found = {"problems": list(error.problems)}
+            measured = {"problems": list(error.problems)}
         except Stopped:
             rule = ": the reading was cancelled"
             cancelled = Problem("roughness.topography", rule, code=Mistake.UNREADABLE)
-            found = {"problems": [cancelled]}
+            measured = {"problems": [cancelled]}
         finally:
             self.reading = None
-        self.surfaces = {key: found}
+        self.surfaces = {key: measured}
 
     def close(self) -> None:
         """Nobody looks at the page any more."""

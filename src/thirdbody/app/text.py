@@ -66,8 +66,10 @@ def without_paths(text: str) -> str:
     >>> without_paths("cannot read /srv/page/a.x3p: it holds 3 / m^2")
     'cannot read a.x3p: it holds 3 / m^2'
     """
-    part = r"[^\s/\\:'\",;<>()]+"
-    return re.sub(rf"(?<![\w.:/<])(?:[A-Za-z]:)?(?:[/\\]{part})+[/\\](?={part})", "", text)
+    name_pattern = r"[^\s/\\:'\",;<>()]+"
+    return re.sub(
+        rf"(?<![\w.:/<])(?:[A-Za-z]:)?(?:[/\\]{name_pattern})+[/\\](?={name_pattern})", "", text
+    )
 
 
 def from_toml(text: str) -> dict[str, object]:

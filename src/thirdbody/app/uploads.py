@@ -43,7 +43,7 @@ async def keep(folder: Path, event: UploadEventArguments) -> str:
         The folder would hold too much.
     """
     name = harmless(event.file.name)
-    others = sum(each.stat().st_size for each in folder.iterdir() if each.name != name)
+    others = sum(file.stat().st_size for file in folder.iterdir() if file.name != name)
     if others + event.file.size() > LARGEST_FOLDER:
         raise InvalidValue(
             f"the files of this page would have more than {LARGEST_FOLDER // 2**20} MB together; "

@@ -96,8 +96,10 @@ class Verdict:
     def turn(self) -> None:
         """Another tab is in sight: a badge that may not be its own waits until it is drawn."""
         self.place()
-        own = self.state.noted.get(self.tab), self.state.noted.get(self.state.tab)
-        if self.tab != self.state.tab and (any(own) or {self.tab, self.state.tab} & {*QUESTIONS}):
+        notes_of_both = self.state.noted.get(self.tab), self.state.noted.get(self.state.tab)
+        if self.tab != self.state.tab and (
+            any(notes_of_both) or {self.tab, self.state.tab} & {*QUESTIONS}
+        ):
             self.badge.set_visibility(False)
 
     async def show_sentence(self) -> None:
@@ -118,21 +120,21 @@ class Verdict:
             notes = [*answer.notes, *notes]
         self.remark.set_text(remark)
         self.remark.set_visibility(bool(remark))
-        known = rank_notes(notes)
+        ranked = rank_notes(notes)
         self.tab = self.state.tab
         self.badge.set_visibility(True)
-        if known == self.noted:
+        if ranked == self.noted:
             return
-        self.noted = known
-        made = badge_of(known)
+        self.noted = ranked
+        made = badge_of(ranked)
         self.badge.set_icon(made.icon)
         self.badge.set_text(made.words)
         self.badge.classes(replace=f"badge {made.kind}")
         set_attributes(self.badge, {"aria-label": f"how far the answer holds: {made.words}"})
         self.list.clear()
         with self.list:
-            if not known:
+            if not ranked:
                 ui.label("Every law is used inside the range for which it was derived or tested.")
-            for text in known:
+            for text in ranked:
                 with ui.element("div").classes("limit"):
                     ui.label(as_shown(without_paths(str(text))))

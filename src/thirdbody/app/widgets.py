@@ -42,8 +42,8 @@ def set_attributes(element: Made, props: Mapping[str, object]) -> Made:
 def skeleton() -> ui.element:
     """What stands in the place of a tab until its answer is there: its outline, in grey."""
     with set_attributes(ui.element("div").classes("waiting"), {"aria-hidden": "true"}) as made:
-        for part in ("line", "line short", "block", "row"):
-            ui.element("div").classes("bone").classes(part)
+        for style in ("line", "line short", "block", "row"):
+            ui.element("div").classes("bone").classes(style)
     return made
 
 
@@ -73,12 +73,12 @@ class Facts:
 
     def show(self, pairs: Iterable[tuple[str, str]]) -> None:
         """These numbers."""
-        told = dict(pairs)
-        if list(told) != list(self.labels):
+        values = dict(pairs)
+        if list(values) != list(self.labels):
             self.row.clear()
             self.labels = {}
             with self.row:
-                for name in told:
+                for name in values:
                     with ui.column().classes("fact gap-0") as both:
                         ui.label(name).classes("hint")
                         label = ui.label().classes("value")
@@ -88,7 +88,7 @@ class Facts:
                         both.classes("said")
                     if name in self.abouts:
                         set_attributes(both, {"title": self.abouts[name]})
-        for name, value in told.items():
+        for name, value in values.items():
             self.labels[name].set_text(value)
 
 
@@ -134,7 +134,7 @@ class Plot:
             new |= {f"{axis}.{k}": v for k, v in now.items() if v != was[k]}
         if data == old["data"]:
             return ["relayout", new]
-        return ["update", {"y": [each.get("y") for each in data]}, new]
+        return ["update", {"y": [trace.get("y") for trace in data]}, new]
 
 
 def _without_y(trace: Part) -> Part:

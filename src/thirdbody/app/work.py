@@ -169,9 +169,9 @@ class Work(Generic[Found]):
         self.done, self.preview = None, False
         self._fit()
 
-    def _fits(self, known: tuple[object] | None) -> bool:
+    def _fits(self, done: tuple[object] | None) -> bool:
         """Whether what is known belongs to the study as it is."""
-        return known is not None and self.same(known[0], self.key())
+        return done is not None and self.same(done[0], self.key())
 
     def fail(self, text: str, key: object = None) -> None:
         """Say what went wrong with the study, or with that of a key, until there is another."""
@@ -197,13 +197,13 @@ class Work(Generic[Found]):
         assert asked_for is not None
         with client:
             try:
-                asked = self.ask()
-                if isinstance(asked, Awaitable):
-                    asked = await asked
-                if asked is None:
+                request = self.ask()
+                if isinstance(request, Awaitable):
+                    request = await request
+                if request is None:
                     return False
                 result = await ask_for_page(
-                    in_little, self.task, little(asked) if little else asked
+                    in_little, self.task, little(request) if little else request
                 )
             except InvalidValue as error:
                 if self.tried is asked_for and self.done is before:
@@ -243,13 +243,13 @@ class Work(Generic[Found]):
         self.start.disable()
         key = self.key()
         try:
-            asked = self.ask()
-            if isinstance(asked, Awaitable):
-                asked = await asked
-            if asked is None:
+            request = self.ask()
+            if isinstance(request, Awaitable):
+                request = await request
+            if request is None:
                 return
             key = self.key()
-            result = await job.run(**asked)
+            result = await job.run(**request)
         except Stopped:
             self.said.set_text("cancelled")  # which is true of every study
         except InvalidValue as error:
@@ -264,8 +264,8 @@ class Work(Generic[Found]):
             self.job = None
             self._idle()
 
-    def _report(self, part: float) -> None:
-        self.bar.set_value(part)
+    def _report(self, fraction: float) -> None:
+        self.bar.set_value(fraction)
 
     def cancel(self) -> None:
         """Stop what runs."""

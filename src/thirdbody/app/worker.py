@@ -186,7 +186,7 @@ def main() -> None:
     """Read one request, do it, write what was found."""
     _limit()
     warnings.simplefilter("ignore")
-    asked = json.loads(sys.stdin.read())
+    request = json.loads(sys.stdin.read())
     out = sys.stdout
     sys.stdout = sys.stderr  # what a reader of instrument files prints is no answer
 
@@ -197,11 +197,13 @@ def main() -> None:
     from ..errors import InvalidValue, ThirdBodyError
 
     def refuse(*problems: str) -> None:
-        write_line(problems=[vars(each) for each in InvalidValue(*problems).problems])
+        write_line(problems=[vars(problem) for problem in InvalidValue(*problems).problems])
 
     try:
-        task = TASKS[asked.pop("task")]
-        write_line(result=plain_data(task(report=lambda part: write_line(done=part), **asked)))
+        task = TASKS[request.pop("task")]
+        write_line(
+            result=plain_data(task(report=lambda fraction: write_line(done=fraction), **request))
+        )
     except ThirdBodyError as error:
         refuse(*(getattr(error, "problems", None) or [str(error)]))
     except MemoryError:
@@ -222,9 +224,9 @@ def _limit() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def in_little(task: str, asked: dict[str, object]) -> object:
+def in_little(task: str, request: dict[str, object]) -> object:
     """A task that is short, without progress."""
-    return plain_data(TASKS[task](**asked, report=lambda part: None))
+    return plain_data(TASKS[task](**request, report=lambda fraction: None))
 
 
 def _study(study: dict[str, object], folder: str) -> Study:
@@ -254,17 +256,17 @@ def mode_map(
     share: list[Numbers] = []
     for number, size in enumerate(sizes):
         row: list[int] = [-1] * len(loads)
-        part: Numbers = [math.nan] * len(loads)
+        shares: Numbers = [math.nan] * len(loads)
         try:
             sizes_there = dust.diameter.scaled(size * contact.roughness.sigma / mean)
             made = contact.replace(particles=dust.replace(diameter=sizes_there))
             state = solve_untold(made, "F_star", np.array(loads))
             row = [names.index(m) if m in names else -1 for m in np.asarray(state.mode).tolist()]
-            part = np.asarray(state.particle_load_share).tolist()
+            shares = np.asarray(state.particle_load_share).tolist()
         except (InvalidValue, ThirdBodyError):
             pass  # jammed
         index.append(row)
-        share.append(part)
+        share.append(shares)
         report((number + 1) / len(sizes))
     return {
         "sizes": sizes,
@@ -295,7 +297,7 @@ def compare_laws(contact: Contact, load: str, loads: list[float]) -> Laws:
     contact = _bare(contact)
     table = tb.compare(contact, **as_force_load(load, np.array(loads)))
     laws = [str(law) for law in table.law.values]
-    found = {
+    comparison = {
         "laws": laws,
         "load": load,
         "loads": loads,
@@ -304,7 +306,7 @@ def compare_laws(contact: Contact, load: str, loads: list[float]) -> Laws:
         "notes": table["note"].values if "note" in table.coords else [""] * len(laws),
         "own": table.attrs["own_law"],
     }
-    return plain_data(found)
+    return plain_data(comparison)
 
 
 def error_bars(
@@ -333,26 +335,26 @@ def error_bars(
     from ..errors import InvalidValue, Mistake
     from ..quantities.say import value_of
 
-    asked = _study(study, folder)
-    known = asked.uncertainty
-    inputs = known.inputs if known is not None else stated_ranges(asked.contact)
+    checked = _study(study, folder)
+    uncertainty = checked.uncertainty
+    inputs = uncertainty.inputs if uncertainty is not None else stated_ranges(checked.contact)
     if not inputs:
         raise InvalidValue(
             "no input is uncertain yet; add one, and what is known of it", code=Mistake.MISSING
         )
-    seed = 0 if known is None else known.seed
+    seed = 0 if uncertainty is None else uncertainty.seed
     critical = of in CRITICAL
-    if any(of in output.columns for output in asked.contact.outputs):
+    if any(of in output.columns for output in checked.contact.outputs):
         # each sample of an output is a contact of its own
         loads, samples = loads[:: len(loads) // MOST_LOADS + 1], min(samples, MOST_SAMPLES)
-    if costly(asked.contact, inputs):
+    if costly(checked.contact, inputs):
         samples = min(samples, LEAST)  # each takes tables of its own, which all loads share
     names = list(CRITICAL) if critical else [of]
     rows, nominal = [], []
 
     def states_under(value: float) -> Propagation:
         return tb.propagate(
-            asked.contact,
+            checked.contact,
             **as_load(load, value),
             vary=inputs,
             samples=samples,
@@ -365,9 +367,9 @@ def error_bars(
 
     for number, value in enumerate([] if critical else loads):
         with progress.count_contacts(samples, None if number else report_part):
-            found = states_under(value)
-        rows.append(found.bands[of])
-        nominal.append(found.nominal[of])
+            propagated = states_under(value)
+        rows.append(propagated.bands[of])
+        nominal.append(propagated.nominal[of])
         report(0.9 * (number + 1) / len(loads))
     with progress.count_contacts(samples, report_part if critical else None):
         point = states_under(at)
@@ -385,9 +387,11 @@ def error_bars(
         "band_at": point.bands[of],
         "nominal_at": point.nominal[of],
         "tornado": point.tornado(of)[of],
-        "words": {label: words_of(asked.contact, label) for label in point.inputs},
+        "words": {label: words_of(checked.contact, label) for label in point.inputs},
         "ends": {
-            label: [value_of(one.quantile(q), unit_of(asked.contact, label)) for q in (0.05, 0.95)]
+            label: [
+                value_of(one.quantile(q), unit_of(checked.contact, label)) for q in (0.05, 0.95)
+            ]
             for label, one in point.inputs.items()
         },
     }
@@ -398,17 +402,17 @@ def design(*, study: dict[str, object], folder: str, report: Report) -> dict[str
     """The best inputs over a range of loads, as the table [design] asks."""
     from ..study.analyses import design_study
 
-    asked = _study(study, folder)
+    checked = _study(study, folder)
     report(0.05)
-    return design_study(asked).to_dict()
+    return design_study(checked).to_dict()
 
 
 def roughness(*, study: dict[str, object], folder: str, report: Report) -> dict[str, object]:
     """The table [roughness] in numbers, where it names measured files, and what is told of them."""
 
     base = {"surfaces": {"first": "S45C", "second": "S45C"}, "load": {"F_star": 1e-5}}
-    found = _study(base | study, folder)
-    rough = found.contact.roughness
+    checked = _study(base | study, folder)
+    rough = checked.contact.roughness
     heights = rough.heights
     word = heights.name
     numbers = _fields(rough)
@@ -416,34 +420,34 @@ def roughness(*, study: dict[str, object], folder: str, report: Report) -> dict[
     table["heights"] = {"name": word} | _fields(heights)
     if rough.ellipticity is not None:
         table["ellipticity"] = _fields(rough.ellipticity)
-    return {"roughness": table, "notes": list(found.notes)}
+    return {"roughness": table, "notes": list(checked.notes)}
 
 
 def _fields(value: Any) -> dict[str, object]:
     every = {item.name: getattr(value, item.name) for item in dataclasses.fields(value)}
-    return {name: own for name, own in every.items() if own is not None}
+    return {name: field_value for name, field_value in every.items() if field_value is not None}
 
 
 def surface(*, file: str, options: Reading, report: Report) -> Surface:
     """A measured surface: heights for a picture, moments, and their course with the cut-off."""
     from ..populations.measured.topography import from_topography
 
-    found = from_topography(file if file == "example" else Path(file), **options)
+    topography = from_topography(file if file == "example" else Path(file), **options)
     report(0.4)
-    told = found.to_dict()
+    data = topography.to_dict()
     report(0.9)
-    heights, used = found.heights, found.moments
+    heights, used = topography.heights, topography.moments
     steps = tuple(max(1, math.ceil(n / 160)) for n in heights.shape)
     named = ("sigma", "R", "eta", "alpha", "sigma_s", "y_s")
     more = {
         "picture": {
             "heights": heights[tuple(slice(None, None, step) for step in steps)],
-            "spacing": [d * step for d, step in zip(found.spacing, steps, strict=True)],
+            "spacing": [d * step for d, step in zip(topography.spacing, steps, strict=True)],
         },
-        "used": {name: getattr(used, name) for name in named} | {"cutoff": found.cutoff},
-        "warnings": list(found.warnings),
+        "used": {name: getattr(used, name) for name in named} | {"cutoff": topography.cutoff},
+        "warnings": list(topography.warnings),
     }
-    return plain_data(told | more)
+    return plain_data(data | more)
 
 
 def counter_bins(file: str) -> dict[str, list[float]]:
@@ -463,9 +467,9 @@ def explicit(
     from ..views.plot.explicit import section_of
 
     report(0.1)
-    found = one_surface(_study(study, folder), F_star, points=points)
+    pressed = one_surface(_study(study, folder), F_star, points=points)
     report(0.9)
-    maps, bodies = found.state.maps, found.state.particles
+    maps, bodies = pressed.state.maps, pressed.state.particles
     field = {str(name): maps[name].values for name in maps.data_vars}
     every = {str(name): bodies[name].values for name in bodies.data_vars}
     step = float(maps.attrs["spacing"])
@@ -478,9 +482,9 @@ def explicit(
         "pressure": field["pressure"],
         "carrying": shown | {"share": shown["force"] / total},
         "section": section_of(field, every, step)._asdict(),
-        "compared": rows(found, 0),
-        "headline": headline(found, 0),
-        "warnings": list(found.warnings),
+        "compared": rows(pressed, 0),
+        "headline": headline(pressed, 0),
+        "warnings": list(pressed.warnings),
     }
     return plain_data(pressing)
 
@@ -491,10 +495,10 @@ def handed_on(*, study: dict[str, object], folder: str, report: Report) -> dict[
     from ..views.report import report as made
     from .text import to_toml
 
-    told = _Told(report, len(PARTS) + 1)
-    found = made(_study(study, folder), file=to_toml(study), progress=told)
-    told(PARTS[-1])
-    return {"html": found.html()}
+    stages = _Told(report, len(PARTS) + 1)
+    page = made(_study(study, folder), file=to_toml(study), progress=stages)
+    stages(PARTS[-1])
+    return {"html": page.html()}
 
 
 class _Told(progress.Stages):

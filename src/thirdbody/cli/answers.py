@@ -45,17 +45,17 @@ def read_question(
     from ..quantities.files import refuse_clashes
     from ..study.whole import files_of
 
-    asked = load(file, settings or ())
+    question = load(file, settings or ())
     if figure is not None:
         figure_format(figure)
     if paths := [*files.paths, *([] if figure is None else [figure])]:
         refuse_clashes(paths, files_of(file, settings or ()))
     files.need(figure, force=force)
-    return asked
+    return question
 
 
 def give_answer(
-    found: QuestionResult,
+    result: QuestionResult,
     files: TableFiles,
     *,
     answer: Sequence[str],
@@ -75,11 +75,11 @@ def give_answer(
     """
     from ..study.toml import heading_of, setting_in_words
 
-    title = heading_of(found.title, map(setting_in_words, settings or ()))
+    title = heading_of(result.title, map(setting_in_words, settings or ()))
     files.write(
-        *found.table(),
-        sheets=partial(_sheets, found, title, answer, table, last, more, draw),
-        data=found.to_dict,
+        *result.table(),
+        sheets=partial(_sheets, result, title, answer, table, last, more, draw),
+        data=result.to_dict,
     )
     tell_written(*files.paths)
     if draw is not None and figure is not None:
@@ -97,23 +97,25 @@ def give_answer(
         console.print(first)
         if count > MOST_ROWS:
             console.print(f"{len(shown)} of {count} rows shown; --csv FILE writes all")
-        for each in more:
-            console.print(each.above)
-            words = each.heads[:1]
-            another = Table(each.heads, words=words, right=True, more=ALL, legend=each.means)
-            for row in each.rows:
+        for word_table in more:
+            console.print(word_table.above)
+            words = word_table.heads[:1]
+            another = Table(
+                word_table.heads, words=words, right=True, more=ALL, legend=word_table.means
+            )
+            for row in word_table.rows:
                 another.add_row(*row)
             console.print(another)
         for sentence in last:
             console.print(sentence)
         sys.stdout.flush()
-    for sentence in found.asked.assumed:
+    for sentence in result.asked.assumed:
         remark(sentence, counts=True)
-    warn_of(found.warnings)
+    warn_of(result.warnings)
 
 
 def _sheets(
-    found: Any,
+    result: Any,
     title: str,
     answer: Sequence[str],
     table: WordTable,
@@ -125,18 +127,18 @@ def _sheets(
     from ..views.printed_tables import grid_of_words
     from ..views.question_sheets import inputs_of, question_sheets
 
-    given = found.asked.described_inputs
+    inputs = result.asked.described_inputs
     below: list[str | Grid | bytes] = []
-    for each in more:
-        below += [each.above, grid_of_words(each.heads, each.rows)]
+    for word_table in more:
+        below += [word_table.above, grid_of_words(word_table.heads, word_table.rows)]
     return question_sheets(
         title,
         answer,
         (table.heads, table.rows),
         [*below, *last, *([] if draw is None else [png_of(draw())])],
-        states=found.table(),
-        meanings=found.meanings,
-        inputs=inputs_of(given.values, given.bodies, given.numbers, found.asked.stated),
-        warnings=[*found.asked.assumed, *found.warnings],
-        citations=found.citations,
+        states=result.table(),
+        meanings=result.meanings,
+        inputs=inputs_of(inputs.values, inputs.bodies, inputs.numbers, result.asked.stated),
+        warnings=[*result.asked.assumed, *result.warnings],
+        citations=result.citations,
     )

@@ -124,29 +124,31 @@ def load_own_code(files: Iterable[Path] | None) -> None:
 
 def option(name: str, help: str, metavar: str | None = None, default: object = None) -> Any:
     """A field of a record of options: what a command is told behind this name."""
-    known = typer.Option(name, metavar=metavar, help=help)
-    return field(default=default, metadata={"typer": known})
+    typer_option = typer.Option(name, metavar=metavar, help=help)
+    return field(default=default, metadata={"typer": typer_option})
 
 
 def argument(
     help: str, metavar: str | None = None, *, default: object = MISSING, show_default: bool = True
 ) -> Any:
     """A field of a record of options: what a command is told without a name."""
-    known = typer.Argument(metavar=metavar, help=help, show_default=show_default)
-    return field(default=default, metadata={"typer": known})
+    typer_argument = typer.Argument(metavar=metavar, help=help, show_default=show_default)
+    return field(default=default, metadata={"typer": typer_argument})
 
 
 def parameters_of(command: Callable[..., None]) -> list[inspect.Parameter]:
     """Parameters of a command, one for each option, where it takes a record of them."""
-    own = inspect.signature(command, eval_str=True).parameters
-    if "options" not in own:
-        return list(own.values())
-    record, out = own["options"].annotation, []
+    parameters = inspect.signature(command, eval_str=True).parameters
+    if "options" not in parameters:
+        return list(parameters.values())
+    record, out = parameters["options"].annotation, []
     for name, kind in get_type_hints(record, include_extras=True).items():
-        told = record.__dataclass_fields__[name]
-        if told.metadata:
-            kind = Annotated[kind, told.metadata["typer"]]
-        default = inspect.Parameter.empty if told.default is MISSING else told.default
+        record_field = record.__dataclass_fields__[name]
+        if record_field.metadata:
+            kind = Annotated[kind, record_field.metadata["typer"]]
+        default = (
+            inspect.Parameter.empty if record_field.default is MISSING else record_field.default
+        )
         one = inspect.Parameter
         out.append(one(name, one.KEYWORD_ONLY, default=default, annotation=kind))
     return out
@@ -160,18 +162,18 @@ def with_common_options(
     The files of ``--import`` are loaded before anything is read. Notes of one that ``waits``
     stand behind its answer.
     """
-    own = parameters_of(command)
+    parameters = parameters_of(command)
     record = inspect.signature(command, eval_str=True).parameters.get("options")
 
-    def run(*, own_code: list[Path] | None = None, verbose: bool = False, **told: object) -> None:
+    def run(*, own_code: list[Path] | None = None, verbose: bool = False, **values: object) -> None:
         SHOWS_ALL.set(verbose)
         WARNINGS.set(0)
         with answer_first() if waits else nullcontext():
             load_own_code(own_code)
             if record is None:
-                command(**told)
+                command(**values)
             else:
-                command(record.annotation(**told))
+                command(record.annotation(**values))
 
     run.__name__, run.__doc__ = command.__name__, command.__doc__
     common = {"own_code": (None, OwnCode)} | ({"verbose": (False, Verbose)} if warns else {})
@@ -179,8 +181,10 @@ def with_common_options(
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind)
         for name, (default, kind) in common.items()
     ]
-    run.__signature__ = inspect.Signature([*own, *added])  # type: ignore[attr-defined]
-    run.__annotations__ = {each.name: each.annotation for each in [*own, *added]}
+    run.__signature__ = inspect.Signature([*parameters, *added])  # type: ignore[attr-defined]
+    run.__annotations__ = {
+        parameter.name: parameter.annotation for parameter in [*parameters, *added]
+    }
     return run
 
 
@@ -200,22 +204,22 @@ def read_study(
     from ..study.whole import files_of
 
     threads()  # an odd number of them is told before anything is solved, and whoever solves it
-    asked = load_study(file, settings or ())
+    study = load_study(file, settings or ())
     if any(writes):
         refuse_clashes(writes, files_of(file, settings or ()))
-    tell_notes(asked)
-    return asked
+    tell_notes(study)
+    return study
 
 
-def tell_notes(asked: Study) -> None:
+def tell_notes(study: Study) -> None:
     """Warn of what looks like a slip at once; with the answer, say what was taken for a drawing."""
     from ..quantities.value import SLIP
 
-    for sentence in asked.notes:
+    for sentence in study.notes:
         if getattr(sentence, "code", "").startswith(SLIP):
             with at_once():
                 warn(sentence)
-        elif sentence in asked.assumed:
+        elif sentence in study.assumed:
             remark(sentence, counts=True)
         else:
             warn(sentence)
@@ -242,5 +246,7 @@ def metres(option: str, text: str, problems: list[str]) -> float:
     try:
         return to_si(text, "m")
     except InvalidValue as error:
-        problems += [Problem(option, f": {each}", code=each.code) for each in error.problems]
+        problems += [
+            Problem(option, f": {problem}", code=problem.code) for problem in error.problems
+        ]
         return math.nan

@@ -73,7 +73,7 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
         if path is None:
             continue
         if (other := NAMED.get(path.suffix.lower(), kind)) != kind and kind in NAMED.values():
-            end = next(end for end, each in NAMED.items() if each == kind)
+            end = next(end for end, named_kind in NAMED.items() if named_kind == kind)
             rule = f"cannot write {path}: that is the name of a {other}, and a {kind} goes into it"
             hint = f"give a name that ends in {end}"
             problems.append(Problem("", rule, hint=hint, code=Mistake.UNWRITABLE))
@@ -144,7 +144,7 @@ def _is_table(path: Path) -> bool:
 
 def _has_head(head: Iterable[object]) -> bool:
     names = set(head)
-    return any(each <= names for each in HEADS)
+    return any(columns <= names for columns in HEADS)
 
 
 def _is_workbook(path: Path) -> bool:
@@ -206,7 +206,7 @@ def _is_json(path: Path) -> bool:
 def _is_answer(path: Path) -> bool:
     """Whether JSON is what a command answers."""
     keys = _keys(path)
-    return any(each <= keys for each in JSON_KEYS)
+    return any(needed <= keys for needed in JSON_KEYS)
 
 
 def _keys(path: Path) -> set[str]:

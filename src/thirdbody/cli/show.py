@@ -28,8 +28,8 @@ PIPE = 120
 def terminal() -> Console:
     from rich.console import Console
 
-    asked = os.environ.get("COLUMNS", "")
-    width = max(int(asked), LEAST) if asked.isdecimal() and int(asked) > 0 else None
+    columns = os.environ.get("COLUMNS", "")
+    width = max(int(columns), LEAST) if columns.isdecimal() and int(columns) > 0 else None
     if width is None and not sys.stdout.isatty():
         width = PIPE
 
@@ -37,7 +37,8 @@ def terminal() -> Console:
         def print(self, *objects: object, **how: Any) -> None:
             """Print as rich does, but for sentences: their numbers stay beside their units."""
             lines = [
-                _fill_lines(each, self.width) if isinstance(each, str) else each for each in objects
+                _fill_lines(printed, self.width) if isinstance(printed, str) else printed
+                for printed in objects
             ]
             super().print(*lines, **how)
 
@@ -60,11 +61,11 @@ def some_times(times: Sequence[float]) -> list[int]:
     total = len(times)
     if total <= MOST_ROWS:
         return list(range(total))
-    end, first = times[-1], next(each for each in times if each > 0)
+    end, first = times[-1], next(time for time in times if time > 0)
     half = MOST_ROWS // 2
     wanted = [first * (end / first) ** (i / half) for i in range(half)]
     wanted += [end * i / half for i in range(half + 1)]
-    near = {min(range(total), key=lambda k: abs(times[k] - each)) for each in wanted}
+    near = {min(range(total), key=lambda k: abs(times[k] - time)) for time in wanted}
     return sorted(near)[: MOST_ROWS + 1]
 
 

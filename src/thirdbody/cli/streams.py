@@ -115,8 +115,8 @@ class Command(TyperCommand):
     """A command whose ``--json`` prints where no file is named behind it."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        named = any("--json" in each.opts and not getattr(each, "is_flag", True)
-                    for each in self.params)  # fmt: skip
+        named = any("--json" in parameter.opts and not getattr(parameter, "is_flag", True)
+                    for parameter in self.params)  # fmt: skip
         return super().parse_args(ctx, with_json_file(args) if named else args)
 
 
@@ -257,9 +257,9 @@ def _wrap_line(line: str) -> str:
 
     ``COLUMNS`` sets the width, as of tables.
     """
-    asked = os.environ.get("COLUMNS", "")
-    if asked.isdecimal() and int(asked) > 0:
-        width = max(int(asked), LEAST)
+    columns = os.environ.get("COLUMNS", "")
+    if columns.isdecimal() and int(columns) > 0:
+        width = max(int(columns), LEAST)
     elif sys.stderr.isatty():
         width = max(shutil.get_terminal_size().columns, LEAST)
     else:
@@ -433,6 +433,6 @@ def write_figure(figure: Path, drawing: Figure) -> None:
     # by which the next run knows it for one of ours
     made = {"Software" if kind == "png" else "Creator": f"thirdbody {__version__}"}
     made |= {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})  # type: ignore[arg-type]
-    with whole(figure) as part, rc_context({"svg.hashsalt": "thirdbody"}):
-        save_figure(drawing, part, kind, metadata=made)
+    with whole(figure) as draft, rc_context({"svg.hashsalt": "thirdbody"}):
+        save_figure(drawing, draft, kind, metadata=made)
     tell_written(figure)

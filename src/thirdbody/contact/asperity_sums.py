@@ -150,15 +150,15 @@ class GaussianRule:
         force = self.columns[:, :1]
         columns = w * np.hstack([self.columns, force * t[:, None], force * t[:, None] ** 2])
         out = np.empty((len(h), columns.shape[1]))
-        for part in in_pieces(len(h), columns.size):
+        for piece in in_pieces(len(h), columns.size):
             if whole:
-                e = -0.5 * np.add.outer(h[part], t) ** 2
+                e = -0.5 * np.add.outer(h[piece], t) ** 2
             else:
-                e = np.multiply.outer(-h[part], t)
+                e = np.multiply.outer(-h[piece], t)
                 e -= 0.5 * t**2
                 np.maximum(e, -700.0, out=e)
             np.exp(e, out=e)
-            out[part] = e @ columns
+            out[piece] = e @ columns
         return out
 
 
@@ -249,10 +249,10 @@ class GaussianSums:
     def __init__(self, law: AbstractAsperityLaw, step: int):
         x, transform = chebyshev_transform(self.TERMS)
         rule = gaussian_rule(law, step // 2)
-        each = 2.0 ** ((step + 0.5 * (x + 1)) / 2)
+        interferences = 2.0 ** ((step + 0.5 * (x + 1)) / 2)
 
         def sums(h: Array) -> Array:
-            return np.concatenate([rule.sums(w, h) for w in each], axis=1)
+            return np.concatenate([rule.sums(w, h) for w in interferences], axis=1)
 
         kinds = GaussianSum.KINDS * self.TERMS
         self.table = PiecewiseChebyshev(sums, GaussianSum.SPAN, kinds=kinds)
@@ -262,9 +262,9 @@ class GaussianSums:
 
     def middle(self, h: Array) -> Array:
         """The load in the middle of the half octave: (N,)."""
-        each = self.table(h).reshape(len(h), self.TERMS, -1)[:, :, 0]
+        loads = self.table(h).reshape(len(h), self.TERMS, -1)[:, :, 0]
         _, transform = chebyshev_transform(self.TERMS)
-        return each @ np.polynomial.chebyshev.chebval(0.0, transform)
+        return loads @ np.polynomial.chebyshev.chebval(0.0, transform)
 
     @staticmethod
     def place(w: Array) -> tuple[NDArray[np.intp], Array]:
@@ -355,11 +355,11 @@ def reduced_sum(law: AbstractAsperityLaw, heights: Heights, w: float) -> Reduced
 
 
 def scales(
-    bound: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair
+    law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair
 ) -> tuple[Array, Array]:
     """w = ω_1/σ_s, and the units of load [Pa] and of area by regime: (...,), (..., 4)."""
     H = surfaces.H
-    omega_1 = bound.yield_interference(R=rough.R, E_star=surfaces.E_star, H=H)
+    omega_1 = law.yield_interference(R=rough.R, E_star=surfaces.E_star, H=H)
     area = np.asarray(rough.density * math.pi * rough.R * omega_1)
     return np.asarray(omega_1 / rough.sigma_s), np.stack([area * H, area, area, area], axis=-1)
 
@@ -370,12 +370,14 @@ class AsperitySum:
     def __init__(
         self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
     ):
-        bound = law.bound(R=rough.R, E_star=surfaces.E_star, H=surfaces.H, nu=surfaces.softer.nu)
-        w, self.units = scales(bound, rough, surfaces)
+        law_in_contact = law.bound(
+            R=rough.R, E_star=surfaces.E_star, H=surfaces.H, nu=surfaces.softer.nu
+        )
+        w, self.units = scales(law_in_contact, rough, surfaces)
         self.rough, self.surfaces = rough, surfaces
         self.sigma_s = rough.sigma_s
         self.centre = datum * rough.sigma
-        self.reduced = reduced_sum(bound, rough.heights, float(w))
+        self.reduced = reduced_sum(law_in_contact, rough.heights, float(w))
         self.highest = self.reduced.highest
         self.searched = SEARCHED
         self.deepest = self.centre - ReducedSum.DEEPEST * self.sigma_s
@@ -435,25 +437,25 @@ class MixedSum:
                 R=radius * rough.R, eta=share * rough.density, eta_R_sigma=None, ellipticity=None
             )
             self.parts.append(AsperitySum(law.replace(ratio=ratio), alike, surfaces, datum))
-        self.highest = max(part.highest for part in self.parts)
+        self.highest = max(shape.highest for shape in self.parts)
         self.searched = SEARCHED
         self.deepest = self.centre - ReducedSum.DEEPEST * self.sigma_s
 
     def load(self, d: Array) -> Array:
         """As `AsperitySum.load`."""
-        return np.sum([part.load(d) for part in self.parts], axis=0)
+        return np.sum([shape.load(d) for shape in self.parts], axis=0)
 
     def share_beyond(self, d: float) -> float:
         """The largest `AsperitySum.share_beyond` of the shapes."""
-        return max(part.share_beyond(d) for part in self.parts)
+        return max(shape.share_beyond(d) for shape in self.parts)
 
     def fields(self, d: Array) -> Array:
         """As `AsperitySum.fields`."""
-        return np.sum([part.fields(d) for part in self.parts], axis=0)
+        return np.sum([shape.fields(d) for shape in self.parts], axis=0)
 
     def spots(self, d: Array) -> list[AsperitySpots]:
         """As `AsperitySum.spots`, one item a shape."""
-        return [spots for part in self.parts for spots in part.spots(d)]
+        return [spots for shape in self.parts for spots in shape.spots(d)]
 
 
 @lru_cache(maxsize=512)

@@ -95,9 +95,9 @@ class BrokenAverage(SizeAverage):
         last = self.kinks[-1]
         self.least = self._least()
         if self.least < self.top * self.ratio**MOST_STRETCHES:
-            part, ratio = self.least / self.top, self.ratio
+            share, ratio = self.least / self.top, self.ratio
             raise InvalidValue(
-                TOO_ALIKE.format(ratio=ratio, most=MOST_STRETCHES, part=part), code=Mistake.BEYOND
+                TOO_ALIKE.format(ratio=ratio, most=MOST_STRETCHES, part=share), code=Mistake.BEYOND
             )
         self.join = self.bottom = float(
             self.least * (1 - last) if last <= 1 else self.top * (1 - last)
@@ -147,11 +147,11 @@ class BrokenAverage(SizeAverage):
 
     def _jumps(self) -> list[float]:
         """Sizes at which the number of particles or pieces jumps."""
-        given = {float(x) for x in self.sizes.kinks}
+        first_sizes = {float(x) for x in self.sizes.kinks}
         if self.breakage.x_c > 0:
-            given.add(self.breakage.x_c)
+            first_sizes.add(self.breakage.x_c)
         out = set()
-        for size in given:
+        for size in first_sizes:
             x = size
             while x >= self.least * (1 - 1e-12):
                 if x <= self.top:
@@ -179,10 +179,10 @@ class BrokenAverage(SizeAverage):
             broken = (self.tension(eps) / law.sigma * self.top**law.b) ** law.m
         begin = float(eps[np.argmax(broken > 1e-12)]) if np.any(broken > 1e-12) else 0.5
         rungs = begin * step ** np.arange(math.ceil(math.log(0.6 / begin) / math.log(step)) + 1)
-        known = np.array(sorted({*self.kinks.tolist(), *map(float, self.particle.panels)}))
-        near = np.min(np.abs(np.log(rungs[:, None] / known)), axis=1)
+        kinks = np.array(sorted({*self.kinks.tolist(), *map(float, self.particle.panels)}))
+        near = np.min(np.abs(np.log(rungs[:, None] / kinks)), axis=1)
         rungs = rungs[near > 0.25 * math.log(step)]
-        return np.sort(np.concatenate([known, rungs]))
+        return np.sort(np.concatenate([kinks, rungs]))
 
     def pieces(
         self, gap: Array, rise: Array, splits: Sequence[float] = (), *, nodes: int, squeezes: Array
@@ -283,17 +283,17 @@ class BrokenAverage(SizeAverage):
             lowest = max(float(gap[order[start]]), self.least)
             octaves = 2 + math.log(lowest / self.top) / math.log(self.ratio)
             stop = start + max(1, int(AT_ONCE / (octaves * panels * self.panel_nodes)))
-            part = order[start:stop]
-            found = self.pieces(
-                gap[part, None],
-                rise[part, None],
+            rows = order[start:stop]
+            pieces = self.pieces(
+                gap[rows, None],
+                rise[rows, None],
                 nodes=self.panel_nodes,
                 squeezes=self.squeezes,
             )
-            used = (found.number > 0) & (found.delta > 0)
+            used = (pieces.number > 0) & (pieces.delta > 0)
             values = np.zeros((*used.shape, len(COLUMNS)))
-            values[used] = self.particle(found.delta[used] / found.x[used])
-            out[part] = np.einsum("gn,gnk->gk", found.number * found.x**2, values)
+            values[used] = self.particle(pieces.delta[used] / pieces.x[used])
+            out[rows] = np.einsum("gn,gnk->gk", pieces.number * pieces.x**2, values)
             start = stop
         return out
 
@@ -309,8 +309,8 @@ class BrokenAverage(SizeAverage):
         last = i == len(self.ends) - 2
 
         def values(u: Array) -> Array:
-            found = self.average(high - u * u, (self.top - high) + u * u)
-            return found / u[:, None] ** self.powers if last else found
+            averages = self.average(high - u * u, (self.top - high) + u * u)
+            return averages / u[:, None] ** self.powers if last else averages
 
         return PiecewiseChebyshev(
             values,
@@ -362,10 +362,12 @@ class BrokenAverage(SizeAverage):
             lead = v**p
             du = lead * (first + p * value / v)
             ddu = lead * (second + 2 * p * first / v + p * (p - 1) * value / v**2)
-            part = np.stack([lead * value, -du / (2 * v), (ddu - du / v) / (4 * v * v)], axis=-1)
+            derivatives = np.stack(
+                [lead * value, -du / (2 * v), (ddu - du / v) / (4 * v * v)], axis=-1
+            )
             if last:
-                part[u == 0] = 0.0
-            out[which] = part
+                derivatives[u == 0] = 0.0
+            out[which] = derivatives
         below = gaps < self.bottom
         out[below] = 0.0
         out[below, :, 0] = self.floor[list(columns)]
@@ -414,11 +416,11 @@ class BrokenAverage(SizeAverage):
     ) -> ParticleSpots:
         """Spots of particles and pieces in gaps (M, 1), each gap counted with its weight."""
         ladder = self._ladder(4.0)
-        found = self.pieces(gap, rise, splits, nodes=SPOT_NODES, squeezes=ladder)
+        pieces = self.pieces(gap, rise, splits, nodes=SPOT_NODES, squeezes=ladder)
         spots = self.particle.spots(
-            found.x, np.maximum(found.delta, 0.0), share=share, number=found.number * weight
+            pieces.x, np.maximum(pieces.delta, 0.0), share=share, number=pieces.number * weight
         )
-        return replace(spots, parents=found.parents * weight, survival=found.survival)
+        return replace(spots, parents=pieces.parents * weight, survival=pieces.survival)
 
 
 class RoughBrokenAverage(BrokenAverage):

@@ -88,8 +88,10 @@ class Contact(Value):
             for name, kind in kinds.items()
             if not isinstance(getattr(self, name), kind)
         ]
-        given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
-        if not all(isinstance(each, Particles) for each in given) and given != (None,):
+        populations = self.particles if isinstance(self.particles, tuple) else (self.particles,)
+        if not all(
+            isinstance(population, Particles) for population in populations
+        ) and populations != (None,):
             out.append(
                 Problem(
                     "particles",
@@ -112,7 +114,7 @@ class Contact(Value):
         laws: list[AbstractParticleLaw] = []
         out: list[str] = []
         places = self.places
-        covered = sum(each.coverage for each in places.values())
+        covered = sum(population.coverage for population in places.values())
         if covered >= 1:
             out.append(
                 Problem(
@@ -122,25 +124,27 @@ class Contact(Value):
                     code=Mistake.FULL,
                 )
             )
-        for place, each in places.items():
-            if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
+        for place, population in places.items():
+            if population.law is not None and not isinstance(population.law, AbstractParticleLaw):
                 allowed = "must be a particle law, e.g. " + Advice(
                     "particle.Series(seat='plane')", '{ name = "series", seat = "plane" }'
                 )
-                out.append(Problem("law", allowed, repr(each.law), owner=place, code=Mistake.KIND))
+                out.append(
+                    Problem("law", allowed, repr(population.law), owner=place, code=Mistake.KIND)
+                )
                 continue
             try:
-                law = self.law_of(each)
+                law = self.law_of(population)
             except InvalidValue as error:
-                out += [_of_population(one, place, each) for one in error.problems]
+                out += [_of_population(one, place, population) for one in error.problems]
                 continue
             laws.append(law)
-            if each.strength is not None and not law.breakable:
+            if population.strength is not None and not law.breakable:
                 rule = f": particles of the law {law.name} do not break"
                 hint = "use " + SERIES + ", or remove strength"
                 out.append(
                     _of_population(
-                        Problem("strength", rule, hint=hint, code=Mistake.BEYOND), place, each
+                        Problem("strength", rule, hint=hint, code=Mistake.BEYOND), place, population
                     )
                 )
         if not out and len({law.centre for law in laws}) > 1:
@@ -164,10 +168,12 @@ class Contact(Value):
         """The populations that have a density, by their dotted places in the contact."""
         every: dict[str, Particles] = {}
         if isinstance(self.particles, tuple):
-            every = {f"particles.{i}": each for i, each in enumerate(self.particles)}
+            every = {f"particles.{i}": population for i, population in enumerate(self.particles)}
         elif self.particles is not None:
             every = {"particles": self.particles}
-        return {place: each for place, each in every.items() if each.areal_density > 0}
+        return {
+            place: population for place, population in every.items() if population.areal_density > 0
+        }
 
     def law_of(self, particles: Particles) -> AbstractParticleLaw:
         """The law that a population follows, for particles of its shape."""

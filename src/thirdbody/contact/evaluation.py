@@ -91,7 +91,7 @@ class Solved:
 
     def output(self, name: str) -> Any:
         """The output of this name that the contact carries."""
-        return next(each for each in self.contact.outputs if each.name == name)
+        return next(output for output in self.contact.outputs if output.name == name)
 
 
 def _sum(d: Array, groups: Sequence[Any], q: Callable[[Any], ArrayLike]) -> Array:
@@ -102,9 +102,9 @@ def bodies_of(contact: Contact) -> dict[str, Material]:
     """The two surfaces and every population's material by what a message calls them."""
     out = {"surface 1": contact.surfaces.first, "surface 2": contact.surfaces.second}
     several = len(contact.populations) > 1
-    for place, each in enumerate(contact.populations, 1):
-        which = each.name or (place if several else "")
-        out[f"the particles {which}".rstrip()] = each.material
+    for place, population in enumerate(contact.populations, 1):
+        which = population.name or (place if several else "")
+        out[f"the particles {which}".rstrip()] = population.material
     return out
 
 
@@ -185,41 +185,45 @@ class LaidOutParticles(Sequence["ParticleSpots"]):
 
 
 def particles_of(
-    contact: Contact, bound: Interface, d: Array, crowd: Array | None = None
+    contact: Contact, contact_interface: Interface, d: Array, crowd: Array | None = None
 ) -> list[ParticleSpots]:
     """Spots of every loaded particle of the states at d, weighted by its number."""
     particles: list[ParticleSpots] = []
-    for each, response in zip(contact.populations, bound.populations, strict=True):
-        law = contact.law_of(each)
+    for population, response in zip(
+        contact.populations, contact_interface.populations, strict=True
+    ):
+        law = contact.law_of(population)
         splits = {
             eps
             for output in contact.outputs
-            for eps in _splits(output, law, contact.surfaces, each.material)
+            for eps in _splits(output, law, contact.surfaces, population.material)
         }
-        found = response.spots(d, sorted(splits))
-        particles += [replace(spots, material=each.material, population=each) for spots in found]
+        groups = response.spots(d, sorted(splits))
+        particles += [
+            replace(spots, material=population.material, population=population) for spots in groups
+        ]
     return particles if crowd is None else [spots.thin_spots(crowd) for spots in particles]
 
 
-def touching(bound: Interface, d: Array, crowd: Array | None = None) -> Array:
+def touching(contact_interface: Interface, d: Array, crowd: Array | None = None) -> Array:
     """Loaded particles per nominal area [1/m²] at d (N,), NaN where that is."""
-    found = np.where(np.isnan(d), np.nan, 0.0)
+    count = np.where(np.isnan(d), np.nan, 0.0)
     where = np.isfinite(d)
-    for each in bound.populations if where.any() else ():
-        found[where] += each.touching(d[where])
-    return found if crowd is None else found * crowd
+    for response in contact_interface.populations if where.any() else ():
+        count[where] += response.touching(d[where])
+    return count if crowd is None else count * crowd
 
 
 def spots_of(
-    contact: Contact, bound: Interface, d: Array, shadow: Array
+    contact: Contact, contact_interface: Interface, d: Array, shadow: Array
 ) -> tuple[list[AsperitySpots], list[ParticleSpots]]:
     """Every spot of the states at d: asperities out of the shadow, and loaded particles."""
-    return asperities_of(bound, d, shadow), particles_of(contact, bound, d)
+    return asperities_of(contact_interface, d, shadow), particles_of(contact, contact_interface, d)
 
 
-def asperities_of(bound: Interface, d: Array, shadow: Array) -> list[AsperitySpots]:
+def asperities_of(contact_interface: Interface, d: Array, shadow: Array) -> list[AsperitySpots]:
     """Every asperity in contact of the states at d, out of the shadow of particles."""
-    return [spots.thin_spots(1 - shadow) for spots in bound.asperities.spots(d)]
+    return [spots.thin_spots(1 - shadow) for spots in contact_interface.asperities.spots(d)]
 
 
 @lru_cache(maxsize=256)
@@ -229,21 +233,21 @@ def _splits(
     """Where q of an output jumps or bends, for particles of one material."""
 
     def probe(eps: Array) -> ParticleSpots:
-        found = law.probe(eps, surfaces=surfaces, particle=particle)
-        return replace(found, material=particle)
+        spots = law.probe(eps, surfaces=surfaces, particle=particle)
+        return replace(spots, material=particle)
 
     return tuple(float(eps) for eps in output.splits(probe))
 
 
-def _laid_out_together(d: Array, bound: Interface) -> Iterator[NDArray[np.intp]]:
+def _laid_out_together(d: Array, contact_interface: Interface) -> Iterator[NDArray[np.intp]]:
     """Indices of solved states in groups whose spots take little memory, smallest d first."""
-    known = np.flatnonzero(np.isfinite(d))
-    groups = [known]
-    stretch = min((each.stretch for each in bound.populations), default=np.inf)
-    if len(known) > AT_ONCE or (len(known) and np.ptp(d[known]) > stretch):
-        known = known[np.argsort(d[known], kind="stable")]
-        cells = np.floor((d[known] - d[known[0]]) / stretch)
-        groups = np.split(known, np.flatnonzero(np.diff(cells)) + 1)
+    solved = np.flatnonzero(np.isfinite(d))
+    groups = [solved]
+    stretch = min((response.stretch for response in contact_interface.populations), default=np.inf)
+    if len(solved) > AT_ONCE or (len(solved) and np.ptp(d[solved]) > stretch):
+        solved = solved[np.argsort(d[solved], kind="stable")]
+        cells = np.floor((d[solved] - d[solved[0]]) / stretch)
+        groups = np.split(solved, np.flatnonzero(np.diff(cells)) + 1)
     for group in groups:
         for start in range(0, len(group), AT_ONCE):
             yield group[start : start + AT_ONCE]
@@ -251,7 +255,7 @@ def _laid_out_together(d: Array, bound: Interface) -> Iterator[NDArray[np.intp]]
 
 def evaluate(
     contact: Contact,
-    bound: Interface,
+    contact_interface: Interface,
     columns: Mapping[str, Array],
     crowd: Array | None = None,
     parts: Sequence[dict[str, Array]] = (),
@@ -262,7 +266,7 @@ def evaluate(
     Parameters
     ----------
     contact : Contact
-    bound : Interface
+    contact_interface : Interface
         Of an equal contact.
     columns : mapping
         d, h, pressure, A_t and shadow of the states: arrays (N,).
@@ -276,11 +280,13 @@ def evaluate(
     names = [name for output in contact.outputs for name in output.columns]
     values = {name: np.full(len(columns["d"]), np.nan) for name in names}
     notes: dict[str, str] = {}
-    for part in _laid_out_together(columns["d"], bound):
-        here = {name: columns[name][part] for name in ("d", "h", "pressure", "A_t")}
-        many = None if crowd is None else crowd[part]
-        asperities = asperities_of(bound, here["d"], columns["shadow"][part])
-        particles = LaidOutParticles(partial(particles_of, contact, bound, here["d"], many))
+    for rows in _laid_out_together(columns["d"], contact_interface):
+        here = {name: columns[name][rows] for name in ("d", "h", "pressure", "A_t")}
+        many = None if crowd is None else crowd[rows]
+        asperities = asperities_of(contact_interface, here["d"], columns["shadow"][rows])
+        particles = LaidOutParticles(
+            partial(particles_of, contact, contact_interface, here["d"], many)
+        )
         state = Solved(
             contact=contact,
             **here,
@@ -288,24 +294,26 @@ def evaluate(
             particles=particles,
             crowd=many,
             solver=solver,
-            counted=partial(touching, bound, here["d"], many),
+            counted=partial(touching, contact_interface, here["d"], many),
         )
         for output in contact.outputs:
             with np.errstate(all="ignore"):  # a spot without a load has no number of its own
-                found = output.of(state)
-                said = output.warnings(state, found)
-            for name, value in found.items():
-                values[name][part] = value
+                output_values = output.of(state)
+                said = output.warnings(state, output_values)
+            for name, value in output_values.items():
+                values[name][rows] = value
             for note in said:
                 notes.setdefault(code_of(note), note)
-        for population, own in zip(contact.populations, parts, strict=False):
+        for population, population_values in zip(contact.populations, parts, strict=False):
             mine = [spots for spots in particles if spots.population is population]
             alone = replace(state, asperities=[], particles=mine, counted=None)
             for output in contact.outputs:
                 with np.errstate(all="ignore"):
-                    found = output.of(alone) if output.by_population else {}
-                for name, value in found.items():
-                    own.setdefault(name, np.full(len(columns["d"]), np.nan))[part] = value
+                    output_values = output.of(alone) if output.by_population else {}
+                for name, value in output_values.items():
+                    population_values.setdefault(name, np.full(len(columns["d"]), np.nan))[rows] = (
+                        value
+                    )
         for note in _about_few(state):
             notes.setdefault(code_of(note), note)
     return values, list(notes.values())

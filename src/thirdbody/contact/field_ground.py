@@ -101,7 +101,7 @@ class Seat:
 
     def __init__(
         self,
-        part: Part,
+        component: Part,
         sigma: float,
         mean: float,
         width: float,
@@ -111,10 +111,10 @@ class Seat:
         self.height = spectrum.height
         self.shadow = COLUMNS.index(shadow) if shadow in COLUMNS else None
         """Column of the area in which its particles keep asperities apart, if it is one."""
-        assert isinstance(part.average, SeatAverage)
-        self.part, self.mean, self.width = part, mean, width
-        self.average = part.average
-        self.unit = part.scale / sigma
+        assert isinstance(component.average, SeatAverage)
+        self.component, self.mean, self.width = component, mean, width
+        self.average = component.average
+        self.unit = component.scale / sigma
         """Size of the standardised particles over σ."""
 
     def gaps(self, h: Array, u: Array) -> tuple[Array, Array, Array]:
@@ -192,12 +192,12 @@ class Seat:
         inside = (gaps >= nodes[0]) & (gaps <= nodes[-1])
         gaps = np.clip(gaps, nodes[0], nodes[-1])
         after = np.clip(np.searchsorted(nodes, gaps, side="right"), 1, len(nodes) - 1)
-        part = (gaps - nodes[after - 1]) / (nodes[after] - nodes[after - 1])
+        share = (gaps - nodes[after - 1]) / (nodes[after] - nodes[after - 1])
         weight = np.where(inside, weight, 0.0)
         out = np.zeros((len(h), len(nodes)))
         rows = np.arange(len(h))[:, None]
-        np.add.at(out, (rows, after - 1), weight * (1 - part))
-        np.add.at(out, (rows, after), weight * part)
+        np.add.at(out, (rows, after - 1), weight * (1 - share))
+        np.add.at(out, (rows, after), weight * share)
         return out
 
 
@@ -256,9 +256,9 @@ class Ground:
         out = np.zeros_like(state)
         for seat in self.seats:
             columns, moments = seat.sums(h, u)
-            out[:, :-1] += (seat.part.factor / self.field.unit) * moments
+            out[:, :-1] += (seat.component.factor / self.field.unit) * moments
             if seat.shadow is not None:
-                out[:, -1] += seat.part.factor * columns[:, seat.shadow]
+                out[:, -1] += seat.component.factor * columns[:, seat.shadow]
         return out, u
 
     def _lift(self, h: Array, beta: Array) -> Array:
@@ -267,16 +267,16 @@ class Ground:
         miss = np.full(len(h), np.nan)
         for _ in range(12):
             _, weights = self._of_asperities(h + w)
-            found = np.maximum(self.twice * np.sum(weights * beta, axis=1), self.h[0] - h)
-            last, miss = miss, found - w
+            lift = np.maximum(self.twice * np.sum(weights * beta, axis=1), self.h[0] - h)
+            last, miss = miss, lift - w
             if np.max(np.abs(miss), initial=0.0) < 1e-12:
-                return found
+                return lift
             # a chord through the last two, where it is no longer than two plain steps
             with np.errstate(divide="ignore", invalid="ignore"):
                 chord = miss * (w - before) / (last - miss)
             short = np.abs(chord) <= 2 * np.abs(miss)
             before, w = w, w + np.where(short, chord, miss)
-        return found
+        return lift
 
     def _solve_separations(self) -> tuple[Array, Array]:
         """Solve all separations at once; those that fail, one by one from the ones above."""
@@ -300,8 +300,8 @@ class Ground:
         misses: list[Array] = []
         left = np.full(len(rest), MORE)
         for _ in range(ROUNDS + MORE):
-            found, now = self._round(self.h[rest], state)
-            misses = [*misses, found - state][-MEMORY:]
+            updated, now = self._round(self.h[rest], state)
+            misses = [*misses, updated - state][-MEMORY:]
             states = [*states, state][-MEMORY:]
             change = np.max(np.abs(now - u[rest]), axis=1)
             u[rest], kept[rest] = now, state
@@ -311,8 +311,8 @@ class Ground:
             rest, left = rest[more], left[more]
             if not len(rest):
                 break
-            states = [each[more] for each in states]
-            misses = [each[more] for each in misses]
+            states = [past[more] for past in states]
+            misses = [miss[more] for miss in misses]
             state = _next_state(states, misses)
         return rest[left == MORE]
 
@@ -353,7 +353,7 @@ class Ground:
 
 def field_offset(seat: Seat, field: FieldSum) -> float:
     """h − (d + offset)/σ of a part."""
-    return (field.rough.y_s - field.centre - seat.part.offset) / field.sigma
+    return (field.rough.y_s - field.centre - seat.component.offset) / field.sigma
 
 
 def _next_state(states: list[Array], misses: list[Array]) -> Array:
@@ -361,21 +361,23 @@ def _next_state(states: list[Array], misses: list[Array]) -> Array:
     if len(states) == 1:
         return states[0] + 0.5 * misses[0]
     last, miss = states[-1], misses[-1]
-    d_state = np.stack([last - each for each in states[:-1]], axis=-1)
-    d_miss = np.stack([miss - each for each in misses[:-1]], axis=-1)
+    d_state = np.stack([last - earlier for earlier in states[:-1]], axis=-1)
+    d_miss = np.stack([miss - earlier for earlier in misses[:-1]], axis=-1)
     size = np.max(np.abs(d_miss), axis=(1, 2))[:, None, None] + 1e-300
-    part = np.linalg.pinv(d_miss / size, rcond=1e-8) @ miss[..., None] / size
-    part = np.clip(part, -3.0, 3.0)
-    return last + miss - ((d_state + d_miss) @ part)[..., 0]
+    weights = np.linalg.pinv(d_miss / size, rcond=1e-8) @ miss[..., None] / size
+    weights = np.clip(weights, -3.0, 3.0)
+    return last + miss - ((d_state + d_miss) @ weights)[..., 0]
 
 
 class GroundedPart(Part):
     """A `Part` whose ground gives way."""
 
     def __init__(self, ground: Ground, seat: Seat):
-        part = seat.part
-        assert isinstance(part.average, SeatAverage)
-        super().__init__(part.average, part.scale, part.density, offset=part.offset)
+        component = seat.component
+        assert isinstance(component.average, SeatAverage)
+        super().__init__(
+            component.average, component.scale, component.density, offset=component.offset
+        )
         self.ground, self.seat = ground, seat
         self._cut: dict[tuple[int, ...], list[BSpline]] = {}
 
@@ -424,7 +426,7 @@ class GroundedPart(Part):
             self._cut[columns] = [some, some.derivative(1), some.derivative(2)]
         h = self._h(d)
         inside = np.clip(h, self.ground.h[0], max(last, self.ground.h[0]))
-        value, first, second = (each(inside) for each in self._cut[columns])
+        value, first, second = (series(inside) for series in self._cut[columns])
         F = np.exp(value[:, 0])
         F1 = F * first[:, 0]
         F2 = F * (second[:, 0] + first[:, 0] ** 2)
@@ -477,9 +479,9 @@ class GroundedPart(Part):
         h, seat = self._h(d), self.seat
         average, u = seat.average.average, self.ground.patch_moments(h)[:, :-1]
         gaps, rise, _ = average.gaps(SPOTS * seat.average.width, splits)
-        _, found, _ = seat.gaps(h, u)
+        _, seat_gaps, _ = seat.gaps(h, u)
         # below the gaps of the tables loads no longer change, but depths do
-        low = min(float(found.min()) / seat.unit, float(gaps[0]) - seat.average.width)
+        low = min(float(seat_gaps.min()) / seat.unit, float(gaps[0]) - seat.average.width)
         count = max(8, math.ceil(4 * (gaps[0] - low) / seat.average.width))
         below = np.linspace(low, gaps[0], count + 1)[:-1]
         gaps = np.concatenate([below, gaps, [average.top]])
@@ -545,23 +547,25 @@ def put_on_ground(
 ) -> tuple[LiftedSum, list[SeatedParticles]]:
     """The asperities and every population on ground that all of them press down."""
     seats, owners = [], []
-    for i, (each, law) in enumerate(zip(populations, laws, strict=True)):
-        for part in each.parts:
+    for i, (population, law) in enumerate(zip(populations, laws, strict=True)):
+        for component in population.parts:
             spectrum = field.surface.spectrum
             mean, width = law.zeta_mean, law.zeta_std
-            seats.append(Seat(part, field.sigma, mean, width, spectrum, each.shadow))
+            seats.append(Seat(component, field.sigma, mean, width, spectrum, population.shadow))
             owners.append(i)
-    density = np.array([sum(part.density for part in each.parts) for each in populations])
+    density = np.array(
+        [sum(component.density for component in population.parts) for population in populations]
+    )
     mean_diameter = float(density @ np.array(diameters) / density.sum())
     # √(m0/m2) = √2 σ/g
     waves = math.sqrt(2) * field.surface.spectrum.steeper * field.sigma / field.gradient
     apart = mean_diameter / waves
     ground = Ground(field, seats, apart)
     out = []
-    for i, each in enumerate(populations):
+    for i, population in enumerate(populations):
         parts: list[Part] = [
             GroundedPart(ground, seat) for seat, owner in zip(seats, owners, strict=True)
             if owner == i
         ]  # fmt: skip
-        out.append(SeatedParticles(parts, each.shadow, each.coverage))
+        out.append(SeatedParticles(parts, population.shadow, population.coverage))
     return LiftedSum(field, ground), out

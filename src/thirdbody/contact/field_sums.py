@@ -77,8 +77,8 @@ class FieldSum:
 
     def stiffness(self, d: Array) -> Array:
         """δp/δ of the patches that touch, their edges at rest, without shadow [Pa/m]: (N,)."""
-        found = stiffness(self.surface, self.h(d), remains=self.law.remainder)
-        return self.unit / self.sigma * found
+        reduced = stiffness(self.surface, self.h(d), remains=self.law.remainder)
+        return self.unit / self.sigma * reduced
 
     def share_beyond(self, d: float) -> float:
         """Its range ends where its table does: nothing is carried beyond."""
@@ -93,8 +93,8 @@ class FieldSum:
         tiny = np.finfo(float).tiny
         count = F / np.maximum(F_tips, tiny)
         size = np.sum(areas, axis=0) / np.maximum(count * np.sum(areas_tips, axis=0), tiny)
-        found = FieldSpots.scaled_from(spots, count, np.where(F > 0, size, 1.0))
-        return [replace(found, stiffness=self.stiffness(d), regimes=np.stack(areas, axis=-1))]
+        scaled = FieldSpots.scaled_from(spots, count, np.where(F > 0, size, 1.0))
+        return [replace(scaled, stiffness=self.stiffness(d), regimes=np.stack(areas, axis=-1))]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -155,8 +155,8 @@ class FieldSpots(AsperitySpots):
         )
 
     def area_at(self, omega: Array) -> Array:
-        found = AsperitySpots.area_at(self, omega)
-        return found * (self.size if np.ndim(found) == 1 else self.size[:, None])
+        area = AsperitySpots.area_at(self, omega)
+        return area * (self.size if np.ndim(area) == 1 else self.size[:, None])
 
 
 @asperity_sum_of.register(Field)

@@ -31,7 +31,7 @@ class Interface:
     def __init__(self, contact: Contact):
         advance()
         self.contact = contact
-        laws = [contact.law_of(each) for each in contact.populations]
+        laws = [contact.law_of(population) for population in contact.populations]
         self.asperities = asperity_sum(
             contact.asperity_law,
             contact.roughness,
@@ -39,17 +39,21 @@ class Interface:
             laws[0].centre if laws else 0.0,
         )
         self.populations = [
-            particle_sum(law, contact.surfaces, contact.roughness, each)
-            for law, each in zip(laws, contact.populations, strict=True)
+            particle_sum(law, contact.surfaces, contact.roughness, population)
+            for law, population in zip(laws, contact.populations, strict=True)
         ]
         if self.populations and isinstance(self.asperities, FieldSum):
-            self.asperities, found = put_on_ground(
+            self.asperities, on_ground = put_on_ground(
                 self.asperities,
-                [each for each in self.populations if isinstance(each, SeatedParticles)],
+                [
+                    response
+                    for response in self.populations
+                    if isinstance(response, SeatedParticles)
+                ],
                 [law for law in laws if isinstance(law, SeatedLaw)],
-                [each.diameter.mean_diameter for each in contact.populations],
+                [population.diameter.mean_diameter for population in contact.populations],
             )
-            self.populations = list(found)
+            self.populations = list(on_ground)
         self.particles = together_in(self.populations) if self.populations else None
 
     @property
@@ -103,54 +107,58 @@ class Interface:
     def _fields(self, d: Array, of_particles: dict[str, Array] | None) -> dict[str, Array]:
         F, *areas = self.asperities.fields(d).T
         zero = np.zeros_like(d)
-        part = dict.fromkeys(("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow"), zero)
+        particle_fields = dict.fromkeys(("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow"), zero)
         if of_particles is not None:
-            part = of_particles
-            part["shadow"] = np.minimum(part["shadow"], 1.0)
-        return together(F, areas, part)
+            particle_fields = of_particles
+            particle_fields["shadow"] = np.minimum(particle_fields["shadow"], 1.0)
+        return together(F, areas, particle_fields)
 
 
-def together(F: Array, areas: Sequence[Array], part: Mapping[str, Array]) -> dict[str, Array]:
+def together(
+    F: Array, areas: Sequence[Array], particle_fields: Mapping[str, Array]
+) -> dict[str, Array]:
     """Asperities (load, areas by regime) under the shadow of the particles, and both in sum."""
-    bare = 1 - part["shadow"]
+    bare = 1 - particle_fields["shadow"]
     split = {
-        name: bare * area + part[name]
+        name: bare * area + particle_fields[name]
         for name, area in zip(("A_e", "A_ep", "A_p"), areas, strict=True)
     }
     A_ss = bare * sum(areas)
-    A_sa = part["A_e"] + part["A_ep"] + part["A_p"]
+    A_sa = particle_fields["A_e"] + particle_fields["A_ep"] + particle_fields["A_p"]
     return {
         "F_ss": bare * F,
-        "F_sa": part["F_sa"],
+        "F_sa": particle_fields["F_sa"],
         "A_t": A_ss + A_sa,
         "A_ss": A_ss,
         "A_sa": A_sa,
-        "A_sa2": part["A_sa2"],
+        "A_sa2": particle_fields["A_sa2"],
         **split,
-        "shadow": part["shadow"],
+        "shadow": particle_fields["shadow"],
     }
 
 
 def interface(contact: Contact) -> Interface:
     """The cached `Interface` of a contact: one for all that carry load alike, whatever else."""
-    rough = is_rough() and any(each.strength is not None for each in contact.populations)
+    rough = is_rough() and any(
+        population.strength is not None for population in contact.populations
+    )
     return _interface(carrying(contact), rough)
 
 
 def carrying(contact: Contact) -> Contact:
     """The contact by what decides how it carries load: no outputs, no labels, no conductivities."""
-    pair, given = contact.surfaces, contact.particles
+    pair, populations = contact.surfaces, contact.particles
     surfaces = pair.replace_unchecked(first=pair.first.carrying, second=pair.second.carrying)
     particles: Particles | tuple[Particles, ...] | None = None
-    if isinstance(given, tuple):
-        particles = tuple(_carrying(each) for each in given)
-    elif given is not None:
-        particles = _carrying(given)
+    if isinstance(populations, tuple):
+        particles = tuple(_carrying(population) for population in populations)
+    elif populations is not None:
+        particles = _carrying(populations)
     return contact.replace_unchecked(surfaces=surfaces, particles=particles, outputs=())
 
 
-def _carrying(each: Particles) -> Particles:
-    return each.replace_unchecked(material=each.material.carrying, name="")
+def _carrying(population: Particles) -> Particles:
+    return population.replace_unchecked(material=population.material.carrying, name="")
 
 
 @lru_cache(maxsize=512)

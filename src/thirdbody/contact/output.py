@@ -121,11 +121,11 @@ GIVE_OUTPUTS = Advice("give outputs, e.g. outputs.Counts()", "give tables, e.g. 
 
 def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
     """Mistakes in the outputs of a contact that has some."""
-    wrong = [each for each in outputs if not isinstance(each, AbstractOutput)]
+    wrong = [output for output in outputs if not isinstance(output, AbstractOutput)]
     if wrong:
         return [
-            Problem("outputs", f"holds {each!r}", hint=GIVE_OUTPUTS, code=Mistake.KIND)
-            for each in wrong
+            Problem("outputs", f"holds {output!r}", hint=GIVE_OUTPUTS, code=Mistake.KIND)
+            for output in wrong
         ]
     laws = {law.name: law for law in map(contact.law_of, contact.populations)}
     if unknown := [name for name, law in laws.items() if not law.knows_each]:
@@ -139,26 +139,26 @@ def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
             )
             for name in unknown
         ]
-    names = [each.name for each in outputs]
+    names = [output.name for output in outputs]
     if len(set(names)) < len(names):
         return [
             Problem("outputs", f"names {', '.join(names)}: each output once", code=Mistake.CLASH)
         ]
     out = []
-    for each in outputs:
+    for output in outputs:
         out += [
-            each.problem(f"needs outputs.{other} beside it", code=Mistake.MISSING)
-            for other in each.needs
+            output.problem(f"needs outputs.{other} beside it", code=Mistake.MISSING)
+            for other in output.needs
             if other not in names
         ]
-        out += each.problems(contact)
+        out += output.problems(contact)
     return out
 
 
 def every_column() -> dict[str, Column]:
     """Every column of every output by name."""
     kinds: list[Any] = list(AbstractOutput.registry.values())
-    return {name: told for kind in kinds for name, told in kind.columns.items()}
+    return {name: column for kind in kinds for name, column in kind.columns.items()}
 
 
 def column(name: str) -> Column:
@@ -169,6 +169,6 @@ def column(name: str) -> Column:
     InvalidValue
         No output has this column.
     """
-    if (told := every_column().get(name)) is None:
+    if (description := every_column().get(name)) is None:
         raise InvalidValue(f"no output has a column {name!r}", code=Mistake.UNKNOWN)
-    return told
+    return description

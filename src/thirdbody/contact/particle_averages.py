@@ -53,14 +53,14 @@ class SizeAverage:
             self.join = 0.5 * self.top
         gaps = [x * (1 - eps) for x in sizes.kinks for eps in (0.0, *particle.kinks)]
         gaps += [x * f for x in sizes.pieces for f in (0.25, 0.5) if x > 1e-4 * self.top]
-        known = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
-        rise = np.sqrt(self.top - np.array([self.join, *known[known > self.join]]))
+        breakpoints = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
+        rise = np.sqrt(self.top - np.array([self.join, *breakpoints[breakpoints > self.join]]))
         self.rises = _distinct(np.array([0.0, *np.sort(rise)]))
         """Breakpoints in u above the join."""
         self.gaps_below = np.empty(0)
         """Breakpoints in the gap below the join, if there are gaps."""
         if self.bottom < self.join:
-            below = [self.bottom, *known[known < self.join], self.join]
+            below = [self.bottom, *breakpoints[breakpoints < self.join], self.join]
             self.gaps_below = _distinct(np.array(below))
 
     @cached_property
@@ -98,8 +98,8 @@ class SizeAverage:
         if isinstance(self.sizes, Monodisperse):
             return self.sizes.mean**2 * self.particle(rise / self.sizes.mean)
         out = np.empty((len(gap), len(COLUMNS)))
-        for part in np.array_split(np.arange(len(gap)), max(1, len(gap) // 200)):
-            out[part] = self._average(gap[part, None], rise[part, None])
+        for rows in np.array_split(np.arange(len(gap)), max(1, len(gap) // 200)):
+            out[rows] = self._average(gap[rows, None], rise[rows, None])
         return out
 
     def of_sizes(
@@ -123,11 +123,11 @@ class SizeAverage:
         # where a regime of some size sets in: δ = εx, so x = g/(1 − ε), which must be positive
         eps = np.concatenate([particle.panels, splits])
         whole = eps == 1
-        part = np.where(whole, 1.0, 1 - eps)
-        of_regimes = gap / part - zero
+        gap_ratio = np.where(whole, 1.0, 1 - eps)
+        of_regimes = gap / gap_ratio - zero
         if close:
-            of_regimes = np.where(gap > 0.5 * high, (high * eps - rise) / part, of_regimes)
-        of_regimes = np.where(start, gap * eps / part, of_regimes)
+            of_regimes = np.where(gap > 0.5 * high, (high * eps - rise) / gap_ratio, of_regimes)
+        of_regimes = np.where(start, gap * eps / gap_ratio, of_regimes)
         edges = np.concatenate([of_sizes, np.where(whole, -np.inf, of_regimes)], axis=1)
         first = np.maximum(of_sizes[:, :1], np.where(start, 0.0, gap_at))
         edges = np.sort(np.clip(edges, first, of_sizes[:, -1:]), axis=1)
@@ -142,7 +142,8 @@ class SizeAverage:
         root = root + from_edge
         weight = root * step[..., None] * weight
         root, place, weight = (
-            each.reshape(len(gap), math.prod(each.shape[1:])) for each in (root, place, weight)
+            values.reshape(len(gap), math.prod(values.shape[1:]))
+            for values in (root, place, weight)
         )
         place = np.where(start, place + gap_at, place)
         diameter = np.clip(zero + place, low, high)
@@ -262,8 +263,8 @@ class SizeAverage:
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Spots of all particles squeezed in gaps (N,), resting on a plane."""
-        found = self.spots_in(gap[:, None], self.top - gap[:, None], splits, None, 1.0)
-        return self.laid_out(found, gap)
+        spots = self.spots_in(gap[:, None], self.top - gap[:, None], splits, None, 1.0)
+        return self.laid_out(spots, gap)
 
     def laid_out(
         self, spots: ParticleSpots, gaps: Array, means: Array | None = None, width: float = 0.0
@@ -305,7 +306,7 @@ def _drop_empty_nodes(x: Array, delta: Array, number: Array) -> tuple[Array, Arr
     place = np.arange(most)
     order = np.argsort(~used, axis=1, kind="stable")
     order = np.take_along_axis(order, np.clip(count - 1, 0, place), axis=1)
-    x, delta, number = (np.take_along_axis(each, order, axis=1) for each in (x, delta, number))
+    x, delta, number = (np.take_along_axis(values, order, axis=1) for values in (x, delta, number))
     return x, delta, np.where(place < count, number, 0.0)
 
 
@@ -345,7 +346,7 @@ def larger_ones(sizes: Distribution, width: float) -> tuple[Array, Array]:
     Of sizes alone: it serves every law and material.
     """
     low, top = sizes.support
-    gaps = {low, *sizes.kinks, *(x * part for x in sizes.pieces for part in (0.25, 0.5, 1.0))}
+    gaps = {low, *sizes.kinks, *(x * share for x in sizes.pieces for share in (0.25, 0.5, 1.0))}
     rise = np.sqrt(np.sort([top - gap for gap in gaps if low <= gap < top]))
     rule = panel_rule(_cut(_distinct(np.append(0.0, rise)) ** 2, _step(sizes, width)) ** 0.5, 14)
     places = top - rule[0] ** 2
@@ -356,9 +357,9 @@ def larger_ones(sizes: Distribution, width: float) -> tuple[Array, Array]:
 def _step(sizes: Distribution, width: float) -> float:
     """Width of panels over gaps: nothing changes faster than the seat and the sizes together."""
     m1, m2 = (float(sizes.partial_moment(k, -1.0, np.inf)) for k in (1, 2))
-    own = math.sqrt(max(m2 - m1 * m1, 0.0))
-    if own > 1e-6 * m1:
-        return SMOOTH_WIDTHS * width * own / math.hypot(width, own)
+    spread = math.sqrt(max(m2 - m1 * m1, 0.0))
+    if spread > 1e-6 * m1:
+        return SMOOTH_WIDTHS * width * spread / math.hypot(width, spread)
     return SPOT_WIDTHS * width
 
 
@@ -419,14 +420,14 @@ class SeatAverage:
         apart = np.diff(mean_gap[order]) > 2 * NORMAL_REACH * self.width
         for close in np.split(order, np.flatnonzero(apart) + 1):
             for piece in in_pieces(len(close), weights[:1000].size):
-                part = close[piece]
-                lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], gaps[-1])
+                rows = close[piece]
+                lowest, highest = mean_gap[rows[0]], min(mean_gap[rows[-1]], gaps[-1])
                 near = slice(
                     np.searchsorted(gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
                     np.searchsorted(gaps, highest + NORMAL_REACH * self.width),
                 )
-                z = (mean_gap[part, None] - gaps[near]) / self.width
-                out[part] += np.exp(-0.5 * z * z) @ weights[near]
+                z = (mean_gap[rows, None] - gaps[near]) / self.width
+                out[rows] += np.exp(-0.5 * z * z) @ weights[near]
         return out
 
     def _within_reach(self, gaps: Array, mean_gap: Array) -> NDArray[np.bool_]:
@@ -503,8 +504,8 @@ class SeatAverage:
         gaps, rise, weights = gaps[near], rise[near], weights[near]
         z = (mean_gap[:, None] - gaps) / self.width
         share = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
-        found = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
-        return average.laid_out(found, gaps, mean_gap, self.width)
+        spots = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
+        return average.laid_out(spots, gaps, mean_gap, self.width)
 
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
         """Some columns with two derivatives: (N, len(columns), 3)."""

@@ -100,7 +100,7 @@ class ParticleSum(ABC):
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
     >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e11,
-    ...                     diameter=tb.Monodisperse(mean=300e-9))
+    ...                     diameter=tb.distributions.Monodisperse(mean=300e-9))
     >>> made = particle_sum(tb.particle.Series(seat="plane"), tb.MaterialPair(steel, steel),
     ...                     tb.Roughness(sigma=100e-9, R=2.8e-6), dust)
     >>> f"{made.reach:.1e}", f"{made.fields(np.array([250e-9]))['F_sa'][0]:.3g} Pa"
@@ -134,8 +134,8 @@ class ParticleSum(ABC):
 
     def touching(self, d: Array) -> Array:
         """Loaded particles per nominal area [1/m²] at d (N,)."""
-        found = self.spots(d)
-        return np.sum([each.total(np.sign(each.load)) for each in found], axis=0)
+        groups = self.spots(d)
+        return np.sum([spots.total(np.sign(spots.load)) for spots in groups], axis=0)
 
     @abstractmethod
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
@@ -154,32 +154,32 @@ class ParticlesTogether(ParticleSum):
 
     def __init__(self, sums: Sequence[ParticleSum]):
         self.sums = sums
-        self.reach = max(each.reach for each in sums)
-        self.monotone = all(each.monotone for each in sums)
-        self.resolution = min(each.resolution for each in sums)
-        self.stretch = min(each.stretch for each in sums)
-        self.in_one_layer = sum(each.in_one_layer for each in sums)
-        self.marks = np.concatenate([np.asarray(each.marks, float) for each in sums])
+        self.reach = max(response.reach for response in sums)
+        self.monotone = all(response.monotone for response in sums)
+        self.resolution = min(response.resolution for response in sums)
+        self.stretch = min(response.stretch for response in sums)
+        self.in_one_layer = sum(response.in_one_layer for response in sums)
+        self.marks = np.concatenate([np.asarray(response.marks, float) for response in sums])
 
     def load(self, d: Array) -> tuple[Array, Array]:
-        loads, shadows = zip(*(each.load(d) for each in self.sums), strict=True)
+        loads, shadows = zip(*(response.load(d) for response in self.sums), strict=True)
         return np.sum(loads, axis=0), np.sum(shadows, axis=0)
 
     def fields(self, d: Array) -> dict[str, Array]:
-        return self._add_parts([each.fields(d) for each in self.sums])
+        return self._add_parts([response.fields(d) for response in self.sums])
 
     def direct_fields(self, d: Array) -> dict[str, Array]:
-        return self._add_parts([each.direct_fields(d) for each in self.sums])
+        return self._add_parts([response.direct_fields(d) for response in self.sums])
 
     @staticmethod
     def _add_parts(parts: Sequence[dict[str, Array]]) -> dict[str, Array]:
-        return {name: np.sum([part[name] for part in parts], axis=0) for name in parts[0]}
+        return {name: np.sum([fields[name] for fields in parts], axis=0) for name in parts[0]}
 
     def touching(self, d: Array) -> Array:
-        return np.sum([each.touching(d) for each in self.sums], axis=0)
+        return np.sum([response.touching(d) for response in self.sums], axis=0)
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
-        return [spots for each in self.sums for spots in each.spots(d, splits)]
+        return [spots for response in self.sums for spots in response.spots(d, splits)]
 
 
 class Part:
@@ -252,13 +252,13 @@ class Part:
     def touching(self, d: Array) -> Array:
         """Loaded particles per nominal area [1/m²] at d (N,); all that are squeezed are."""
         if self.breaks:
-            found = self.spots(d)
-            return found.total(np.sign(found.load))
+            spots = self.spots(d)
+            return spots.total(np.sign(spots.load))
         return self.density * self.average.touching((d + self.offset) / self.scale)
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
-        found = self.average.spots((d + self.offset) / self.scale, splits)
-        return found.of_size(self.scale, self.density)
+        spots = self.average.spots((d + self.offset) / self.scale, splits)
+        return spots.of_size(self.scale, self.density)
 
 
 class SeatedParticles(ParticleSum):
@@ -267,13 +267,13 @@ class SeatedParticles(ParticleSum):
     def __init__(self, parts: list[Part], shadow: str, coverage: float):
         self.parts, self.coverage = parts, coverage
         self.shadow = shadow
-        self.reach = max(part.reach for part in parts)
+        self.reach = max(component.reach for component in parts)
         self._shadow_column = COLUMNS.index(shadow) if shadow in COLUMNS else 0
-        self.monotone = not any(part.breaks for part in parts)
-        self.resolution = min((part.resolution for part in parts), default=np.inf)
-        self.stretch = min((part.stretch for part in parts), default=np.inf)
+        self.monotone = not any(component.breaks for component in parts)
+        self.resolution = min((component.resolution for component in parts), default=np.inf)
+        self.stretch = min((component.stretch for component in parts), default=np.inf)
         self.in_one_layer = sum(
-            part.factor * part.average.floor[6] for part in parts if part.breaks
+            component.factor * component.average.floor[6] for component in parts if component.breaks
         )
 
     @property
@@ -281,10 +281,10 @@ class SeatedParticles(ParticleSum):
         # what does not change takes no load from asperities
         if self.shadow not in COLUMNS and self.monotone:
             return np.empty(0)
-        return np.concatenate([part.marks for part in self.parts])
+        return np.concatenate([component.marks for component in self.parts])
 
     def load(self, d: Array) -> tuple[Array, Array]:
-        total = np.sum([part.load(d, self._shadow_column) for part in self.parts], axis=0)
+        total = np.sum([component.load(d, self._shadow_column) for component in self.parts], axis=0)
         force, shadow = total[:, 0], total[:, 1]
         return force, self._shadow(shadow)
 
@@ -297,10 +297,12 @@ class SeatedParticles(ParticleSum):
         return fixed
 
     def fields(self, d: Array) -> dict[str, Array]:
-        return self._columns_of(np.sum([part.columns(d) for part in self.parts], axis=0))
+        return self._columns_of(np.sum([component.columns(d) for component in self.parts], axis=0))
 
     def direct_fields(self, d: Array) -> dict[str, Array]:
-        return self._columns_of(np.sum([part.direct_columns(d) for part in self.parts], axis=0))
+        return self._columns_of(
+            np.sum([component.direct_columns(d) for component in self.parts], axis=0)
+        )
 
     def _columns_of(self, total: Array) -> dict[str, Array]:
         total = np.maximum(total, 0.0)  # rounding of the other regimes
@@ -314,23 +316,23 @@ class SeatedParticles(ParticleSum):
         }
 
     def touching(self, d: Array) -> Array:
-        return np.sum([part.touching(d) for part in self.parts], axis=0)
+        return np.sum([component.touching(d) for component in self.parts], axis=0)
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
-        return [part.spots(d, splits) for part in self.parts]
+        return [component.spots(d, splits) for component in self.parts]
 
 
 def together_in(sums: Sequence[ParticleSum]) -> ParticleSum:
     """Populations side by side, as one sum where their shadows follow one rule."""
     if len(sums) == 1:
         return sums[0]
-    seated = [each for each in sums if isinstance(each, SeatedParticles)]
-    if len(seated) < len(sums) or len({each.shadow for each in seated}) > 1:
+    seated = [response for response in sums if isinstance(response, SeatedParticles)]
+    if len(seated) < len(sums) or len({response.shadow for response in seated}) > 1:
         return ParticlesTogether(sums)
     return SeatedParticles(
-        [part for each in seated for part in each.parts],
+        [component for response in seated for component in response.parts],
         seated[0].shadow,
-        sum(each.coverage for each in seated),
+        sum(response.coverage for response in seated),
     )
 
 
@@ -451,7 +453,7 @@ class PrintedIntegrals(ParticleSum):
         return force, shadow
 
     def fields(self, d: Array) -> dict[str, Array]:
-        window, above = (self.area_factor * part for part in (self._window(d), self._above(d)))
+        window, above = (self.area_factor * share for share in (self._window(d), self._above(d)))
         elastic = window if self.law.particle_regime == "split" else np.zeros_like(d)
         total = window + above
         return {

@@ -54,12 +54,16 @@ def buried_share(contact: Contact, d: Array) -> Array:
 def most_buried(contact: Contact, d: Array) -> Array:
     """Pressure [Pa] on such particles at most, as if each bore what the deepest can: (N,)."""
     out = np.zeros(len(d))
-    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
-        if each.strength is None and isinstance(response, SeatedParticles):
-            split = _radius_squeeze(contact.law_of(each), contact.surfaces, each.material)
-            for part in response.parts:
-                out += part.most_in_gaps(d, min(split, default=math.inf))
-        elif each.strength is None:
+    for population, response in zip(
+        contact.populations, interface(contact).populations, strict=True
+    ):
+        if population.strength is None and isinstance(response, SeatedParticles):
+            split = _radius_squeeze(
+                contact.law_of(population), contact.surfaces, population.material
+            )
+            for component in response.parts:
+                out += component.most_in_gaps(d, min(split, default=math.inf))
+        elif population.strength is None:
             out[:] = math.inf
     return out
 
@@ -72,29 +76,33 @@ def _shares(
     Of the buried ones with or without those that their law follows to any depth.
     """
     total, deep, broken = (np.zeros(len(d)) for _ in range(3))
-    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
-        if each.strength is not None:
+    for population, response in zip(
+        contact.populations, interface(contact).populations, strict=True
+    ):
+        if population.strength is not None:
             continue  # what becomes of these is the output `Crushing`
         try:
-            law = contact.law_of(each)
-            split = _radius_squeeze(law, contact.surfaces, each.material)
-            if not followed and _follows(law, contact.surfaces, each.material):
+            law = contact.law_of(population)
+            split = _radius_squeeze(law, contact.surfaces, population.material)
+            if not followed and _follows(law, contact.surfaces, population.material):
                 split = ()
             groups = response.spots(d, split)
         except InvalidValue:
             continue
-        strength = _strength(each) if brittle else None
+        strength = _strength(population) if brittle else None
         for spots in groups:
             total += spots.total(spots.load)
             if split:
                 deep += spots.total(spots.load * (np.maximum(*spots.sinks) > spots.half))
             if strength is not None:
-                one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
-                beyond = _broken(spots, strength, one, each.material)
+                one = contact.law_of(population).one(
+                    surfaces=contact.surfaces, particle=population.material
+                )
+                beyond = _broken(spots, strength, one, population.material)
                 broken += spots.total(spots.load * beyond)
 
-    def share_of(part: Array) -> Array:
-        return np.divide(part, total, out=np.zeros_like(part), where=total > 0)
+    def share_of(load: Array) -> Array:
+        return np.divide(load, total, out=np.zeros_like(load), where=total > 0)
 
     return share_of(deep), share_of(broken)
 
@@ -126,16 +134,20 @@ def about_pressed(contact: Contact, d: Array) -> list[str]:
 def _about_squashed(contact: Contact, d: Array) -> list[str]:
     """Squashed particles beyond the width at which spheres were measured to press less."""
     total = wide = 0.0
-    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
-        if each.strength is not None or not isinstance(response, SeatedParticles):
+    for population, response in zip(
+        contact.populations, interface(contact).populations, strict=True
+    ):
+        if population.strength is not None or not isinstance(response, SeatedParticles):
             continue
         try:
-            squeeze = _wide_squeeze(contact.law_of(each), contact.surfaces, each.material)
+            squeeze = _wide_squeeze(
+                contact.law_of(population), contact.surfaces, population.material
+            )
         except InvalidValue:
             continue
-        for part in response.parts:
-            total += float(part.columns(d)[0, 0])
-            wide += float(part.load_in_gaps(d, squeeze)[0]) if squeeze < math.inf else 0.0
+        for component in response.parts:
+            total += float(component.columns(d)[0, 0])
+            wide += float(component.load_in_gaps(d, squeeze)[0]) if squeeze < math.inf else 0.0
     share = min(wide / total, 1.0) if total > 0 else 0.0
     if share <= TOLD:
         return []
@@ -152,23 +164,25 @@ def _about_computed(contact: Contact, d: Array) -> list[str]:
     """Notes on particles that follow the computed table, and on collars that touch."""
     total = far = collars = 0.0
     less, more = 0.0, 0.0
-    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
-        if each.strength is not None or not isinstance(response, SeatedParticles):
+    for population, response in zip(
+        contact.populations, interface(contact).populations, strict=True
+    ):
+        if population.strength is not None or not isinstance(response, SeatedParticles):
             continue
         try:
-            law = contact.law_of(each)
-            follows = _follows(law, contact.surfaces, each.material)
-            for low, high in _friction_bands(law, contact.surfaces, each.material):
+            law = contact.law_of(population)
+            follows = _follows(law, contact.surfaces, population.material)
+            for low, high in _friction_bands(law, contact.surfaces, population.material):
                 less, more = min(less, low), max(more, high)
-            begin, touch = _computed_squeezes(law, contact.surfaces, each.material)
+            begin, touch = _computed_squeezes(law, contact.surfaces, population.material)
         except InvalidValue:
             continue
-        for part in response.parts:
-            total += float(part.columns(d)[0, 0])
+        for component in response.parts:
+            total += float(component.columns(d)[0, 0])
             if follows:
-                far += float(part.load_in_gaps(d, begin)[0])
+                far += float(component.load_in_gaps(d, begin)[0])
             if touch < math.inf:
-                collars += float(part.load_in_gaps(d, touch)[0])
+                collars += float(component.load_in_gaps(d, touch)[0])
     if total <= 0 or min(far / total, 1.0) <= TOLD:
         return []
     what = (
@@ -205,15 +219,15 @@ def _computed_squeezes(
         # only a grain that embeds pushes up a collar that high
         touch |= (depth > COLLARS * one.tip_radius) & (sink > 0.5 * depth)
 
-    def first(found: NDArray[np.bool_]) -> float:
-        return float(squeezes[int(np.argmax(found))]) if np.any(found) else math.inf
+    def first(holds: NDArray[np.bool_]) -> float:
+        return float(squeezes[int(np.argmax(holds))]) if np.any(holds) else math.inf
 
     return first(begins), first(touch)
 
 
-def _signed_percent(part: float) -> str:
+def _signed_percent(share: float) -> str:
     """A part of one in whole per cent with its sign."""
-    return f"{100 * part:+.0f}".replace("-", "−").replace("+0", "0").replace("−0", "0")
+    return f"{100 * share:+.0f}".replace("-", "−").replace("+0", "0").replace("−0", "0")
 
 
 @lru_cache(maxsize=512)
@@ -238,29 +252,31 @@ def _at_most(contact: Contact, d: Array) -> tuple[Array, Array]:
     under the largest one. What particles carry in all gaps so narrow is never less.
     """
     total, deep, broken = (np.zeros(len(d)) for _ in range(3))
-    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
-        if each.strength is not None:
+    for population, response in zip(
+        contact.populations, interface(contact).populations, strict=True
+    ):
+        if population.strength is not None:
             continue
-        law = contact.law_of(each)
+        law = contact.law_of(population)
         try:
-            split = _radius_squeeze(law, contact.surfaces, each.material)
+            split = _radius_squeeze(law, contact.surfaces, population.material)
         except InvalidValue:
             continue
         if not isinstance(response, SeatedParticles):
             return np.full(len(d), math.inf), np.full(len(d), math.inf)
-        strength = _strength(each)
-        for part in response.parts:
-            total += part.columns(d)[:, 0]
-            if not _follows(law, contact.surfaces, each.material):
-                deep += part.load_in_gaps(d, min(split, default=math.inf))
-            top = part.scale * part.average.particles.top
-            if strength is not None and top > strength.least(each.material):
+        strength = _strength(population)
+        for component in response.parts:
+            total += component.columns(d)[:, 0]
+            if not _follows(law, contact.surfaces, population.material):
+                deep += component.load_in_gaps(d, min(split, default=math.inf))
+            top = component.scale * component.average.particles.top
+            if strength is not None and top > strength.least(population.material):
                 most = strength.of_size(top)
-                squeeze = _squeeze_under(law, contact.surfaces, each.material, most)
-                broken += part.load_in_gaps(d, squeeze)
+                squeeze = _squeeze_under(law, contact.surfaces, population.material, most)
+                broken += component.load_in_gaps(d, squeeze)
 
-    def share_of(part: Array) -> Array:
-        return np.divide(part, total, out=np.full_like(part, math.inf), where=total > 0)
+    def share_of(load: Array) -> Array:
+        return np.divide(load, total, out=np.full_like(load, math.inf), where=total > 0)
 
     return share_of(deep), share_of(broken)
 
@@ -300,8 +316,8 @@ def _radius_squeeze(
         one = law.probe(eps, surfaces=surfaces, particle=particle)
         return np.ravel(np.maximum(*one.sinks) - one.half)
 
-    found = bracketed_root(sink_past_radius, np.array([1e-6]), np.array([4.0]), xrtol=1e-12)
-    return tuple(found[np.isfinite(found)].tolist())
+    squeeze = bracketed_root(sink_past_radius, np.array([1e-6]), np.array([4.0]), xrtol=1e-12)
+    return tuple(squeeze[np.isfinite(squeeze)].tolist())
 
 
 def _strength(particles: Particles) -> WeibullStrength | None:
@@ -323,7 +339,7 @@ def _broken(
     if np.any(beyond):  # the surfaces around a particle only lessen its tension
         approach = np.broadcast_to(spots.depths[0] + spots.depths[1], beyond.shape)[beyond]
         squeeze = approach / np.broadcast_to(spots.x, beyond.shape)[beyond]
-        found = np.zeros(beyond.shape)
-        found[beyond] = tension(one, material.nu, strength.confinement).greatest_so_far(squeeze)
-        beyond &= found > most
+        tensions = np.zeros(beyond.shape)
+        tensions[beyond] = tension(one, material.nu, strength.confinement).greatest_so_far(squeeze)
+        beyond &= tensions > most
     return beyond

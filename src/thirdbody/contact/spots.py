@@ -75,8 +75,8 @@ class AsperitySpots(Spots):
 
     def deepest(self, count: float | Array) -> Array:
         """Interference [m] that so many asperities per nominal area exceed; ≤ 0 for none: (N,)."""
-        part = np.minimum(count / np.maximum(self.density, np.finfo(float).tiny), 1.0)
-        return self.sigma_s * (self.heights.isf(part) - self.lowest)
+        share = np.minimum(count / np.maximum(self.density, np.finfo(float).tiny), 1.0)
+        return self.sigma_s * (self.heights.isf(share) - self.lowest)
 
     def load_at(self, omega: Array) -> Array:
         """Load of one asperity [N] pressed by ω [m]."""

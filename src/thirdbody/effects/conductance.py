@@ -73,14 +73,14 @@ def _through_asperities(
     def total_conductance(film: float, mean_free_path: float) -> Array:
         return state.total(lambda spots: conductance(spots, film, mean_free_path))
 
-    if patches := [each for each in state.asperities if isinstance(each, FieldSpots)]:
-        whole = sum((each.stiffness / each.E_star for each in patches), np.zeros_like(state.d))
-        found = 2 / (rho_1 + rho_2) * whole
+    if patches := [patch for patch in state.asperities if isinstance(patch, FieldSpots)]:
+        whole = sum((patch.stiffness / patch.E_star for patch in patches), np.zeros_like(state.d))
+        of_patches = 2 / (rho_1 + rho_2) * whole
         if film or mean_free_path:  # in series, as spots have them
             with np.errstate(divide="ignore", invalid="ignore"):
                 more = 1 / total_conductance(film, mean_free_path) - 1 / total_conductance(0.0, 0.0)
-                found = np.where(found > 0, 1 / (1 / found + more), 0.0)
-        return found
+                of_patches = np.where(of_patches > 0, 1 / (1 / of_patches + more), 0.0)
+        return of_patches
     A_ss = state.total(lambda spots: spots.area)
     psi = spreading(np.sqrt(np.minimum(A_ss, 1.0)), form=form)
     return total_conductance(film, mean_free_path) / psi
@@ -103,17 +103,17 @@ def _through_particles(
         assert spots.population is not None
         if not output.passes(spots.population):
             return 0.0
-        own = rho(spots.population.material)
+        rho_particle = rho(spots.population.material)
         touches = (spots.areas[0] > 0) & (spots.areas[1] > 0)
         b_1, b_2 = (np.sqrt(np.where(touches, area, 1.0) / np.pi) for area in spots.areas)
         radius = np.where(touches, spots.x / 2, 1.0)
-        R = sphere_resistance(b_1, a_2=b_2, r=radius, k=1 / own)
+        R = sphere_resistance(b_1, a_2=b_2, r=radius, k=1 / rho_particle)
         # its own constrictions are part of that; the other body, film and Γ come on top
         for b, material in ((b_1, pair.first), (b_2, pair.second)):
             spot = spot_resistance(
-                b, rho_1=rho(material), rho_2=own, film=film, mean_free_path=mean_free_path
+                b, rho_1=rho(material), rho_2=rho_particle, film=film, mean_free_path=mean_free_path
             )
-            R = R + spot - own / (4 * b)
+            R = R + spot - rho_particle / (4 * b)
         return np.where(touches, 1 / R, 0.0)
 
     return state.total_of_particles(conductance)
@@ -146,14 +146,14 @@ def _closing(
     out = means | {closed: -np.expm1(-count)}
     is_open = count < ONE
     conduct = _some_conduct(output, state.contact)
-    found = single_contacts(output, state, tuple(means), closed, conduct=conduct)
-    if found is not None:
+    singles = single_contacts(output, state, tuple(means), closed, conduct=conduct)
+    if singles is not None:
         out = {
-            name: np.where(found.concerned, found.values[name], value)
+            name: np.where(singles.concerned, singles.values[name], value)
             for name, value in out.items()
         }
-        is_open = np.where(found.concerned, out[closed] < -math.expm1(-ONE), is_open)
-    state.kept[output] = found
+        is_open = np.where(singles.concerned, out[closed] < -math.expm1(-ONE), is_open)
+    state.kept[output] = singles
     if output.few == "open":
         out |= {
             name: np.where(is_open, np.nan, out[name])
@@ -163,23 +163,23 @@ def _closing(
     return out
 
 
-def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> list[str]:
+def _about_single(output: _Conductance, singles: SingleContacts, closed: str) -> list[str]:
     """Notes on areas with so few particles that contacts with and without them differ."""
     say = f"outputs.{output.name}: A_n = {number(output.A_n)} m²"
     out: list[str] = []
-    unknown = found.concerned & np.isnan(found.values[closed])
-    if np.any(known := found.concerned & ~unknown):
-        i = int(np.flatnonzero(known)[np.argmax(found.without[known])])
+    unknown = singles.concerned & np.isnan(singles.values[closed])
+    if np.any(solved := singles.concerned & ~unknown):
+        i = int(np.flatnonzero(solved)[np.argmax(singles.without[solved])])
         what = (
-            f"{say} has no particle in the way in {percent(float(found.without[i]))} of all "
-            f"contacts, closed there with probability {number(float(found.clean[i]))}: {closed} "
+            f"{say} has no particle in the way in {percent(float(singles.without[i]))} of all "
+            f"contacts, closed there with probability {number(float(singles.clean[i]))}: {closed} "
             "and the conductances are means over contacts with and without, each under the whole "
             "load; mode and shares of the state are of a surface that spreads it over all particles"
         )
         action = "a table [connector] tells how often single contacts stay open, and of how many"
         out.append(Note(what, code=f"{output.name}.single", effect=1.0, action=action))
     for i in np.flatnonzero(unknown)[:1]:
-        low, high = float(found.low[i]), float(found.high[i])
+        low, high = float(singles.low[i]), float(singles.high[i])
         why = (
             f"holds so few particles under load that chance decides which they are: {closed} is "
             f"between {number(low)} and {number(high)}"
@@ -245,12 +245,12 @@ def wide_share(state: Solved) -> float:
 
 
 def _warnings(output: _Conductance, state: Solved, numbers: str, closed: str) -> list[str]:
-    found = state.kept.get(output)
-    if found is None:
+    singles = state.kept.get(output)
+    if singles is None:
         out = _about_open(output, state, numbers)
     else:
-        out = _about_open(output, state, numbers, ~found.concerned)
-        out += _about_single(output, found, closed)
+        out = _about_open(output, state, numbers, ~singles.concerned)
+        out += _about_single(output, singles, closed)
     if _some_conduct(output, state.contact) and (share := wide_share(state)) > 0.01:
         out.append(about_wide(output.name, share))
     return out
@@ -382,8 +382,8 @@ class ThermalConductance(AbstractOutput):
         pair, rough = state.contact.surfaces, state.contact.roughness
         k = 2 / (_thermal(pair.first) + _thermal(pair.second))
         m = absolute_slope(sigma=rough.sigma, R=rough.R, alpha=rough.alpha)
-        part = np.where(state.pressure < 0.5 * pair.H, state.pressure, np.nan)
-        return cooper_mikic_yovanovich(part, H=pair.H, k=k, m=float(m), sigma=rough.sigma)
+        low_pressure = np.where(state.pressure < 0.5 * pair.H, state.pressure, np.nan)
+        return cooper_mikic_yovanovich(low_pressure, H=pair.H, k=k, m=float(m), sigma=rough.sigma)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         return _warnings(self, state, "hc, hc_ss and hc_sa", "hc_closed")

@@ -53,7 +53,7 @@ class Crushing(AbstractOutput):
     >>> steel, quartz = tb.materials["S45C"], tb.materials["quartz"]
     >>> dust = tb.Particles(material=quartz, areal_density=1e7,
     ...                     diameter=tb.TruncatedGaussian(mean=10e-6, std=2e-6),
-    ...                     strength=tb.WeibullStrength.of(quartz))
+    ...                     strength=tb.grains.WeibullStrength.of(quartz))
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=dust,
     ...                      particle_law=tb.particle.Series(seat="plane"),
     ...                      roughness=tb.Roughness(sigma=1e-6, R=50e-6), outputs=Crushing())
@@ -87,7 +87,7 @@ class Crushing(AbstractOutput):
         return False  # of particles alone
 
     def problems(self, contact: Contact) -> list[str]:
-        if any(each.strength is not None for each in contact.populations):
+        if any(population.strength is not None for population in contact.populations):
             return []
         return [
             self.problem(
@@ -137,8 +137,8 @@ class Crushing(AbstractOutput):
                 ("load", spots.load * spots.number),
                 ("whole", spots.load * was),
             ):
-                each = np.sum(q, axis=-1)
-                sums[name] = sums[name] + (each if spots.share is None else spots.share @ each)
+                total = np.sum(q, axis=-1)
+                sums[name] = sums[name] + (total if spots.share is None else spots.share @ total)
             sizes.append(Values(counted, bears * spots.x, bears.astype(float)))
             fragments.append(Values(counted, (piece > 0) * spots.x, piece * mass))
         pieces = sums["pieces"] > ROUNDING * sums["borne"]
@@ -170,8 +170,12 @@ def _numbers_before(spots: ParticleSpots) -> tuple[Array, Array]:
 
 def _x_star(contact: Contact) -> float:
     """x* of the first population with a strength [m]."""
-    each = next(each for each in contact.populations if each.strength is not None)
-    assert each.strength is not None
-    one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
-    scale = each.strength.x_0
-    return scale * crush_embed_size(one, Breakage.of_material(each.strength, each.material, scale))
+    population = next(
+        population for population in contact.populations if population.strength is not None
+    )
+    assert population.strength is not None
+    one = contact.law_of(population).one(surfaces=contact.surfaces, particle=population.material)
+    scale = population.strength.x_0
+    return scale * crush_embed_size(
+        one, Breakage.of_material(population.strength, population.material, scale)
+    )

@@ -90,10 +90,10 @@ class Curve:
         eps, values = _tabulate_curve(f, np.array(edges), top)
         seams = np.searchsorted(eps, edges)[1:-1]
         self.runs = tuple(_runs(eps, values, seams))
-        found_at = [values[0], values[-1], *values[seams - 1], *values[seams]]
-        found_at += [end for run in self.runs for end in (run.low, run.high)]
-        found = np.unique([end for end in found_at if end > 0])
-        self.seams = found[np.diff(found, prepend=-1.0) > CLOSE * found]
+        end_values = [values[0], values[-1], *values[seams - 1], *values[seams]]
+        end_values += [end for run in self.runs for end in (run.low, run.high)]
+        seam_values = np.unique([end for end in end_values if end > 0])
+        self.seams = seam_values[np.diff(seam_values, prepend=-1.0) > CLOSE * seam_values]
         """Values at which the squeeze of a value may jump or bend."""
         self.top = float(np.max(values))
 
@@ -127,22 +127,24 @@ def _tabulate_curve(f: Callable[[Array], Array], edges: Array, top: float) -> tu
             break
         begin, end, low, high = eps[at], eps[at + 1], values[at], values[at + 1]
         middle = 0.5 * (begin + end)
-        found = np.maximum(f(middle), 0.0)
+        at_middle = np.maximum(f(middle), 0.0)
         with np.errstate(all="ignore"):
-            read = np.empty_like(found)
+            read = np.empty_like(at_middle)
             for way in (1, -1):
                 here = way * (high - low) > 0
                 nearest = np.clip(at[here] - 1, starts[mine[here]], starts[mine[here] + 1] - 4)
                 read[here] = _read_between(
-                    eps, way * np.sqrt(values), at[here], nearest, way * np.sqrt(found[here])
+                    eps, way * np.sqrt(values), at[here], nearest, way * np.sqrt(at_middle[here])
                 )
-            miss = np.abs(read - middle) / (end - begin) * np.abs(high - low) / found
-        turns = (high - found) * (found - low) < 0
-        flat = np.maximum(np.abs(high - found), np.abs(found - low)) <= _rounding(found, top)
-        flat |= np.maximum(high, found) <= SMALL * top
+            miss = np.abs(read - middle) / (end - begin) * np.abs(high - low) / at_middle
+        turns = (high - at_middle) * (at_middle - low) < 0
+        flat = np.maximum(np.abs(high - at_middle), np.abs(at_middle - low)) <= _rounding(
+            at_middle, top
+        )
+        flat |= np.maximum(high, at_middle) <= SMALL * top
         narrow = end - begin <= 1e-15 * end
         good = flat | narrow | (~turns & (miss <= CLOSE))
-        eps, values = np.insert(eps, at + 1, middle), np.insert(values, at + 1, found)
+        eps, values = np.insert(eps, at + 1, middle), np.insert(values, at + 1, at_middle)
         # every middle is kept, and both halves of what was not good are looked at again
         open_ = np.zeros(len(eps) - 1, dtype=bool)
         place = at + np.arange(len(at))
@@ -229,8 +231,8 @@ def _runs(eps: Array, values: Array, seams: NDArray[np.intp]) -> Iterator[_Run]:
         nodes = slice(start, stop + 1)
         last = stop == len(eps) - 1
         ends = (float(eps[start]), np.inf if last else float(eps[stop]))
-        own = seams[(seams > start) & (seams <= stop)] - start
-        yield _run(eps[nodes], np.sqrt(values[nodes]), own, ends, rises)
+        inner_seams = seams[(seams > start) & (seams <= stop)] - start
+        yield _run(eps[nodes], np.sqrt(values[nodes]), inner_seams, ends, rises)
 
 
 def _run(
@@ -257,6 +259,6 @@ def _run(
     cubics = np.stack([eps[:-1], np.diff(eps), 0 * at, 0 * at], axis=1)
     if len(eps) >= 4:
         stencil = start[:, None] + np.arange(4)
-        found = _cubics(roots[stencil], eps[stencil], at - start)
-        cubics[~few] = found[~few]
+        new_cubics = _cubics(roots[stencil], eps[stencil], at - start)
+        cubics[~few] = new_cubics[~few]
     return _Run(ends, rises, roots, cubics)

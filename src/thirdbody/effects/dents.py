@@ -163,7 +163,7 @@ class Dents(AbstractOutput):
             return self._contradictions(contact)
         if self.debris != "brittle":
             return []
-        if any(each.strength is not None for each in contact.populations):
+        if any(population.strength is not None for population in contact.populations):
             return [
                 self.problem(
                     ": debris = 'brittle' and the strength of the particles would break them twice",
@@ -171,7 +171,7 @@ class Dents(AbstractOutput):
                     code=Mistake.CLASH,
                 )
             ]
-        laws = [contact.law_of(each) for each in contact.populations]
+        laws = [contact.law_of(population) for population in contact.populations]
         if all(isinstance(law, Series) and law.breakable for law in laws):
             return []
         return [
@@ -181,9 +181,9 @@ class Dents(AbstractOutput):
     def _contradictions(self, contact: Contact) -> list[str]:
         """Particles that keep their shape here and are squashed by their law."""
         names = [
-            each.name or each.material.name or "particles"
-            for each in contact.populations
-            if any(_is_squashed(contact.law_of(each), contact.surfaces, each.material))
+            population.name or population.material.name or "particles"
+            for population in contact.populations
+            if any(_is_squashed(contact.law_of(population), contact.surfaces, population.material))
         ]
         return [
             self.problem(
@@ -204,11 +204,13 @@ class Dents(AbstractOutput):
         gap = spots.x - spots.depths[0] - spots.depths[1]
         x = np.minimum(spots.x, float(self.fragment or 0.0))
         number = spots.number * fragments(spots.x, size=float(self.fragment or 0.0))
-        found = particle.spots(x, np.maximum(x - gap, 0.0), share=spots.share, number=number)
+        broken_spots = particle.spots(x, np.maximum(x - gap, 0.0), share=spots.share, number=number)
         layout = spots.layout
         if layout is not None and float(self.fragment or 0.0) < np.max(spots.x):
             layout = replace(layout, fragment=self.fragment)
-        return replace(found, material=population.material, population=population, layout=layout)
+        return replace(
+            broken_spots, material=population.material, population=population, layout=layout
+        )
 
     def _dent_left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
         population = spots.population
@@ -321,23 +323,23 @@ class Dents(AbstractOutput):
         for spots in groups:
             dent = self._dent_left(spots, side, state.contact)
             deep = self._sunk(spots, side)
-            told = np.isfinite(dent.depth)
-            depth, volume = np.where(told, dent.depth, 0.0), np.where(told, dent.volume, 0.0)
+            finite = np.isfinite(dent.depth)
+            depth, volume = np.where(finite, dent.depth, 0.0), np.where(finite, dent.volume, 0.0)
             there = dent.diameter > 0
-            known: Any = there & told & (depth >= self.shallowest)
-            counts: Any = known | (there & ~told)
+            with_depth: Any = there & finite & (depth >= self.shallowest)
+            counts: Any = with_depth | (there & ~finite)
             width = np.where(counts, dent.diameter, 0.0)
             for name, q in (
                 ("n", counts.astype(float)),
-                ("known", known.astype(float)),
-                ("unknown", (there & ~told).astype(float)),
-                ("depth", known * depth),
+                ("known", with_depth.astype(float)),
+                ("unknown", (there & ~finite).astype(float)),
+                ("depth", with_depth * depth),
                 ("width", width),
-                ("volume", known * volume),
-                ("embedded", (known & (2 * deep > spots.half)).astype(float)),
+                ("volume", with_depth * volume),
+                ("embedded", (with_depth & (2 * deep > spots.half)).astype(float)),
             ):
                 sums[name] = sums[name] + spots.total(q)
-            share = np.divide(2 * deep, spots.half, out=np.zeros_like(depth), where=known)
+            share = np.divide(2 * deep, spots.half, out=np.zeros_like(depth), where=with_depth)
             who = (side, state.contact)
             dents.append(
                 (
@@ -347,7 +349,7 @@ class Dents(AbstractOutput):
             )
             sinks.append(self._values(spots, share, "sunk", *who))
         rare = sums["embedded"] < RARE * sums["known"]  # too few for sums over classes
-        if all(each.curve is not None for each in sinks):
+        if all(values.curve is not None for values in sinks):
             rare[:] = True
         if np.any(rare):
             exact = number_above(sinks, 1.0, states=len(state.d))
@@ -358,11 +360,13 @@ class Dents(AbstractOutput):
         self, sums: dict[str, Array], dents: Sequence[tuple[Values, Values]], side: int
     ) -> dict[str, Array]:
         """The columns of a surface, from sums over its dents, and depths and widths that count."""
-        n, known, unknown = (sums[name] for name in ("n", "known", "unknown"))
+        n, with_depth, unknown = (sums[name] for name in ("n", "known", "unknown"))
         depths, widths = ([pair[i] for pair in dents] for i in (0, 1))
         if self.debris == "brittle":  # no class ends where a fragment begins to leave a dent
-            n, known = (number_above(values, 0.0, states=len(n)) for values in (widths, depths))
-        deep = known
+            n, with_depth = (
+                number_above(values, 0.0, states=len(n)) for values in (widths, depths)
+            )
+        deep = with_depth
         if self.shallowest > 0:  # whether marks of unknown depth are so deep is not known either
             deep = number_above(depths, self.shallowest, states=len(n))
             n = np.where(unknown > 0, np.nan, deep)
@@ -381,7 +385,7 @@ class Dents(AbstractOutput):
         return out | {
             f"dent_volume_{side + 1}": np.where(unknown > 0, np.nan, sums["volume"]),
             f"embedded_{side + 1}": np.where(
-                (unknown > 0) & (known == 0), np.nan, sums["embedded"]
+                (unknown > 0) & (with_depth == 0), np.nan, sums["embedded"]
             ),
         }
 
@@ -395,18 +399,18 @@ class Dents(AbstractOutput):
     def _about_wide(self, state: Solved) -> list[str]:
         """Flattened particles whose marks are held to the widest disc that a surface bears."""
         out: list[str] = []
-        for each in state.contact.populations:
-            mine = [spots for spots in self._groups(state) if spots.population is each]
+        for population in state.contact.populations:
+            mine = [spots for spots in self._groups(state) if spots.population is population]
             shares = [self._share_held(mine, side, state.contact) for side in (0, 1)]
             share, side = max((share, side) for side, share in enumerate(shares))
             if share > 0:
-                law, pair = state.contact.law_of(each), state.contact.surfaces
-                widest = _widest(law, pair, each.material, side)
+                law, pair = state.contact.law_of(population), state.contact.surfaces
+                widest = _widest(law, pair, population.material, side)
                 what = (
                     f"outputs.dents: {percent(share, digits=2)} of the marks of "
-                    f"{each.name or each.material.name or 'particles'} are of discs that would "
-                    "press harder than the surface is: such a disc sinks in, and its mark is held "
-                    f"to {number(widest, 3)} times the particle's size"
+                    f"{population.name or population.material.name or 'particles'} are of discs "
+                    "that would press harder than the surface is: such a disc sinks in, and its "
+                    f"mark is held to {number(widest, 3)} times the particle's size"
                 )
                 out.append(Note(what, code=f"{self.name}.wide", effect=share))
         return out
@@ -418,8 +422,8 @@ class Dents(AbstractOutput):
         for spots in groups:
             population = spots.population
             assert population is not None
-            law, own = contact.law_of(population), population.material
-            widest = _widest(law, contact.surfaces, own, side)
+            law, material = contact.law_of(population), population.material
+            widest = _widest(law, contact.surfaces, material, side)
             dent = self._dent_left(spots, side, contact)
             flat = np.isnan(dent.depth) & (dent.diameter > 0)
             marks = marks + spots.total(flat.astype(float))
@@ -429,10 +433,10 @@ class Dents(AbstractOutput):
 
     def _about_few(self, values: Mapping[str, Array]) -> list[str]:
         """Where few dents, or less than one, lie in A_n."""
-        found = np.concatenate([values[f"n_dents_{side}"] for side in (1, 2)]) * self.A_n
-        if not np.any(few := (found > 0) & (found < FEW)):
+        counts = np.concatenate([values[f"n_dents_{side}"] for side in (1, 2)]) * self.A_n
+        if not np.any(few := (counts > 0) & (counts < FEW)):
             return []
-        least = found[few].min()
+        least = counts[few].min()
         what = (
             f"outputs.dents: {number(least)} dents lie in A_n = {number(self.A_n)} m² on average: "
         )
@@ -454,31 +458,33 @@ class Dents(AbstractOutput):
         """Notes on flattened particles, whose dents have no known depth."""
         out: list[str] = []
         pair = (state.contact.surfaces.first, state.contact.surfaces.second)
-        for each in state.contact.populations:
-            own = each.material
-            of_each = (spots.knows_sink for spots in state.particles if spots.population == each)
-            known = next(of_each, (False, False))
+        for population in state.contact.populations:
+            material = population.material
+            of_population = (
+                spots.knows_sink for spots in state.particles if spots.population == population
+            )
+            knows_sink = next(of_population, (False, False))
             flat = [
                 math.isnan(
                     sink(
-                        own,
-                        hardness=softer_hardness(own, body),
+                        material,
+                        hardness=softer_hardness(material, body),
                         debris=self.debris,
                         computed=computed,
                     )
                 )
-                for body, computed in zip(pair, known, strict=True)
+                for body, computed in zip(pair, knows_sink, strict=True)
             ]
             sides = [k for k in (1, 2) if flat[k - 1] and np.any(values[f"n_dents_{k}"] != 0)]
             if not sides:
                 continue
             where = "either surface" if len(sides) == 2 else f"surface {sides[0]}"
-            told = f"are not harder than {where} and are flattened there"
+            behaviour = f"are not harder than {where} and are flattened there"
             if self.debris == "ductile":
-                told = "flatten, as debris = 'ductile' says"
-            name = each.name or each.material.name or "particles"
+                behaviour = "flatten, as debris = 'ductile' says"
+            name = population.name or population.material.name or "particles"
             what = (
-                f"outputs.dents: {name} {told}: "
+                f"outputs.dents: {name} {behaviour}: "
                 "their marks are counted, with the widths "
                 "of their footprints; depth and volume are not known (NaN)"
             )

@@ -104,8 +104,8 @@ def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> 
     steps, row = np.linspace(0.0, 1.0, FINER + 1), np.arange(len(jumps))
     for _ in range(ROUNDS if len(jumps) else 0):
         eps = low[:, None] + (high - low)[:, None] * steps
-        found = kinds_at(eps)
-        first = np.argmax(found != found[:, :1], axis=1)
+        kinds = kinds_at(eps)
+        first = np.argmax(kinds != kinds[:, :1], axis=1)
         low, high = eps[row, first - 1], eps[row, first]
     return [float(eps) for eps in high]
 
@@ -374,8 +374,8 @@ class Friction(AbstractOutput):
         """μ_p of a tip; ``yielding`` is its depth at first yield [m]."""
         kappa = self._support(depth, yielding)
         if self.angle == "area":
-            part = np.minimum(area / (np.pi * np.square(radius)), 1.0)
-            depth = radius * part / (1 + np.sqrt(1 - part))
+            share = np.minimum(area / (np.pi * np.square(radius)), 1.0)
+            depth = radius * share / (1 + np.sqrt(1 - share))
         return coefficient(depth, radius=radius, rear=kappa)
 
     def _plough_by(self, spots: ParticleSpots, side: int) -> Array:
@@ -423,8 +423,8 @@ class Friction(AbstractOutput):
             return True, True
         # the softer body of a contact with a softer particle is the particle
         one, two = (
-            known or spots.material.H > H
-            for known, H in zip(spots.knows_sink, spots.hardness, strict=True)
+            computed or spots.material.H > H
+            for computed, H in zip(spots.knows_sink, spots.hardness, strict=True)
         )
         return one, two
 
@@ -490,8 +490,8 @@ class Friction(AbstractOutput):
         force = dict.fromkeys((*PARTS, "plough_1", "plough_2", "rolling"), nothing)
 
         def add(spots: AsperitySpots | ParticleSpots, values: Mapping[str, Array]) -> None:
-            for name, each in values.items():
-                force[name] = force[name] + spots.total(each)
+            for name, spot_forces in values.items():
+                force[name] = force[name] + spots.total(spot_forces)
 
         ratio = self.ratio(state.contact)
         for asperities in state.asperities:
@@ -506,8 +506,8 @@ class Friction(AbstractOutput):
             for i, track in enumerate(motion.plough):
                 # a rolling particle leaves half a track on either side, and so does one that
                 # slides over either of two surfaces alike
-                part = np.where(motion.rolls | particles.even, 0.5, motion.side == i)
-                add(particles, {f"plough_{i + 1}": part * track * particles.load})
+                share = np.where(motion.rolls | particles.even, 0.5, motion.side == i)
+                add(particles, {f"plough_{i + 1}": share * track * particles.load})
         F_ss = state.total(lambda spots: spots.load)
         F_sa = state.total_of_particles(lambda spots: spots.load)
         T_ss = force["ss_shear"] + force["ss_plough"]
@@ -515,7 +515,7 @@ class Friction(AbstractOutput):
         with np.errstate(invalid="ignore", divide="ignore"):
             return {
                 "mu": (T_ss + T_sa) / state.pressure,
-                **{f"mu_{part}": force[part] / state.pressure for part in PARTS},
+                **{f"mu_{term}": force[term] / state.pressure for term in PARTS},
                 "mu_plough_1": force["plough_1"] / state.pressure,
                 "mu_plough_2": force["plough_2"] / state.pressure,
                 "mu_ss": T_ss / F_ss,
@@ -525,7 +525,7 @@ class Friction(AbstractOutput):
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         shapes = (spots.shape for spots in state.particles)
-        steep = [each.angle for each in shapes if each and each.faced and each.angle > CUTS]
+        steep = [shape.angle for shape in shapes if shape and shape.faced and shape.angle > CUTS]
         if not steep:
             return []
         what = (
@@ -541,8 +541,8 @@ class Friction(AbstractOutput):
             out = np.where(motion.rolls, 2, motion.side)
             for side, (area, H) in enumerate(zip(spots.areas, spots.hardness, strict=True)):
                 grown = self._growth("sa", area, spots.load, H) > 1.0
-                known = spots.knows_sink[side]
-                ends = spots.impression_radius(side) if known else spots.half
+                computed = spots.knows_sink[side]
+                ends = spots.impression_radius(side) if computed else spots.half
                 out = 4 * out + 2 * grown + (spots.sinks[side] > ends)
             return out
 

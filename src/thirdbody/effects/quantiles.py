@@ -99,9 +99,9 @@ def exceeded_values(groups: Sequence[Values], counts: Sequence[Array]) -> list[A
     out = np.zeros(len(wanted))
     some = np.flatnonzero(above(np.full(len(wanted), low), rows) > wanted)
     if len(some):
-        found = _where_so_many(above, wanted[some], (low, top), rows[some])
+        values = _where_so_many(above, wanted[some], (low, top), rows[some])
         # where more than that many have the largest value, it is that
-        out[some] = np.where(np.isnan(found), top, found)
+        out[some] = np.where(np.isnan(values), top, values)
     return np.split(out, len(counts))
 
 
@@ -118,8 +118,8 @@ def _where_so_many(
         return np.log(np.maximum(number, floor[at]) / np.maximum(count[at], floor[at]))
 
     ends = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
-    found = bracketed_root(excess, *ends, (np.arange(len(rows), dtype=float),), xrtol=TOLERANCE)
-    return low * np.exp(found - 1.0)
+    root = bracketed_root(excess, *ends, (np.arange(len(rows), dtype=float),), xrtol=TOLERANCE)
+    return low * np.exp(root - 1.0)
 
 
 def number_above(groups: Sequence[Values], value: float, *, states: int) -> Array:
@@ -209,13 +209,13 @@ class _Whole:
 
     def squeezes(self, values: Array, x: Array) -> list[tuple[Array, Array]]:
         """Between which ε particles of sizes x exceed these values: lower and upper ends."""
-        found = list(self.curve.stretches(values / x**self.curve.power))
+        stretches = list(self.curve.stretches(values / x**self.curve.power))
         if self.least is not None:
             other, value = self.least
             begin = other.first(value / x**other.power)
-            found = [(np.maximum(a, begin), np.maximum(b, begin)) for a, b in found]
+            stretches = [(np.maximum(a, begin), np.maximum(b, begin)) for a, b in stretches]
         shape = np.broadcast(values, x).shape
-        return [(np.broadcast_to(a, shape), np.broadcast_to(b, shape)) for a, b in found]
+        return [(np.broadcast_to(a, shape), np.broadcast_to(b, shape)) for a, b in stretches]
 
     def bends(self, values: Array) -> Array:
         """Sizes (N, k) at which the squeezes of these values jump or bend."""
@@ -264,12 +264,12 @@ class _OnSeats(_Whole):
         count = max(1, AT_ONCE // (NODES * (len(edges) + 40)))
         out = np.empty(len(values))
         for start in range(0, len(values), count):
-            part = slice(start, start + count)
-            means = layout.means[rows[part]]
-            out[part] = self._sum(values[part], means, edges)
+            batch = slice(start, start + count)
+            means = layout.means[rows[batch]]
+            out[batch] = self._sum(values[batch], means, edges)
             if pieces:
                 x = np.full(len(means), float(layout.fragment or 0.0))
-                out[part] += pieces * self._share_above(values[part], x, means)
+                out[batch] += pieces * self._share_above(values[batch], x, means)
         return self.density[rows] * out
 
     def _sum(self, values: Array, means: Array, edges: Array) -> Array:
@@ -284,9 +284,9 @@ class _OnSeats(_Whole):
         ends = np.concatenate([fixed, more, self.bends(values)], axis=1)
         ends = np.sort(np.clip(ends, low, high), axis=1)
         x, weight = panel_rule(ends, NODES)
-        part = self._share_above(values[:, None], x, means[:, None])
+        share = self._share_above(values[:, None], x, means[:, None])
         density = np.where(weight > 0, self.density_of(np.maximum(x, TINY)), 0.0)
-        return np.sum(weight * density * part, axis=1)
+        return np.sum(weight * density * share, axis=1)
 
 
 class _OnPlane(_Whole):

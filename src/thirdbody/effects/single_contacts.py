@@ -123,13 +123,13 @@ def single_contacts(
     low = without * clean[closed]
     high = np.where(sure, low + (1 - without) * rest[closed], clean[closed])
     low = np.where(sure, high, low)
-    known = high <= FACTOR * low
+    narrow = high <= FACTOR * low
     out = {}
     for name in columns:
-        part = np.where((1 - without) > 0, (1 - without) * rest[name], 0.0)
-        out[name] = np.where(known, without * clean[name] + part, np.nan)
+        rest_share = np.where((1 - without) > 0, (1 - without) * rest[name], 0.0)
+        out[name] = np.where(narrow, without * clean[name] + rest_share, np.nan)
     # where the estimate of the rest failed, and matters little, the least is given
-    out[closed] = np.where(known & np.isnan(out[closed]), low, out[closed])
+    out[closed] = np.where(narrow & np.isnan(out[closed]), low, out[closed])
 
     def place_few(values: Array) -> Array:
         full = np.full_like(state.d, np.nan)
@@ -161,14 +161,14 @@ def _with_particles(
             more = contact.replace(
                 outputs=(output,),
                 particles=tuple(
-                    each.replace(areal_density=factor * each.areal_density)
-                    for each in contact.populations
+                    population.replace(areal_density=factor * population.areal_density)
+                    for population in contact.populations
                 ),
             )
         except InvalidValue:  # so many do not find room: nothing is known of them
             continue
         d = solver.separation(more, pressure[which])
-        found = {**solver.outputs(more, d), "n_sa": touching(interface(more), d)}
+        solved = {**solver.outputs(more, d), "n_sa": touching(interface(more), d)}
         for name, values in out.items():
-            values[which] = found[name]
+            values[which] = solved[name]
     return out

@@ -271,7 +271,7 @@ class FlashTemperature(AbstractOutput):
                 zip((pair.first, pair.second), (a_1, a_2), strict=True)
             ):
                 body = Body.of_material(material)
-                slow, half, fast = (self._takes(body, a, part * self.v) for part in (0, 0.5, 1))
+                slow, half, fast = (self._takes(body, a, share * self.v) for share in (0, 0.5, 1))
                 G.append(np.where(rolls, half, np.where(side == i, fast, slow)))
                 heat.append(np.where(rolls, 0.5, side == i) * Q)
             rise = np.maximum(*bridge((heat[0], heat[1]), G=(G[0], G[1]), R=R, T=self._colder()))
@@ -308,9 +308,13 @@ class FlashTemperature(AbstractOutput):
         out = {}
         total: dict[str, Array] = {}
         for name, weight in WEIGHTS.items():
-            total[name] = _sum(states, (each.total(weight(each)) for each in spots))
+            total[name] = _sum(states, (contacts.total(weight(contacts)) for contacts in spots))
             above = _sum(
-                states, (each.total(weight(each) * t) for each, t in zip(spots, T, strict=True))
+                states,
+                (
+                    contacts.total(weight(contacts) * t)
+                    for contacts, t in zip(spots, T, strict=True)
+                ),
             )
             with np.errstate(invalid="ignore", divide="ignore"):
                 out[f"dT_{group}_{name}"] = above / total[name]
@@ -401,16 +405,16 @@ class _Counted(NamedTuple):
     def from_spots(
         spots: Sequence[Spots], T: list[Array], weight: Callable[[Spots], Array], states: int
     ) -> _Counted:
-        parts = [t[each.load > 0] for each, t in zip(spots, T, strict=True)]
-        known = np.concatenate([*parts, np.zeros(0)])
-        if not len(known):
+        parts = [t[contacts.load > 0] for contacts, t in zip(spots, T, strict=True)]
+        rises = np.concatenate([*parts, np.zeros(0)])
+        if not len(rises):
             return _Counted(np.zeros(2), np.zeros((states, 2)))
-        levels = np.unique(known)
+        levels = np.unique(rises)
         if len(levels) > LEVELS:
             bottom = max(levels[0], 1e-6 * levels[-1])
             span = np.geomspace if bottom > 0 else np.linspace
             levels = span(bottom if bottom > 0 else levels[0], levels[-1], LEVELS)
-        weights = [weight(each) * (each.load > 0) for each in spots]
+        weights = [weight(contacts) * (contacts.load > 0) for contacts in spots]
 
         def above(over: Array) -> Array:
             return _sum(
@@ -432,6 +436,6 @@ class _Counted(NamedTuple):
         rows = np.arange(len(weight))
         upper, lower = self.above[rows, last], self.above[rows, last + 1]
         with np.errstate(invalid="ignore", divide="ignore"):
-            part = np.where(upper > lower, (upper - weight) / (upper - lower), 0.0)
-        T = self.levels[last] + part * (self.levels[last + 1] - self.levels[last])
+            share = np.where(upper > lower, (upper - weight) / (upper - lower), 0.0)
+        T = self.levels[last] + share * (self.levels[last + 1] - self.levels[last])
         return np.where(enough.any(axis=1) & (weight > 0), T, np.nan)

@@ -43,11 +43,11 @@ F_ROLL = (
 )
 
 
-def _all_roll(friction: Friction, contact: Contact, each: Particles) -> bool:
+def _all_roll(friction: Friction, contact: Contact, population: Particles) -> bool:
     """Whether the particles of a population roll however they are squeezed."""
-    law, surfaces = contact.law_of(each), contact.surfaces
-    spots = law.probe(np.geomspace(1e-6, 0.5, 40), surfaces=surfaces, particle=each.material)
-    spots = replace(spots, material=each.material, population=each)
+    law, surfaces = contact.law_of(population), contact.surfaces
+    spots = law.probe(np.geomspace(1e-6, 0.5, 40), surfaces=surfaces, particle=population.material)
+    spots = replace(spots, material=population.material, population=population)
     return bool(np.all(friction.motion(spots).rolls | (spots.load <= 0)))
 
 
@@ -164,9 +164,13 @@ class Wear(AbstractOutput):
             for name, what in needed.items()
             if getattr(self, name) is None
         ]
-        friction: Any = next((each for each in contact.outputs if each.name == "friction"), None)
+        friction: Any = next(
+            (output for output in contact.outputs if output.name == "friction"), None
+        )
         unknown = self.f_roll is None and friction is not None and not friction.problems(contact)
-        if unknown and any(_all_roll(friction, contact, each) for each in contact.populations):
+        if unknown and any(
+            _all_roll(friction, contact, population) for population in contact.populations
+        ):
             out.append(self.problem(F_ROLL, code=Mistake.MISSING))
         return out
 
@@ -199,15 +203,15 @@ class Wear(AbstractOutput):
             out["groove"].append(slides * (self.f_ab or 0.0) * groove)
             out["roll"].append(0.5 * rolls * (self.f_roll or 0.0) * groove)
             out["cut"].append(acts * 2 * b * (slides + 0.5 * rolls))
-        found = {name: (values[0], values[1]) for name, values in out.items()}
-        return found | {"rolls": (rolls * spots.load, ~rolls * spots.load)}
+        volumes = {name: (values[0], values[1]) for name, values in out.items()}
+        return volumes | {"rolls": (rolls * spots.load, ~rolls * spots.load)}
 
     def _worn_asperities(self, state: Solved) -> Array:
         """Sum Σ K a over the asperities [1]; for the law field by its areas."""
-        if patches := [each for each in state.asperities if isinstance(each, FieldSpots)]:
+        if patches := [patch for patch in state.asperities if isinstance(patch, FieldSpots)]:
             kinds = np.arange(len(REGIMES))
             return sum(
-                (self._archard("ss", kinds, each.regimes).sum(axis=1) for each in patches),
+                (self._archard("ss", kinds, patch.regimes).sum(axis=1) for patch in patches),
                 np.zeros_like(state.d),
             )
         return state.total(lambda spots: self._archard("ss", spots.regime, spots.area))
@@ -229,8 +233,8 @@ class Wear(AbstractOutput):
         loaded, S, severe = nothing, nothing, nothing
         for spots in state.particles:
             for name, sides in self.of_particles(spots, friction).items():
-                for side, each in enumerate(sides):
-                    volume[name][side] = volume[name][side] + spots.total(each)
+                for side, spot_volume in enumerate(sides):
+                    volume[name][side] = volume[name][side] + spots.total(spot_volume)
             softer, harder = sorted(spots.hardness)
             value = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)
             over = value > threshold(softer, H_b=harder)

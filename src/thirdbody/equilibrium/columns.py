@@ -130,12 +130,12 @@ class Equilibrium(_ContactRecord):
         stacked: dict[str, object] = {
             f"population_{name}": (
                 dims,
-                np.stack([part.columns()[name] for part in parts], axis=-1),
+                np.stack([population.columns()[name] for population in parts], axis=-1),
                 parts[0].about(name).labels,
             )
             for name in parts[0].columns()
         }
-        return stacked, {"population": [part.name for part in parts]}
+        return stacked, {"population": [population.name for population in parts]}
 
     @takes_units
     def modes(
@@ -220,8 +220,12 @@ def labels_of(contact: Contact, name: str) -> dict[str, str]:
     """Attributes of an input or load in a data set."""
     if name in COLUMNS:
         return COLUMNS[name].labels
-    told = quantity_of(contact, name)
-    return {} if told is None else Column(told["symbol"], told["unit"], told["meaning"]).labels
+    quantity = quantity_of(contact, name)
+    return (
+        {}
+        if quantity is None
+        else Column(quantity["symbol"], quantity["unit"], quantity["meaning"]).labels
+    )
 
 
 def provenance(contact: Contact) -> dict[str, str]:

@@ -125,8 +125,8 @@ def critical_loads(
     ]
     return {
         name: (
-            np.concatenate([part[name][0] for part in parts]),
-            np.concatenate([part[name][1] for part in parts]),
+            np.concatenate([loads[name][0] for loads in parts]),
+            np.concatenate([loads[name][1] for loads in parts]),
         )
         for name in CRITICAL
     }
@@ -134,8 +134,10 @@ def critical_loads(
 
 def load_falls(contact: Contact) -> bool:
     """Whether the load falls with the separation, here and as far as the law of particles tells."""
-    bound = interface(contact)
-    return load_scan(bound).monotone and (bound.particles is None or bound.particles.monotone)
+    contact_interface = interface(contact)
+    return load_scan(contact_interface).monotone and (
+        contact_interface.particles is None or contact_interface.particles.monotone
+    )
 
 
 class Shares:
@@ -149,8 +151,14 @@ class Shares:
         twice = {name: np.repeat(values, 2) for name, values in vary.items()}
         states = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
         first, last = ({n: states[n][i::2] for n in ("d", "h")} for i in range(2))
-        own = {name: values for name, values in vary.items() if name.startswith("roughness.")}
-        rough = contact.with_arrays(own).roughness if own else contact.roughness
+        roughness_inputs = {
+            name: values for name, values in vary.items() if name.startswith("roughness.")
+        }
+        rough = (
+            contact.with_arrays(roughness_inputs).roughness
+            if roughness_inputs
+            else contact.roughness
+        )
         # a load that no contact carries is replaced by the deepest one that the model knows
         self.deepest = rough.y_s - (first["h"] - first["d"]) + DEEPEST * rough.sigma_s
         self.top = np.asarray(first["d"], float)
@@ -162,9 +170,9 @@ class Shares:
         """Lowest separation of a law of the whole surface, whose end depends on the contact."""
         out = np.full(self.count, -np.inf)
         for i in which.tolist():
-            own = {name: values[i].item() for name, values in self.vary.items()}
+            inputs = {name: values[i].item() for name, values in self.vary.items()}
             out[i] = (
-                interface(vary_contact(self.contact, own)).lowest
+                interface(vary_contact(self.contact, inputs)).lowest
                 + 1e-9 * self.contact.roughness.sigma
             )
         return out
@@ -205,18 +213,18 @@ def _by_splines(contact: Contact, vary: Arrays, count: int) -> Loads:
     """Critical loads by splines; of contacts of which those do not tell them, one by one."""
     left = np.arange(count)
     out = {n: (np.full(count, np.nan), np.full(count, "", dtype="<U12")) for n in CRITICAL}
-    if (found := _spline_loads(contact, vary, count)) is not None:
-        splines, rows = found
-        told = rows[splines.known]
+    if (solved := _spline_loads(contact, vary, count)) is not None:
+        splines, rows = solved
+        solved_rows = rows[splines.solved]
         for name, into in out.items():
-            for whole, part in zip(into, splines.loads[name], strict=True):
-                whole[told] = part[splines.known]
-        left = np.setdiff1d(left, told)
+            for whole, values in zip(into, splines.loads[name], strict=True):
+                whole[solved_rows] = values[splines.solved]
+        left = np.setdiff1d(left, solved_rows)
     if len(left):
         rest = _critical_loads(contact, {n: v[left] for n, v in vary.items()}, len(left))
         for name, into in out.items():
-            for whole, part in zip(into, rest[name], strict=True):
-                whole[left] = part
+            for whole, values in zip(into, rest[name], strict=True):
+                whole[left] = values
     return out
 
 
@@ -229,21 +237,21 @@ def _spline_loads(
     if count < 4 * PROBES:
         return None
     probes = np.linspace(0, count - 1, PROBES).astype(np.intp)
-    known = Shares(contact, {name: values[probes] for name, values in vary.items()}, PROBES)
-    ends = np.stack([known.top, known.bottom])
+    probed = Shares(contact, {name: values[probes] for name, values in vary.items()}, PROBES)
+    ends = np.stack([probed.top, probed.bottom])
     like = Likeness(vary, count, probes)
     if not (like.enough and np.all(np.isfinite(ends))):
         return None
     top, bottom = expected_ends(like, ends)
-    deepest = like.extend_to_all(known.deepest)
+    deepest = like.extend_to_all(probed.deepest)
     shares = Shares(contact, vary, count, np.stack([top, np.maximum(bottom, deepest)]))
 
     def states(x: Array, which: NDArray[np.intp]) -> Array:
         return shares.logarithms(1 - (1 - x) * (CLOSER + (1 - CLOSER) * (1 - x)), which)
 
     def at_nodes(x: Array, which: NDArray[np.intp]) -> Array:
-        found = states(np.tile(x, len(which)), np.repeat(which, len(x)))
-        return found.reshape(3, len(which), len(x))
+        logarithms = states(np.tile(x, len(which)), np.repeat(which, len(x)))
+        return logarithms.reshape(3, len(which), len(x))
 
     x = np.linspace(0.0, 1.0, SPLINE_NODES)
     exact = at_nodes(x[::EXACT_EVERY], np.arange(count))
@@ -268,8 +276,8 @@ def _critical_loads(
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:
     shares = Shares(contact, vary, count)
     t = np.linspace(0.0, 1.0, nodes)
-    found = shares.logarithms_at(np.tile(t, count), np.repeat(np.arange(count), nodes))
-    area, load, F = (values.reshape(count, nodes) for values in found)
+    logarithms = shares.logarithms_at(np.tile(t, count), np.repeat(np.arange(count), nodes))
+    area, load, F = (values.reshape(count, nodes) for values in logarithms)
     lost = np.isnan(shares.top)
 
     def entry(
@@ -287,7 +295,7 @@ def _critical_loads(
     changes = (load[:, 1:] >= 0) != (load[:, :-1] >= 0)
     unequal = np.all(~changes, axis=1)
     rows = [~(never | always | lost), ~(none | end | lost), ~(unequal | lost)]
-    where = [np.flatnonzero(each) for each in rows]
+    where = [np.flatnonzero(mask) for mask in rows]
     cells = [
         np.argmax(below, 1) - 1,
         nodes - 1 - np.argmax(above[:, ::-1], 1),
@@ -297,7 +305,7 @@ def _critical_loads(
     loads = _crossings(
         shares,
         t,
-        np.concatenate([each[some] for each, some in zip(misses, where, strict=True)]),
+        np.concatenate([miss[some] for miss, some in zip(misses, where, strict=True)]),
         np.concatenate([F[some] for some in where]),
         np.concatenate(where),
         np.concatenate([cell[some] for cell, some in zip(cells, where, strict=True)]),
@@ -311,8 +319,8 @@ def _critical_loads(
     ]
     parts = np.split(loads, np.cumsum([len(some) for some in where])[:-1])
     names = ("F_cr1", "F_cr2", "F_tpca.B")
-    each = zip(names, cases, zip(parts, where, strict=True), strict=True)
-    out = {name: entry(case, part) for name, case, part in each}
+    entries = zip(names, cases, zip(parts, where, strict=True), strict=True)
+    out = {name: entry(case, crossings) for name, case, crossings in entries}
     out["F_tpca.A"] = _peak(shares, area, t, lost, entry)
     close = np.flatnonzero(_all_but_equal(t, load) & unequal & ~lost)
     if nodes == NODES and len(close):
@@ -327,10 +335,10 @@ def _all_but_equal(t: Array, load: Array) -> NDArray[np.bool_]:
     """Which contacts may have equal loads twice between two nodes, by splines through the nodes."""
     from scipy.interpolate import CubicSpline
 
-    known = np.all(np.isfinite(load), axis=1)
-    between = CubicSpline(t, load[known], axis=1)(np.linspace(0.0, 1.0, 4 * len(t)))
-    known[known] = np.min(np.abs(between), axis=1) < NEAR
-    return known
+    candidates = np.all(np.isfinite(load), axis=1)
+    between = CubicSpline(t, load[candidates], axis=1)(np.linspace(0.0, 1.0, 4 * len(t)))
+    candidates[candidates] = np.min(np.abs(between), axis=1) < NEAR
+    return candidates
 
 
 def _crossings(
@@ -366,8 +374,10 @@ def _crossings(
     for _ in range(PASSES):
         if not len(left):
             break
-        found = shares.logarithms_at(x, which[left])
-        new = np.stack([x, np.where(column[left] == 0, *found[:2]) - level[left], found[2]])
+        logarithms = shares.logarithms_at(x, which[left])
+        new = np.stack(
+            [x, np.where(column[left] == 0, *logarithms[:2]) - level[left], logarithms[2]]
+        )
         same = (new[1] >= 0) == (one[1] >= 0)
         three, two = np.where(same, one, two), np.where(same, two, one)
         one = new
@@ -384,10 +394,10 @@ def _next(one: Array, two: Array, three: Array) -> Array:
     (a, f_a, _), (b, f_b, _), (c, f_c, _) = one, two, three
     with np.errstate(divide="ignore", invalid="ignore"):
         xi, phi = (a - b) / (c - b), (f_a - f_b) / (f_c - f_b)
-        part = f_a / (f_b - f_a) * f_c / (f_b - f_c)
-        part += (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b)
-        good = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi) & (part > 0) & (part < 1)
-    return np.where(f_a == 0, a, a + np.where(good, part, 0.5) * (b - a))
+        fraction = f_a / (f_b - f_a) * f_c / (f_b - f_c)
+        fraction += (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b)
+        good = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi) & (fraction > 0) & (fraction < 1)
+    return np.where(f_a == 0, a, a + np.where(good, fraction, 0.5) * (b - a))
 
 
 def _parabola(x: Array, one: Array, two: Array, three: Array) -> Array:

@@ -141,9 +141,9 @@ def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list
         out.append(Note(what, code=f"{AREA}.close", action=POINTS))
     if not any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
         return out
-    given = sorted(chi) or [chi_of(contact)]
-    hard = [one for one in given if HARD < one < ELASTIC]
-    if given[0] <= HARD and most > CLOSE:
+    ratios = sorted(chi) or [chi_of(contact)]
+    hard = [one for one in ratios if HARD < one < ELASTIC]
+    if ratios[0] <= HARD and most > CLOSE:
         what = (
             f"A_t reaches {most:.3g}: pressed point by point, surfaces with more than "
             f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
@@ -161,9 +161,9 @@ def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list
         )
         effect, action = 0.04 if hard[-1] <= 0.31 else 0.3, FIELD
         out.append(Note(what, code=f"{AREA}.hard", effect=effect, action=action))
-    if given[-1] >= ELASTIC and most > CLOSE:
+    if ratios[-1] >= ELASTIC and most > CLOSE:
         what = (
-            f"A_t reaches {most:.3g} at chi = H/(E* g) = {given[-1]:.2g} (g: RMS slope): elastic "
+            f"A_t reaches {most:.3g} at chi = H/(E* g) = {ratios[-1]:.2g} (g: RMS slope): elastic "
             "surfaces pressed point by point had 14 to 47 % more area than this model says and "
             "were 0.04 to 0.79 sigma further apart; what their particles carry is not known"
         )

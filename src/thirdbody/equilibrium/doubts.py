@@ -29,17 +29,17 @@ FEWER = "check the unit of areal_density and of the sizes"
 
 
 def about_elastic(
-    contact: Contact, bound: Interface, full: dict[str, Array], d: Array
+    contact: Contact, contact_interface: Interface, full: dict[str, Array], d: Array
 ) -> list[str]:
     """Note on elastic asperities of a broad spectrum, where these carry area."""
     alpha = contact.roughness.alpha
-    if bound.one_field:
+    if contact_interface.one_field:
         return []
     with np.errstate(invalid="ignore"):
         count = np.isfinite(d) & (full["A_ss"] > 0.1 * full["A_t"])
     if not alpha > BROAD or not np.any(count):
         return []
-    _, elastic, *others = bound.asperities.fields(np.array([d[count].max()]))[0]
+    _, elastic, *others = contact_interface.asperities.fields(np.array([d[count].max()]))[0]
     if not elastic > sum(others):
         return []
     what = (
@@ -53,10 +53,10 @@ def about_elastic(
 def about_particles(contact: Contact) -> list[str]:
     """Notes on particles outside the model's validity, one sentence each."""
     out = []
-    for each in contact.populations:
-        out += contact.law_of(each).warnings(contact.surfaces, contact.roughness, each)
-        out += about_strength(each, contact.surfaces)
-    covered = sum(each.coverage for each in contact.populations)
+    for population in contact.populations:
+        out += contact.law_of(population).warnings(contact.surfaces, contact.roughness, population)
+        out += about_strength(population, contact.surfaces)
+    covered = sum(population.coverage for population in contact.populations)
     if covered >= 0.3:
         what = f"particles would cover {covered:.2g} of the nominal area: above 0.3 they touch "
         out.append(Note(f"{what}each other", code="coverage", action=FEWER))

@@ -32,9 +32,9 @@ def as_load(name: str, values: Values) -> Load[Values]:
     return cast(Load[Values], {name: values})
 
 
-def as_loads(given: Mapping[str, Values]) -> Load[Values]:
+def as_loads(loads: Mapping[str, Values]) -> Load[Values]:
     """Loads by their names, of which there may be none."""
-    return cast(Load[Values], given)
+    return cast(Load[Values], loads)
 
 
 def as_force_load(name: str, values: Values) -> ForceLoad[Values]:

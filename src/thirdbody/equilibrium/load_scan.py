@@ -44,17 +44,17 @@ class LoadScan:
         The load grows by no more than `RISE` of itself while d grows.
     """
 
-    def __init__(self, bound: Interface):
-        self.bound = bound
-        asperities = bound.asperities
+    def __init__(self, contact_interface: Interface):
+        self.interface = contact_interface
+        asperities = contact_interface.asperities
         sigma_s, centre = asperities.sigma_s, asperities.centre
-        low = bound.lowest
+        low = contact_interface.lowest
         near = np.arange(asperities.searched, min(10.0, asperities.highest), 0.2)
         far = np.arange(10.0, asperities.highest, 1.0)
         # the last asperity of a bounded distribution sets in like a power of its distance
         edge = asperities.highest - np.geomspace(1e-6, 0.2, 12)
         grid = [centre + sigma_s * np.concatenate([near, far, edge])]
-        particles = bound.particles
+        particles = contact_interface.particles
         if particles is not None:
             top = particles.reach
             grid.append(np.linspace(low, max(top, low), 65)[1:])
@@ -67,18 +67,18 @@ class LoadScan:
                 count = int(np.ceil((top - low) / particles.resolution))
                 grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
         d = np.unique(np.concatenate(grid))
-        if bound.one_field:
+        if contact_interface.one_field:
             d = d[d >= low]
-        F, slope, _ = bound.load(d).T
+        F, slope, _ = contact_interface.load(d).T
         if np.any(F < 0):
             # adhesion: the load sets in at a separation where it changes its sign
             d = np.append(d, self._onset(d, F) - sigma_s * np.geomspace(1e-9, 0.2, 30))
             d = np.unique(d)
-            F, slope, _ = bound.load(d).T
+            F, slope, _ = contact_interface.load(d).T
         self.ulp = float(np.spacing(np.abs(d[[0, -1]]).max()))
         if len(turns := self._turns(d, F, slope)):
             d = np.unique(np.append(d, turns))
-            F = bound.load(d)[:, 0]
+            F = contact_interface.load(d)[:, 0]
         if not np.any(F > 0):
             raise NoEquilibrium("no equilibrium: the laws carry no load at any separation")
         highest = np.flatnonzero(F > 0)[-1] + 1
@@ -97,7 +97,7 @@ class LoadScan:
         F_low = F[:-1][cells]
         for _ in range(HALVINGS if len(cells) else 0):
             middle = 0.5 * (low + high)
-            F_m, slope_m, _ = self.bound.load(middle).T
+            F_m, slope_m, _ = self.interface.load(middle).T
             right = np.where(by_load, F_m <= F_low, (slope_m > 0) == first)
             low, high = np.where(right, middle, low), np.where(right, high, middle)
             F_low = np.where(right, F_m, F_low)
@@ -111,14 +111,16 @@ class LoadScan:
         if not len(above) or above[-1] == len(d) - 1:
             return float(d[-1])
         low, high = d[above[-1]], d[above[-1] + 1]
-        return float(brentq(lambda x: self.bound.load(np.array([x]))[0, 0], low, high, xtol=1e-24))
+        return float(
+            brentq(lambda x: self.interface.load(np.array([x]))[0, 0], low, high, xtol=1e-24)
+        )
 
     @property
     def _lowest(self) -> str:
         """The lowest separation, in words."""
-        asperities = self.bound.asperities
-        if self.bound.one_field:
-            h = (self.bound.lowest + self.bound.mean_plane) / asperities.sigma
+        asperities = self.interface.asperities
+        if self.interface.one_field:
+            h = (self.interface.lowest + self.interface.mean_plane) / asperities.sigma
             return f"h = {h:.2g} sigma, {asperities.ends}"
         return f"{asperities.searched:g} sigma_s"
 
@@ -126,7 +128,7 @@ class LoadScan:
     def cells(self, target: Array, branch: str) -> Index:
         """Index i of the cell d[i] > root >= d[i+1] for each load, −1 where there is none."""
         log_target = np.log(target)
-        if branch == "loading" or load_scan(self.bound).monotone:
+        if branch == "loading" or load_scan(self.interface).monotone:
             # first separation, coming down, at which the load is reached
             reached = np.maximum.accumulate(self.log_F)
             cell = np.searchsorted(reached, log_target, side="left") - 1
@@ -153,11 +155,11 @@ class LoadScan:
 
     def why_not(self, target: float) -> tuple[Status, str]:
         """Why no separation carries this load."""
-        E = self.bound.contact.E_ss
+        E = self.interface.contact.E_ss
         top = float(np.exp(self.log_F.max()))
         said = f"{value_of(target, 'Pa')} (F* = {target / E:.3g})"
         if target > top:
-            H = self.bound.contact.surfaces.H
+            H = self.interface.contact.surfaces.H
             why = (
                 f"it is above the softer body's hardness, {value_of(H, 'Pa')}; check the unit "
                 "of the load"
@@ -190,12 +192,12 @@ class LoadScan:
         log_target = np.log(target)
         top, bottom = self.log_F[cells], self.log_F[cells + 1]
         with np.errstate(divide="ignore", invalid="ignore"):
-            part = (log_target - top) / (bottom - top)
-        part = np.where(np.isfinite(part), np.clip(part, 0.0, 1.0), 0.5)
-        start = high + part * (low - high)
+            fraction = (log_target - top) / (bottom - top)
+        fraction = np.where(np.isfinite(fraction), np.clip(fraction, 0.0, 1.0), 0.5)
+        start = high + fraction * (low - high)
 
         def imbalance(d: Array, which: Index) -> tuple[Array, Array, Array]:
-            F, F1, F2 = self.bound.load(d).T
+            F, F1, F2 = self.interface.load(d).T
             with np.errstate(divide="ignore", invalid="ignore"):
                 slope = F1 / F
                 return np.log(F) - log_target[which], slope, F2 / F - slope**2
@@ -205,8 +207,8 @@ class LoadScan:
         rest = np.flatnonzero(~(np.abs(residual) <= 0.5 * RESIDUAL))
         jumps = {}
         if len(rest):
-            d[rest], found = self._beside(target[rest], low[rest], high[rest], falling)
-            jumps = {int(rest[i]): text for i, text in found.items()}
+            d[rest], texts = self._beside(target[rest], low[rest], high[rest], falling)
+            jumps = {int(rest[i]): text for i, text in texts.items()}
         return d, iterations, jumps
 
     def _beside(
@@ -216,14 +218,14 @@ class LoadScan:
         low, high = low.copy(), high.copy()
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            right = (self.bound.load(middle)[:, 0] >= target) == falling
+            right = (self.interface.load(middle)[:, 0] >= target) == falling
             low, high = np.where(right, middle, low), np.where(right, high, middle)
         carries, less = (low, high) if falling else (high, low)
-        (F, slope, _), (F_less, slope_less, _) = (self.bound.load(x).T for x in (carries, less))
+        (F, slope, _), (F_less, slope_less, _) = (self.interface.load(x).T for x in (carries, less))
         good = is_carried(F, slope, target, self.ulp)
         other = is_carried(F_less, slope_less, target, self.ulp)
         closer = other & (~good | (np.abs(F_less - target) < np.abs(F - target)))
-        E = self.bound.contact.E_ss
+        E = self.interface.contact.E_ss
         jumps = {
             int(i): f"jump: the load {value_of(target[i], 'Pa')} (F* = {target[i] / E:.3g}) "
             f"lies in a jump of the load from F* = {F_less[i] / E:.3g} to {F[i] / E:.3g} at d = "
@@ -245,18 +247,18 @@ class LoadScan:
         iterations = np.zeros(len(target), dtype=int)
         status = Statuses.ok(len(target))
         cells = self.cells(target, branch)
-        found = np.flatnonzero(cells >= 0)
-        for start in range(0, len(found), CHUNK):
-            part = found[start : start + CHUNK]
-            d[part], iterations[part], jumps = self.polish(target[part], cells[part])
+        carried = np.flatnonzero(cells >= 0)
+        for start in range(0, len(carried), CHUNK):
+            rows = carried[start : start + CHUNK]
+            d[rows], iterations[rows], jumps = self.polish(target[rows], cells[rows])
             for place, sentence in jumps.items():
-                status.set(part[place], Status.JUMP, sentence)
+                status.set(rows[place], Status.JUMP, sentence)
         for i in np.flatnonzero(cells < 0):
             status.set(i, *self.why_not(float(target[i])))
         return d, iterations, status
 
 
 @lru_cache(maxsize=512)
-def load_scan(bound: Interface) -> LoadScan:
+def load_scan(contact_interface: Interface) -> LoadScan:
     """The cached scan of an interface."""
-    return LoadScan(bound)
+    return LoadScan(contact_interface)

@@ -71,13 +71,13 @@ class Likeness:
     def __init__(self, vary: Mapping[str, Array], count: int, probes: Rows):
         self.probes, self.basis = probes, [np.full(count, 1 / math.sqrt(len(probes)))]
         columns = [np.log(v) if np.all(v > 0) else v for v in vary.values()]
-        moving = [each for v in columns if np.ptp(v) > 0 and self._add(each := v - v.mean())]
+        moving = [centred for v in columns if np.ptp(v) > 0 and self._add(centred := v - v.mean())]
         squares = [v * v for v in moving]
         products = [v * w for i, v in enumerate(moving) for w in moving[:i]]
         if 2 * (1 + len(moving) + len(squares) + len(products)) > len(probes):
             products = []
-        for each in (*squares, *products):
-            self._add(each)
+        for column in (*squares, *products):
+            self._add(column)
         self.enough = 2 * len(self.basis) <= len(probes)
 
     def _add(self, column: Array) -> bool:
@@ -132,7 +132,7 @@ class SplineLoads:
 
     Attributes
     ----------
-    known : array of bool (M,)
+    solved : array of bool (M,)
         Whether splines tell all critical loads of a contact: it passes each level once at most,
         far enough from the ends of the window, and states there agree with the splines.
     loads : dict
@@ -149,7 +149,7 @@ class SplineLoads:
         rows, ends = np.arange(self.count), np.zeros(self.count)
         low, high = (self.root(LOAD, rows, math.log(F), ends, ends + 1) for F in WINDOW)
         self.x = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINE)
-        self.known = np.ones(self.count, bool)
+        self.solved = np.ones(self.count, bool)
         self.loads: Loads = {}
         self._read_splines()
 
@@ -174,8 +174,8 @@ class SplineLoads:
             return one - two
         if not slope:
             return np.logaddexp(one, two)
-        part = expit(self.values_at(EQUAL, rows, x))
-        return part * one + (1 - part) * two
+        share = expit(self.values_at(EQUAL, rows, x))
+        return share * one + (1 - share) * two
 
     def root(
         self, what: int, rows: Rows, level: float, low: Array, high: Array, slope: int = 0
@@ -197,14 +197,14 @@ class SplineLoads:
             above, doubt = miss >= 0, CLEAR + self.error[what]
             changes = above[:, 1:] != above[:, :-1]
             number = np.count_nonzero(changes, axis=1)
-            self.known &= np.min(np.abs(miss[:, [0, -1]]), axis=1) > doubt
-            self.known &= (number == 1) | ((number == 0) & (np.min(np.abs(miss), axis=1) > doubt))
-            self.known &= self.error[what] < WILD
+            self.solved &= np.min(np.abs(miss[:, [0, -1]]), axis=1) > doubt
+            self.solved &= (number == 1) | ((number == 0) & (np.min(np.abs(miss), axis=1) > doubt))
+            self.solved &= self.error[what] < WILD
             load, word = np.full(self.count, np.nan), np.full(self.count, FOUND, dtype="<U12")
             for without, status, value in _without(name, above[:, 0], above[:, -1]):
                 load[without], word[without] = value, status
             self.loads[name] = load, word
-            rows = np.flatnonzero(self.known & (word == FOUND))
+            rows = np.flatnonzero(self.solved & (word == FOUND))
             cell = np.argmax(changes[rows], axis=1)
             x = self.root(what, rows, level, self.x[rows, cell], self.x[rows, cell + 1])
             passages.append((rows, x, load))
@@ -215,8 +215,8 @@ class SplineLoads:
         """Loads where rows pass their levels, by states there and slopes: of the splines, then of
         two states.
         """
-        rows, x = (np.concatenate([each[k] for each in passages]) for k in range(2))
-        into = np.repeat(np.arange(len(passages)), [len(each[0]) for each in passages])
+        rows, x = (np.concatenate([passage[k] for passage in passages]) for k in range(2))
+        into = np.repeat(np.arange(len(passages)), [len(passage[0]) for passage in passages])
         shares = np.array([what for _, what, _ in PASSAGES])[into]
         level = np.array([level for *_, level in PASSAGES])[into]
         by_area = shares == AREA
@@ -244,13 +244,13 @@ class SplineLoads:
             waves = np.maximum(wavy[left], SLOPE_OF_ERROR / self.between * np.abs(miss))
             off = np.abs(step) * waves * (1 + np.abs(steep / slope)[left])
             done = near & (off < MISS)
-            found = np.exp(whole + steep[left] * step)
+            answers = np.exp(whole + steep[left] * step)
             for k, (_, _, out) in enumerate(passages):
                 here = done & (into[left] == k)
-                out[rows[left[here]]] = found[here]
-            self.known[rows[left[~near]]] = False
+                out[rows[left[here]]] = answers[here]
+            self.solved[rows[left[~near]]] = False
             left = left[near & ~done]
-        self.known[rows[left]] = False
+        self.solved[rows[left]] = False
 
     def _read_peak(self) -> None:
         """The load of the largest area share, where the share falls on both sides."""
@@ -261,10 +261,10 @@ class SplineLoads:
         top = np.argmax(size, axis=1)
         most, ends = size[every, top], np.maximum(size[:, 0], size[:, -1])
         # ends of 0.9 of the peak, which decide, are not told from others by a spline
-        self.known &= (most < 0.5 * LEAST_PEAK) | (np.abs(ends - 0.9 * most) > CLEAR * most)
+        self.solved &= (most < 0.5 * LEAST_PEAK) | (np.abs(ends - 0.9 * most) > CLEAR * most)
         peak = (ends < 0.9 * most) & (most >= LEAST_PEAK)
         word[~peak] = CriticalStatus.NONE
-        rows = np.flatnonzero(self.known & peak)
+        rows = np.flatnonzero(self.solved & peak)
         if not len(rows):
             return
         x = self.root(AREA, rows, 0.0, self.x[rows, top[rows] - 1], self.x[rows, top[rows] + 1], 1)
@@ -275,7 +275,7 @@ class SplineLoads:
         load[rows] = np.exp(
             np.mean(np.split(log_F, 2), axis=0) + self.values_at(LOAD, rows, x, 1) * step
         )
-        self.known[rows[~(np.abs(step) < PEAK_MISS)]] = False
+        self.solved[rows[~(np.abs(step) < PEAK_MISS)]] = False
 
 
 def _without(name: str, begin: Truths, end: Truths) -> list[tuple[Truths, CriticalStatus, float]]:

@@ -194,7 +194,9 @@ def solve(
     """
     name, values, scalar = given_load(contact, pressure, F_star, d)
     need_one("branch", branch, *get_args(LoadBranch))
-    if branch == "unloading" and any(each.strength is not None for each in contact.populations):
+    if branch == "unloading" and any(
+        population.strength is not None for population in contact.populations
+    ):
         raise InvalidValue(
             Problem(
                 "branch",
@@ -205,8 +207,8 @@ def solve(
             )
         )
     # E·F*/E is not F* to the last digit: the given values are kept
-    given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
-    result = _result(contact, name, values, scalar, given, branch)
+    F_star_values = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
+    result = _result(contact, name, values, scalar, F_star_values, branch)
     if scalar and not (status := Status(int(result.status_code))).has_numbers:
         raise NoEquilibrium(str(result.status), status)
     for sentence in result.warnings:
@@ -219,8 +221,8 @@ def solve_untold(contact: Contact, load: str, loads: Array) -> Equilibrium:
     name, values, _ = given_load(
         contact, **{"pressure": None, "F_star": None, "d": None, load: loads}
     )
-    given = np.asarray(loads, dtype=float) if name == "F_star" else None
-    return _result(contact, name, values, False, given, "loading", told=False)
+    F_star_values = np.asarray(loads, dtype=float) if name == "F_star" else None
+    return _result(contact, name, values, False, F_star_values, "loading", with_notes=False)
 
 
 def _separation(contact: Contact, pressure: Array) -> Array:
@@ -230,11 +232,11 @@ def _separation(contact: Contact, pressure: Array) -> Array:
 
 def _outputs_at(contact: Contact, d: Array) -> dict[str, Array]:
     """Outputs of a contact at separations (N,) [m], NaN where those are."""
-    known = np.isfinite(d)
-    out = {name: np.full(len(d), np.nan) for each in contact.outputs for name in each.columns}
-    if known.any():
-        for name, values in solve_untold(contact, "d", d[known]).outputs.items():
-            out[name][known] = values
+    solved = np.isfinite(d)
+    out = {name: np.full(len(d), np.nan) for output in contact.outputs for name in output.columns}
+    if solved.any():
+        for name, values in solve_untold(contact, "d", d[solved]).outputs.items():
+            out[name][solved] = values
     return out
 
 
@@ -249,13 +251,13 @@ def _result(
     F_star: Array | None,
     branch: str,
     *,
-    told: bool = True,
+    with_notes: bool = True,
 ) -> Equilibrium:
     """States at the given pressures [Pa] or separations [m], as `given_load` gives them."""
-    bound = interface(contact)
-    loads = _Loads(None if name == "d" else values, F_star, scalar, branch, told)
+    contact_interface = interface(contact)
+    loads = _Loads(None if name == "d" else values, F_star, scalar, branch, with_notes)
     if loads.target is None:
-        deep = values < bound.asperities.deepest
+        deep = values < contact_interface.asperities.deepest
         if scalar and deep.any():
             rule = f"is refused: {why_deep(contact)}"
             raise InvalidValue(Problem("d", rule, f"{values[0]:g} m", code=Mistake.RANGE))
@@ -267,10 +269,12 @@ def _result(
         )
     else:
         try:
-            places = _solve_compiled(bound, values)
+            places = _solve_compiled(contact_interface, values)
         except NotCompiled as why:
-            places = _Separations(*load_scan(bound).solve(values, branch), path=f"numpy: {why}")
-    return _state(contact, bound, loads, places)
+            places = _Separations(
+                *load_scan(contact_interface).solve(values, branch), path=f"numpy: {why}"
+            )
+    return _state(contact, contact_interface, loads, places)
 
 
 def deepest(contact: Contact) -> float:
@@ -333,31 +337,35 @@ def roots(
     ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
-    >>> [(round(state.d_star, 3), stable) for state, stable in tb.roots(contact, F_star=1e-5)]
+    >>> found = tb.equilibria.roots(contact, F_star=1e-5)
+    >>> [(round(state.d_star, 3), stable) for state, stable in found]
     [(3.048, True)]
     """
     _, values, _ = given_load(contact, pressure, F_star, None)
-    bound = interface(contact)
-    scan = load_scan(bound)
+    contact_interface = interface(contact)
+    scan = load_scan(contact_interface)
     cells, falling = scan.all_cells(float(values[0]))
     if not len(cells):
         status, why = scan.why_not(float(values[0]))
         raise NoEquilibrium(why, status)
     target = np.full(len(cells), values[0])
-    found, passed = [], []  # type: list[tuple[float, int, bool]], list[str]
+    solutions, passed = [], []  # type: list[tuple[float, int, bool]], list[str]
     for direction in (True, False):
         which = np.flatnonzero(falling == direction)
         if len(which):
             d, iterations, jumps = scan.polish(target[which], cells[which], falling=direction)
             passed += jumps.values()
-            found += [(d[i], iterations[i], direction) for i in range(len(d)) if i not in jumps]
-    if not found:
+            solutions += [(d[i], iterations[i], direction) for i in range(len(d)) if i not in jumps]
+    if not solutions:
         raise NoEquilibrium(passed[0], Status.JUMP)
-    found.sort(key=lambda item: -item[0])
+    solutions.sort(key=lambda item: -item[0])
     one, ok = _Loads(values[:1], None, True), Statuses.ok(1)
     return [
-        (_state(contact, bound, one, _Separations(np.array([x]), np.array([n]), ok)), stable)
-        for x, n, stable in found
+        (
+            _state(contact, contact_interface, one, _Separations(np.array([x]), np.array([n]), ok)),
+            stable,
+        )
+        for x, n, stable in solutions
     ]
 
 
@@ -393,28 +401,28 @@ def pull_off(contact: Contact) -> tuple[float, float]:
     """
     from scipy.optimize import minimize_scalar
 
-    bound = interface(contact)
-    asperities = bound.asperities
+    contact_interface = interface(contact)
+    asperities = contact_interface.asperities
     steps = np.linspace(asperities.searched, min(asperities.highest, 10.0), 400)
     d = asperities.centre + asperities.sigma_s * steps
-    F = bound.load(d)[:, 0]
+    F = contact_interface.load(d)[:, 0]
     i = int(np.argmin(F))
     if F[i] >= 0:
         return 0.0, float(d[-1])
-    found = minimize_scalar(
-        lambda x: float(bound.load(np.array([x]))[0, 0]),
+    minimum = minimize_scalar(
+        lambda x: float(contact_interface.load(np.array([x]))[0, 0]),
         bounds=(d[max(i - 1, 0)], d[min(i + 1, len(d) - 1)]),
         method="bounded",
         options={"xatol": 1e-10 * asperities.sigma_s},
     )
-    return -float(found.fun), float(found.x)
+    return -float(minimum.fun), float(minimum.x)
 
 
-def _solve_compiled(bound: Interface, target: Array) -> _Separations:
+def _solve_compiled(contact_interface: Interface, target: Array) -> _Separations:
     """Separations, evaluations, status and columns by the compiled engine, where it pays."""
     if len(target) < engine.FEWEST:
         raise NotCompiled(f"fewer than {engine.FEWEST} loads of one contact")
-    batch = engine.batch(bound)
+    batch = engine.batch(contact_interface)
     which = np.zeros(len(target), np.int64)
     h, iterations, fate, columns = batch.solve(which, target)
     of_kernel = batch.rows.interfaces[0]
@@ -425,19 +433,21 @@ def _solve_compiled(bound: Interface, target: Array) -> _Separations:
     if not len(rest):
         return _Separations(d, iterations, status, columns, "compiled")
     # the other engine says why, or what the load does there
-    d[rest], iterations[rest], other = load_scan(bound).solve(target[rest], "loading")
+    d[rest], iterations[rest], other = load_scan(contact_interface).solve(target[rest], "loading")
     status.take(other, rest)
     solved = np.isfinite(d)
-    for name, values in bound.fields(d[more := rest[solved[rest]]]).items():
+    for name, values in contact_interface.fields(d[more := rest[solved[rest]]]).items():
         columns[name][more] = values
     raw = {name: values[solved] for name, values in columns.items()}
     return _Separations(d, iterations, status, raw, "compiled")
 
 
-def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separations) -> Equilibrium:
+def _state(
+    contact: Contact, contact_interface: Interface, loads: _Loads, places: _Separations
+) -> Equilibrium:
     """Every column at these separations."""
     target, scalar = loads.target, loads.scalar
-    d, status, raw = _only_carried(bound, target, places)
+    d, status, raw = _only_carried(contact_interface, target, places)
     solved = np.isfinite(d)
     full = dict(raw)
     if not solved.all():
@@ -446,7 +456,13 @@ def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separatio
             full[name][solved] = values
     rough = contact.roughness
     columns = as_columns(
-        full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=loads.F_star
+        full,
+        d,
+        contact_interface.mean_plane,
+        rough.sigma,
+        contact.E_ss,
+        target=target,
+        F_star=loads.F_star,
     )
     codes: int | NDArray[np.int8] = status.codes
     columns |= {"status": status.words.astype(str), "iterations": places.iterations}
@@ -455,20 +471,20 @@ def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separatio
     if contact.outputs:
         outputs, more = evaluate(
             contact,
-            bound,
+            contact_interface,
             columns,
             parts=parts if len(parts) > 1 else (),
             solver=None if target is None else SOLVER,
         )
-    shares = _population_shares(contact, bound, d, columns, scalar, parts)
+    shares = _population_shares(contact, contact_interface, d, columns, scalar, parts)
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
         codes = int(status.codes[0])
         outputs = {name: values[0].item() for name, values in outputs.items()}
     notes: tuple[str, ...] = ()
     if loads.with_notes:
-        branches = _branches(bound, target, d, loads.branch)
-        notes = (*_warnings(contact, bound, full, d), *branches, *more)
+        branches = _branches(contact_interface, target, d, loads.branch)
+        notes = (*_warnings(contact, contact_interface, full, d), *branches, *more)
     return Equilibrium(
         contact=contact,
         warnings=notes,
@@ -481,7 +497,7 @@ def _state(contact: Contact, bound: Interface, loads: _Loads, places: _Separatio
 
 
 def _only_carried(
-    bound: Interface, target: Array | None, places: _Separations
+    contact_interface: Interface, target: Array | None, places: _Separations
 ) -> tuple[Array, Statuses, dict[str, Array]]:
     """Columns with NaN where the load is not carried: no state is "ok" without a balance.
 
@@ -489,25 +505,25 @@ def _only_carried(
     """
     d, status = places.d, places.status
     where = np.flatnonzero(np.isfinite(d))
-    raw = bound.fields(d[where]) if places.raw is None else places.raw
+    raw = contact_interface.fields(d[where]) if places.raw is None else places.raw
     F, at = raw["F_ss"] + raw["F_sa"], d[where]
-    known = np.isfinite(F + raw["A_t"])
-    good, close = known.copy(), is_crowded(bound.contact, raw["A_t"])
+    is_finite = np.isfinite(F + raw["A_t"])
+    good, close = is_finite.copy(), is_crowded(contact_interface.contact, raw["A_t"])
     if target is not None:
         load = target[where]
         good &= np.abs(F - load) <= RESIDUAL * load
-        if len(loose := np.flatnonzero(known & ~good)):
-            slope, ulp = bound.load(at[loose])[:, 1], load_scan(bound).ulp
+        if len(loose := np.flatnonzero(is_finite & ~good)):
+            slope, ulp = contact_interface.load(at[loose])[:, 1], load_scan(contact_interface).ulp
             good[loose] = is_carried(F[loose], slope, load[loose], ulp)
     if good.all() and not close.any():
         return d, status, raw
     d, status = d.copy(), status.copy()
     status.set(where[close], Status.CROWDED)
     for i in np.flatnonzero(~good):
-        law = bound.contact.asperity_law
+        law = contact_interface.contact.asperity_law
         code = Status.BEYOND_LAWS
         why = code.sentence + f" ({law.name}: {law.beyond})" * bool(law.beyond)
-        if known[i]:
+        if is_finite[i]:
             code = Status.UNSOLVED
             why = (
                 f"no equilibrium: {value_of(F[i], 'Pa', 6)} do not balance the load "
@@ -520,29 +536,29 @@ def _only_carried(
 
 def _population_shares(
     contact: Contact,
-    bound: Interface,
+    contact_interface: Interface,
     d: Array,
     columns: Mapping[str, Array],
     scalar: bool,
     outputs: Sequence[dict[str, Array]],
 ) -> tuple[PopulationShare, ...]:
     """Load and area of each of several populations at separations d."""
-    if len(bound.populations) < 2:
+    if len(contact_interface.populations) < 2:
         return ()
     out = []
-    pairs = zip(contact.populations, bound.populations, strict=True)
+    pairs = zip(contact.populations, contact_interface.populations, strict=True)
     for number, (particles, response) in enumerate(pairs):
-        part = {name: np.full(len(d), np.nan) for name in ("F_sa", "A_sa")}
-        known = np.isfinite(d)
-        fields = response.fields(d[known])
-        part["F_sa"][known] = fields["F_sa"]
-        part["A_sa"][known] = fields["A_e"] + fields["A_ep"] + fields["A_p"]
+        particle_fields = {name: np.full(len(d), np.nan) for name in ("F_sa", "A_sa")}
+        solved = np.isfinite(d)
+        fields = response.fields(d[solved])
+        particle_fields["F_sa"][solved] = fields["F_sa"]
+        particle_fields["A_sa"][solved] = fields["A_e"] + fields["A_ep"] + fields["A_p"]
         with np.errstate(invalid="ignore", divide="ignore"):
             values = {
-                "F_sa_star": part["F_sa"] / contact.E_ss,
-                "A_sa": part["A_sa"],
-                "load_share": part["F_sa"] / columns["pressure"],
-                "area_share": part["A_sa"] / columns["A_t"],
+                "F_sa_star": particle_fields["F_sa"] / contact.E_ss,
+                "A_sa": particle_fields["A_sa"],
+                "load_share": particle_fields["F_sa"] / columns["pressure"],
+                "area_share": particle_fields["A_sa"] / columns["A_t"],
             }
         mine: dict[str, Any] = outputs[number]
         if scalar:
@@ -553,9 +569,11 @@ def _population_shares(
     return tuple(out)
 
 
-def _branches(bound: Interface, target: Array | None, d: Array, branch: str) -> list[str]:
+def _branches(
+    contact_interface: Interface, target: Array | None, d: Array, branch: str
+) -> list[str]:
     """A sentence where other separations carry these loads as well."""
-    if target is None or not branch or (scan := load_scan(bound)).monotone:
+    if target is None or not branch or (scan := load_scan(contact_interface)).monotone:
         return []
     count = scan.separations(target[np.isfinite(d)])
     if not np.any(several := count > 1):
@@ -571,12 +589,12 @@ def _branches(bound: Interface, target: Array | None, d: Array, branch: str) -> 
 
 
 def _warnings(
-    contact: Contact, bound: Interface, full: dict[str, Array], d: Array
+    contact: Contact, contact_interface: Interface, full: dict[str, Array], d: Array
 ) -> tuple[str, ...]:
     """Notes on states outside the model's validity, one sentence each."""
     out: list[str] = [*about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))]
-    height = (d - bound.asperities.centre) / bound.asperities.sigma_s
-    if not bound.one_field and np.any(height < DEEPEST):
+    height = (d - contact_interface.asperities.centre) / contact_interface.asperities.sigma_s
+    if not contact_interface.one_field and np.any(height < DEEPEST):
         what = (
             f"the separation d goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"
@@ -584,30 +602,31 @@ def _warnings(
         out.append(Note(what, code="deep", effect=1.0, action="check the load and its unit"))
     if np.any(np.isfinite(d)):
         tips = contact.asperity_law
-        share = bound.asperities.share_beyond(float(np.nanmin(d)))
+        share = contact_interface.asperities.share_beyond(float(np.nanmin(d)))
         if share > 0.1:
             what = (
                 f"{tips.name}: at the highest load {percent(share, digits=2)} of the asperities' "
                 f"load is on those {tips.beyond}"
             )
             out.append(Note(what, code=BEYOND))
-    out += about_elastic(contact, bound, full, d)
-    scaled = [each.name for each in contact.outputs if each.one_by_one(contact)]
-    if bound.one_field and scaled:
+    out += about_elastic(contact, contact_interface, full, d)
+    scaled = [output.name for output in contact.outputs if output.one_by_one(contact)]
+    if contact_interface.one_field and scaled:
         names = ", ".join(f"outputs.{name}" for name in scaled)
         out.append(
             f"the law field has no single spots: for asperities {names} takes the summits of zmc, "
             "in number and area scaled to its load and area"
         )
-    if bound.particles is not None:
+    if contact_interface.particles is not None:
         out += about_particles(contact)
-        if bound.particles.in_one_layer >= 0.3:
+        if contact_interface.particles.in_one_layer >= 0.3:
             what = (
-                f"fragments in one layer would cover {bound.particles.in_one_layer:.2g} of the "
-                "nominal area where the gap closes"
+                "fragments in one layer would cover "
+                f"{contact_interface.particles.in_one_layer:.2g} of the nominal area where the gap "
+                "closes"
             )
             out.append(Note(what, code="fragments"))
-        if bound.one_field and 0.3 < np.nanmax(full["shadow"], initial=0.0) < 1:
+        if contact_interface.one_field and 0.3 < np.nanmax(full["shadow"], initial=0.0) < 1:
             what = (
                 f"particles lie over {np.nanmax(full['shadow']):.2g} of the nominal area: the "
                 "ground that they press down is meant for 0.3 at most"
@@ -615,7 +634,9 @@ def _warnings(
             out.append(Note(what, code="ground"))
         if np.any(full["shadow"] >= 1):
             out.append(SHADOW)
-        printed = any(isinstance(each, PrintedIntegrals) for each in bound.populations)
+        printed = any(
+            isinstance(response, PrintedIntegrals) for response in contact_interface.populations
+        )
         if printed and np.any(d < 0):
             out.append("d < 0: the paper's particle integrals have no meaning there")
         if np.any(np.isfinite(d)):

@@ -92,7 +92,7 @@ def solve_states(
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> sigma = np.array([50e-9, 100e-9, 200e-9])
-    >>> states = tb.solve_states(contact, pressure=1e6, vary={"roughness.sigma": sigma})
+    >>> states = tb.equilibria.solve_states(contact, pressure=1e6, vary={"roughness.sigma": sigma})
     >>> states.A_t.dims, states["roughness.sigma"].units
     (('state',), 'm')
     """
@@ -139,20 +139,24 @@ def direct_columns(contact: Contact, d: NDArray[np.float64], vary: Arrays) -> Co
     if engine.available():
         numbers = {name: values.astype(float) for name, values in vary.items()}
         with suppress(NotCompiled):
-            found = own_columns(contact.replace(outputs=()), numbers, "d", d)
-            if np.all(found["doubt"] == ""):
-                return found
+            columns = own_columns(contact.replace(outputs=()), numbers, "d", d)
+            if np.all(columns["doubt"] == ""):
+                return columns
     out: Columns = {}
     for which in _split_by_inputs(vary, len(d)):
-        own = vary_contact(
+        varied = vary_contact(
             contact, {name: values[which[0]].item() for name, values in vary.items()}
         )
-        bound = Interface(own)
+        contact_interface = Interface(varied)
         places, back = np.unique(d[which], return_inverse=True)
-        raw = {name: column[back] for name, column in bound.direct_fields(places).items()}
-        rough = own.roughness
-        found = as_columns(raw, d[which], bound.mean_plane, rough.sigma, own.E_ss, target=None)
-        for name, column in found.items():
+        raw = {
+            name: column[back] for name, column in contact_interface.direct_fields(places).items()
+        }
+        rough = varied.roughness
+        columns = as_columns(
+            raw, d[which], contact_interface.mean_plane, rough.sigma, varied.E_ss, target=None
+        )
+        for name, column in columns.items():
             out.setdefault(name, np.empty(len(d), dtype=column.dtype))[which] = column
     return out
 
@@ -175,8 +179,11 @@ def _loads_and_inputs(
     load, _, _ = given_load(contact, pressure, F_star, d)
     if problems := list(unknown_inputs(contact, vary or ())):
         raise InvalidValue(*problems)
-    given = {"pressure": pressure, "F_star": F_star, "d": d}[load]
-    inputs = {load: np.asarray(given, float), **{k: np.asarray(v) for k, v in (vary or {}).items()}}
+    load_values = {"pressure": pressure, "F_star": F_star, "d": d}[load]
+    inputs = {
+        load: np.asarray(load_values, float),
+        **{k: np.asarray(v) for k, v in (vary or {}).items()},
+    }
     try:
         arrays = dict(zip(inputs, np.broadcast_arrays(*inputs.values()), strict=True))
     except ValueError:
@@ -191,9 +198,9 @@ def _loads_and_inputs(
             f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays", code=Mistake.SHAPE
         )
     for name, values in arrays.items():
-        if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
+        if values.dtype.kind in "iuf" and (quantity := quantity_of(contact, name)):
             for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
-                warn_of_slip(name, told, extreme)
+                warn_of_slip(name, quantity, extreme)
     return load, loads, arrays
 
 
@@ -320,13 +327,13 @@ def _with_outputs(
     many = engine.available() and _differ(inputs, len(loads), fewest)
     solver = Solver(_separation, _outputs_at) if many else SOLVER
     for which in _split_by_inputs(alike, len(loads)):
-        own = vary_contact(
+        varied = vary_contact(
             contact, {name: values[which[0]].item() for name, values in arrays.items()}
         )
         crowd = count[which] / (count[which[0]] or 1.0)
         values, _ = evaluate(
-            own,
-            interface(own),
+            varied,
+            interface(varied),
             _take_states(out, which),
             crowd,
             solver=None if load == "d" else solver,
@@ -346,9 +353,9 @@ def _of_one(contact: Contact, load: str, loads: NDArray[np.float64]) -> Columns:
     except NotCompiled:
         out, rest = {}, np.arange(len(loads))
     if len(rest):
-        found = solve_untold(bare, load, loads[rest])
+        state = solve_untold(bare, load, loads[rest])
         for name in ("d", "h", "pressure", "A_t", "shadow"):
-            out.setdefault(name, np.empty(len(loads)))[rest] = getattr(found, name)
+            out.setdefault(name, np.empty(len(loads)))[rest] = getattr(state, name)
     return out
 
 
@@ -359,12 +366,12 @@ def _separation(contact: Contact, pressure: NDArray[np.float64]) -> NDArray[np.f
 
 def _outputs_at(contact: Contact, d: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
     """Outputs of one contact of many at separations (N,) [m], NaN where those are."""
-    known = np.isfinite(d)
-    out = {name: np.full(len(d), np.nan) for each in contact.outputs for name in each.columns}
-    if known.any():
-        values, _ = evaluate(contact, interface(contact), _of_one(contact, "d", d[known]))
+    solved = np.isfinite(d)
+    out = {name: np.full(len(d), np.nan) for output in contact.outputs for name in output.columns}
+    if solved.any():
+        values, _ = evaluate(contact, interface(contact), _of_one(contact, "d", d[solved]))
         for name, column in values.items():
-            out[name][known] = column
+            out[name][solved] = column
     return out
 
 
@@ -421,7 +428,7 @@ def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
         return bool(names) and not solves_each(contact, names)
     if not any(_unnumbered_name(name).startswith(DEMANDING) for name in names):
         return False
-    breaks = any(each.strength is not None for each in contact.populations)
+    breaks = any(population.strength is not None for population in contact.populations)
     if not breaks and solves_each(contact, names):
         return False
     return bool(contact.populations)
@@ -451,39 +458,43 @@ def solves_each(contact: Contact, vary: Iterable[str]) -> bool:
 def _value_in(contact: Contact, name: str) -> Any:
     """The value of an input in the contact itself."""
     value: object = contact
-    for part in name.split("."):
-        if isinstance(value, tuple) and part.isdigit() and int(part) < len(value):
-            value = value[int(part)]
+    for segment in name.split("."):
+        if isinstance(value, tuple) and segment.isdigit() and int(segment) < len(value):
+            value = value[int(segment)]
         else:
-            value = getattr(value, part, None)
+            value = getattr(value, segment, None)
     return np.nan if value is None else value
 
 
 def _unnumbered_name(name: str) -> str:
     """The name of an input without the number of its population."""
-    return ".".join(part for part in name.split(".") if not part.isdigit())
+    return ".".join(segment for segment in name.split(".") if not segment.isdigit())
 
 
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Columns by the compiled engine; `NotCompiled` for inputs that it does not know."""
-    own = not engine.bare(contact, arrays) and engine.own_sizes(contact, arrays)
+    by_sizes = not engine.bare(contact, arrays) and engine.own_sizes(contact, arrays)
     order = None
-    if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
+    if by_sizes and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
         order = np.argsort(fine, kind="stable")  # those that need as many nodes side by side
 
     def solve_part(here: Which) -> tuple[Which, Columns, int]:
         if order is not None:
             here = order[here]
-        given = loads[here]
-        batch = engine.States(contact, _take_states(arrays, here), len(given))
-        return here, _with_words(contact, batch.columns(load, given)), batch.rows.own
+        some_loads = loads[here]
+        batch = engine.States(contact, _take_states(arrays, here), len(some_loads))
+        return (
+            here,
+            _with_words(contact, batch.columns(load, some_loads)),
+            batch.rows.of_single_states,
+        )
 
     here, columns, size = solve_part(slice(0, FIRST))  # refused, or compiled, once
     at_once = max(min(AT_ONCE, ROOM * FIRST // max(size, 1)), 1)
     starts = range(FIRST, len(loads), at_once)
-    with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
+    with ThreadPoolExecutor(engine.threads() if by_sizes else 1) as pool:
         rest = pool.map(solve_part, (slice(start, start + at_once) for start in starts))
-        parts = chain([(here, columns)], (found[:2] for found in rest))
+        parts = chain([(here, columns)], (result[:2] for result in rest))
         out = _join_columns(len(loads), _with_progress(parts))
 
     def solve_again(which: NDArray[np.intp], why: str) -> Columns:
@@ -497,7 +508,9 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
 
 def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Columns by quadrature of each state; doubtful states are solved one by one."""
-    at_once = AT_ONCE // 16 if any(each.strength for each in contact.populations) else AT_ONCE
+    at_once = (
+        AT_ONCE // 16 if any(population.strength for population in contact.populations) else AT_ONCE
+    )
 
     def solve_from(start: int) -> tuple[Which, Columns]:
         here = np.arange(start, min(start + at_once, len(loads)))

@@ -103,8 +103,8 @@ class Statuses:
     @staticmethod
     def from_codes(codes: ArrayLike) -> Statuses:
         """Statuses of these codes, with the sentence that all states of a code share."""
-        own = np.array(codes, dtype=np.int8, ndmin=1)
-        return Statuses(own, SENTENCES[own])
+        code_array = np.array(codes, dtype=np.int8, ndmin=1)
+        return Statuses(code_array, SENTENCES[code_array])
 
     @staticmethod
     def ok(count: int) -> Statuses:

@@ -195,8 +195,8 @@ def transitions(
             two_body,
         )
 
-    bound = interface(contact.replace(outputs=()))
-    scan = load_scan(bound)
+    contact_interface = interface(contact.replace(outputs=()))
+    scan = load_scan(contact_interface)
     carried = np.exp([scan.log_F[0], scan.log_F.max()]) / contact.E_ss
     low, high = max(low, 1.0001 * carried[0]), min(high, 0.9999 * carried[1])
     if low >= high:
@@ -206,7 +206,7 @@ def transitions(
     def states(loads: Array) -> tuple[Array, Array, Array]:
         """Shares of area and load of the particles, and A_t: where the load jumps, below it."""
         d, _, _ = scan.solve_across_jumps(loads * contact.E_ss, "loading")
-        raw = bound.fields(d)
+        raw = contact_interface.fields(d)
         F = raw["F_ss"] + raw["F_sa"]
         return raw["A_sa"] / raw["A_t"], raw["F_sa"] / F, raw["A_t"]
 

@@ -128,8 +128,12 @@ def particle_share_text(
     >>> particle_share_text(0.884, {"dust": 0.8, "debris": 0.084})
     'particles carry 88.4 % of the load (dust 80 %, debris 8.4 %)'
     """
-    each = ", ".join(f"{name} {percent(part)}" for name, part in (parts or {}).items())
-    return f"particles carry {percent(share)} of the load" + (f" ({each})" if each else "")
+    by_population = ", ".join(
+        f"{name} {percent(carried)}" for name, carried in (parts or {}).items()
+    )
+    return f"particles carry {percent(share)} of the load" + (
+        f" ({by_population})" if by_population else ""
+    )
 
 
 def meets(count: float) -> str:

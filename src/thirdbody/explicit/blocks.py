@@ -54,9 +54,9 @@ def block_sums(inside: Interface, state: Pressed, dented: Array, blocks: int) ->
     of_particles = np.minimum(x, blocks - 1) * blocks + np.minimum(y, blocks - 1)
     share = contact_share(state.p, inside.c, inside.cap)
     gap = state.h + state.u - inside.map.z
-    pixels = (np.bincount(of_pixels, each.ravel(), blocks**2) * spacing**2
-              for each in (state.p, share, gap))  # fmt: skip
-    particles = (np.bincount(of_particles, each, blocks**2) for each in (state.f, dented))
+    pixels = (np.bincount(of_pixels, field.ravel(), blocks**2) * spacing**2
+              for field in (state.p, share, gap))  # fmt: skip
+    particles = (np.bincount(of_particles, values, blocks**2) for values in (state.f, dented))
     load, area, volume = pixels
     on_particles, dents = particles
     return np.stack([load, on_particles, area, dents, volume])
@@ -79,16 +79,16 @@ def errors_of(sums: Array, steeper: Array, area: float) -> Array:
     whole = sums.sum(axis=1)
     if not whole[:2].sum() > 0:
         return np.full(len(ERRORS), math.nan)
-    here, there = (_figures_of_sums(each[:, None], area) for each in (whole, steeper))
+    here, there = (_figures_of_sums(totals[:, None], area) for totals in (whole, steeper))
     rise = math.log(steeper[:2].sum() / whole[:2].sum())
     slope = (there - here) / rise
     left = whole[:, None] - sums
-    part = (count - 1) / count
+    kept_share = (count - 1) / count
     with np.errstate(divide="ignore", invalid="ignore"):
-        away = np.log(part * whole[:2].sum() / left[:2].sum(axis=0))
-        without = _figures_of_sums(left, area * part) + slope * away
+        away = np.log(kept_share * whole[:2].sum() / left[:2].sum(axis=0))
+        without = _figures_of_sums(left, area * kept_share) + slope * away
         spread = without - without.mean(axis=1, keepdims=True)
-    out = np.sqrt(part * np.sum(spread**2, axis=1))
+    out = np.sqrt(kept_share * np.sum(spread**2, axis=1))
     out[1] *= math.exp(here[1, 0])
     # that every block says the same is no knowledge of the next
     return np.where(np.isfinite(out) & (out > 0), out, math.nan)
@@ -106,7 +106,7 @@ def _figures_of_sums(sums: Array, area: float) -> Array:
 
 def long_waves(z: Array, sigma: float, blocks: int) -> Note | None:
     """Why blocks of a map are no draws of their own: waves longer than a block."""
-    means = [np.mean(part) for row in np.array_split(z, blocks) for part in
+    means = [np.mean(block) for row in np.array_split(z, blocks) for block in
              np.array_split(row, blocks, axis=1)]  # fmt: skip
     ratio = float(np.std(means)) / sigma if sigma else 0.0
     if ratio <= TOGETHER:

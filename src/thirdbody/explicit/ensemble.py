@@ -246,14 +246,14 @@ def ensemble(
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=300e-9, R=3e-6),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=4e11,
-    ...                            diameter=tb.Monodisperse(mean=6e-7)))
+    ...                            diameter=tb.distributions.Monodisperse(mean=6e-7)))
     >>> found = ensemble(contact, surfaces=2, F_star=[1e-3], size=128, spacing=2e-7)
     >>> found.table.particle_load_share_cv.dims, found.surfaces
     (('F_star',), 2)
     """
     _, loads, _ = given_numbers(F_star=F_star)
     rule = seats_named(seats)
-    given, total = _surfaces_and_count(surfaces)
+    topographies, total = _surfaces_and_count(surfaces)
     if isinstance(rule, GivenSeats) and total > 1:
         raise InvalidValue(
             "seats: positions belong to one surface; give surfaces = 1", code=Mistake.BEYOND
@@ -264,12 +264,12 @@ def ensemble(
                 "workers", "must be a whole number, at least 1", repr(workers), code=Mistake.KIND
             )
         )
-    if spacing is None and given is None:
+    if spacing is None and topographies is None:
         spacing = spacing_for(contact)
 
     def task(i: int, grid: Array) -> _Task:
         return _Task(
-            contact=contact, surface=None if given is None else given[i], size=size,
+            contact=contact, surface=None if topographies is None else topographies[i], size=size,
             spacing=spacing, seed=seed + i, rule=rule, grid=grid, cap=cap, tol=tol,
             max_iterations=max_iterations, version=__version__,
         )  # fmt: skip
@@ -279,12 +279,12 @@ def ensemble(
         measured = heights_of_seats(contact, rule, first, seed)
         grid = _separations(counterpart(contact, measured), loads, first.sigma)
         numbers = (total, size, spacing, seed, cap, tol, max_iterations)
-        key = _key(contact, given, rule, numbers, grid)
+        key = _key(contact, topographies, rule, numbers, grid)
         kept = None if folder is None else Path(folder)
         records = {} if kept is None else _read_surfaces(kept, total, key)
         left = [(i, task(i, grid)) for i in range(total) if i not in records]
         results = share_parts(
-            left, workers=workers, client=client, part="surface", smaller="a smaller size"
+            left, workers=workers, client=client, noun="surface", smaller="a smaller size"
         )
         with (
             closing(results),
@@ -296,7 +296,12 @@ def ensemble(
                 records[i] = record
                 report(len(records))
     return _ensemble(
-        contact, [records[i] for i in range(total)], loads, grid, cap=cap, gaussian=given is None
+        contact,
+        [records[i] for i in range(total)],
+        loads,
+        grid,
+        cap=cap,
+        gaussian=topographies is None,
     )
 
 
@@ -314,14 +319,14 @@ def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, obje
         file = _file(kept, i)
         if not file.exists():
             continue
-        found = read_record(file, RECORD)
-        if found is None or not (found.checked or set(found.data) == RECORD):
+        record = read_record(file, RECORD)
+        if record is None or not (record.checked or set(record.data) == RECORD):
             damaged.append(file.name)
-        elif found.data.get("key") != key:
+        elif record.data.get("key") != key:
             others.append(file.name)
         else:
-            out[i] = found.data
-            unchecked += not found.checked
+            out[i] = record.data
+            unchecked += not record.checked
     if others:
         raise InvalidValue(
             f"{kept} holds surfaces of another study, or of another version of thirdbody "
@@ -389,8 +394,8 @@ class _Task:
         if self.surface is not None:
             return map_of(self.surface, self.spacing)
         assert self.spacing is not None
-        own = surface_of(self.contact, size=self.size, spacing=self.spacing, seed=self.seed)
-        return map_of(own, None)
+        surface = surface_of(self.contact, size=self.size, spacing=self.spacing, seed=self.seed)
+        return map_of(surface, None)
 
     def __call__(self) -> dict[str, object]:
         """Record of one surface, as `one_surface` makes it."""
@@ -429,12 +434,15 @@ def counterpart(contact: Contact, seats: SeatHeights) -> Contact:
             seat="rough", h_0=0.0, zeta_mean=seats.mean, zeta_std=max(seats.std, 1e-3)
         )
 
-    own = contact.particles
-    several = own if isinstance(own, tuple) else (own,) if own is not None else ()
-    mine = tuple(
-        each if each.law is None else each.replace(law=seated_law(each.law)) for each in several
+    particles = contact.particles
+    several = (
+        particles if isinstance(particles, tuple) else (particles,) if particles is not None else ()
     )
-    kept: Any = mine if isinstance(own, tuple) else (mine[0] if mine else None)
+    mine = tuple(
+        population if population.law is None else population.replace(law=seated_law(population.law))
+        for population in several
+    )
+    kept: Any = mine if isinstance(particles, tuple) else (mine[0] if mine else None)
     return contact.replace(
         particle_law=seated_law(contact.particle_law), particles=kept, outputs=()
     )
@@ -453,16 +461,16 @@ def _ensemble(
     import xarray
 
     pool = Pool.from_records(records, grid)
-    seats = pooled_seats([each["zeta"] for each in records])
+    seats = pooled_seats([record["zeta"] for record in records])
     model = counterpart(contact, seats)
     state = statistical(model, F_star=loads)
     at_h: dict[str, object] = {name: ("h", values, {}) for name, values in pool.totals().items()}
     for name, values in pool.ratios(contact.surfaces.H).items():
         at_h[name] = ("h", values, {"long_name": RATIOS[name]})
     left_out = int(np.sum(~pool.good))
-    told = list(dict.fromkeys(sentence for each in records for sentence in each["warnings"]))
+    notes = list(dict.fromkeys(sentence for record in records for sentence in record["warnings"]))
     if left_out:
-        told.append(
+        notes.append(
             Note(
                 f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count "
                 "nowhere",
@@ -479,7 +487,7 @@ def _ensemble(
         coords={"F_star": ("F_star", loads, {"units": "1"})},
     )
     if hardest != contact.surfaces.H:
-        told.append(
+        notes.append(
             Note(
                 "asperities are pressed with another cap than the hardness, at which those of the "
                 "statistical model yield: the two differ by that as well",
@@ -487,9 +495,9 @@ def _ensemble(
             )
         )
     for kind, words in (("raw", "these surfaces"), ("cv", "these surfaces without their luck")):
-        outside = ", ".join(number(each, 3) for each in loads[at[kind].is_outside].tolist())
+        outside = ", ".join(number(load, 3) for load in loads[at[kind].is_outside].tolist())
         if outside:
-            told.append(
+            notes.append(
                 Note(
                     f"F* = {outside}: {words} carry that at none of the separations pressed, so "
                     "that "
@@ -497,11 +505,13 @@ def _ensemble(
                     code=f"explicit.outside.{kind}",
                 )
             )
-    told += at["cv" if gaussian else "raw"].doubts(loads, columns="_cv" if gaussian else "")
-    told += _few_points_notes(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
+    notes += at["cv" if gaussian else "raw"].doubts(loads, columns="_cv" if gaussian else "")
+    notes += _few_points_notes(
+        records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))])
+    )
     columns: dict[str, list[object]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
-        columns[name] = [value for each in records for value in each["columns"][name]]
+        columns[name] = [value for record in records for value in record["columns"][name]]
     return Ensemble(
         contact=contact,
         model=model,
@@ -512,7 +522,7 @@ def _ensemble(
         states=columns,
         surfaces=len(records),
         left_out=left_out,
-        warnings=tuple(told),
+        warnings=tuple(notes),
     )
 
 
@@ -520,11 +530,11 @@ def _few_points_notes(
     records: list[dict[str, Any]], pool: Pool, grid: Array, h: float
 ) -> list[str]:
     """Where the smallest load, at separation h, is carried by a few points of all surfaces."""
-    each = [
+    carriers = [
         np.add(one["columns"]["carrying_pixels"], one["columns"]["carrying_particles"])
         for one in records
     ]
-    carry = np.interp(h, grid[::-1], np.sum(np.array(each) * pool.good, axis=0)[::-1])
+    carry = np.interp(h, grid[::-1], np.sum(np.array(carriers) * pool.good, axis=0)[::-1])
     if not carry < FEW:
         return []
     if carry < 0.5:
@@ -537,10 +547,10 @@ def _few_points_notes(
     return [Note(what, code="explicit.few")]
 
 
-def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, object]:
+def _columns(at_loads: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, object]:
     """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
     table: dict[str, Any] = {}
-    for kind, at in told.items():
+    for kind, at in at_loads.items():
         for name in COMPARED:
             about = {"units": COLUMNS[name].unit}
             table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
@@ -551,9 +561,9 @@ def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> di
     best = "cv" if gaussian else "raw"
     for name in COMPARED:
         model = np.asarray(getattr(state, name))
-        found, error = (table[f"{name}_{best}{what}"][1] for what in ("", "_error"))
+        estimate, error = (table[f"{name}_{best}{what}"][1] for what in ("", "_error"))
         with np.errstate(invalid="ignore", divide="ignore"):
-            difference = (found - model) / error
+            difference = (estimate - model) / error
         table[f"{name}_statistical"] = ("F_star", model, {"units": COLUMNS[name].unit})
         table[f"{name}_difference"] = ("F_star", difference, {"units": "1"})
     return table
@@ -581,15 +591,19 @@ def _separations(model: Contact, loads: Array, sigma: float) -> Array:
 
 
 def _key(
-    contact: Contact, given: Any, rule: AbstractSeats, numbers: tuple[object, ...], grid: Array
+    contact: Contact,
+    topographies: Any,
+    rule: AbstractSeats,
+    numbers: tuple[object, ...],
+    grid: Array,
 ) -> str:
     """What a finished surface was made for."""
     text = json.dumps([contact.replace(outputs=()).to_dict(), rule.to_dict(), numbers[1:],
                        grid.tolist(), __version__], default=str)  # fmt: skip
-    found = hashlib.sha256(text.encode())
-    for each in given or ():
-        found.update(np.ascontiguousarray(each.heights).tobytes())
-    return found.hexdigest()
+    digest = hashlib.sha256(text.encode())
+    for topography in topographies or ():
+        digest.update(np.ascontiguousarray(topography.heights).tobytes())
+    return digest.hexdigest()
 
 
 def _file(folder: Path, i: int) -> Path:
@@ -609,30 +623,30 @@ WHY = {
 }
 
 
-def _in_words(found: Ensemble) -> str:
-    table = found.table
-    if found.contact.two_body:
+def _in_words(result: Ensemble) -> str:
+    table = result.table
+    if result.contact.two_body:
         name, what = "A_t", "the real contact area"
     else:
         name, what = "particle_load_share", "the particles' load share"
     ours, theirs = table[f"{name}_cv"].values, table[f"{name}_statistical"].values
     with np.errstate(invalid="ignore", divide="ignore"):
         apart, errors = ours / theirs - 1, table[f"{name}_cv_error"].values / np.abs(theirs)
-    known = np.isfinite(apart) & np.isfinite(errors)
-    if not np.any(known):
+    has_error = np.isfinite(apart) & np.isfinite(errors)
+    if not np.any(has_error):
         return "No load is known with an error: more surfaces, or larger ones."
-    worst = float(np.max(np.abs(apart[known])))
-    clear = known & (np.abs(apart) > 2 * errors)
+    worst = float(np.max(np.abs(apart[has_error])))
+    clear = has_error & (np.abs(apart) > 2 * errors)
     if not np.any(clear):
         return f"Statistical and explicit: {what} agrees within {percent(worst, digits=2)}, which "\
             "is within two standard errors."  # fmt: skip
     k = int(np.flatnonzero(clear)[np.argmax(np.abs(apart[clear]))])
     h = float(table["h_cv"].values[k])
-    at = found.at_h
+    at = result.at_h
     parts = []
     for ratio, words in WHY.items():
         values = np.interp(h, at.h.values[::-1], at[ratio].values[::-1])
-        if math.isfinite(values) and (not found.contact.two_body or "particle" not in ratio):
+        if math.isfinite(values) and (not result.contact.two_body or "particle" not in ratio):
             parts.append(words.format(percent(float(values), digits=2)))
     side = "high" if apart[k] < 0 else "low"
     return (

@@ -34,9 +34,9 @@ def lattice_constant(size: tuple[float, float]) -> float:
     area = width * height
     a = math.sqrt(math.pi / area)
     most = np.arange(-12, 13)
-    i, j = (each.ravel() for each in np.meshgrid(most, most, indexing="ij"))
-    own = (i == 0) & (j == 0)
-    i, j = i[~own], j[~own]
+    i, j = (indices.ravel() for indices in np.meshgrid(most, most, indexing="ij"))
+    is_origin = (i == 0) & (j == 0)
+    i, j = i[~is_origin], j[~is_origin]
     from scipy.special import erfc
 
     r = np.hypot(i * width, j * height)
@@ -86,8 +86,8 @@ class HalfSpace:
 
         wave = fft.rfft2(pressure.astype(self.kind, copy=False), workers=self.workers)
         wave *= self.kernel
-        found = fft.irfft2(wave, s=self.shape, workers=self.workers, overwrite_x=True)
-        return found.astype(float, copy=False)
+        u = fft.irfft2(wave, s=self.shape, workers=self.workers, overwrite_x=True)
+        return u.astype(float, copy=False)
 
     def energy_of_full_contact(self, z: Array) -> float:
         """zᵀK⁻¹z of heights (n, m) [m], their mean left out [Pa m]: twice the energy over Δ²."""

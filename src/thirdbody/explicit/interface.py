@@ -91,8 +91,8 @@ class Map:
         total = np.cumsum(power.ravel()[order])
         if not total[-1] > 0:
             return math.inf
-        found = q.ravel()[order][np.searchsorted(total, 0.99 * total[-1])]
-        return float(1 / found)
+        wave_number = q.ravel()[order][np.searchsorted(total, 0.99 * total[-1])]
+        return float(1 / wave_number)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -241,8 +241,8 @@ def _table(law: AbstractParticleLaw, surfaces: MaterialPair, material: Material)
 def law_tables(contact: Contact) -> tuple[LawTable, ...]:
     """Tables of the law of one particle, for each population."""
     return tuple(
-        _table(contact.law_of(each), contact.surfaces, each.material)
-        for each in contact.populations
+        _table(contact.law_of(population), contact.surfaces, population.material)
+        for population in contact.populations
     )
 
 
@@ -317,18 +317,18 @@ def _draw_bodies(
     surface: Map,
     seats: AbstractSeats,
     rng: np.random.Generator,
-    given: Mapping[str, object] | None,
+    particles: Mapping[str, object] | None,
 ) -> tuple[Bodies, int]:
     populations = contact.populations
-    if given is not None:
-        return _bodies_of_user(contact, surface, given, rng)
+    if particles is not None:
+        return _bodies_of_user(contact, surface, particles, rng)
     if not populations:
         if isinstance(seats, GivenSeats):
             raise InvalidValue(
                 "seats: positions are given, but the contact has no particles", code=Mistake.IDLE
             )
         return NONE, 0
-    densities = np.array([each.areal_density for each in populations])
+    densities = np.array([population.areal_density for population in populations])
     if isinstance(seats, GivenSeats):
         shares = densities / densities.sum()
         kind = rng.choice(len(populations), size=len(seats.positions), p=shares)
@@ -338,9 +338,9 @@ def _draw_bodies(
         kind = np.repeat(np.arange(len(populations)), counts)
         rng.shuffle(kind)
     size = np.empty(len(kind))
-    for i, each in enumerate(populations):
+    for i, population in enumerate(populations):
         here = kind == i
-        size[here] = each.diameter.sample(rng, int(np.sum(here)))
+        size[here] = population.diameter.sample(rng, int(np.sum(here)))
     places, overlaps = placed_apart(seats, surface.z, surface.spacing, size, rng)
     return _bodies(contact, places, size, kind), overlaps
 
@@ -363,14 +363,14 @@ def _refuse_countless(density: float, surface: Map) -> None:
 
 
 def _bodies_of_user(
-    contact: Contact, surface: Map, given: Mapping[str, object], rng: np.random.Generator
+    contact: Contact, surface: Map, particles: Mapping[str, object], rng: np.random.Generator
 ) -> tuple[Bodies, int]:
     """Particles listed one by one by the user: x, y, diameter, population."""
-    problems, told = [], {}
+    problems, columns = [], {}
     for name in ("x", "y", "diameter"):
         try:
-            told[name] = np.atleast_1d(np.asarray(given[name], dtype=float))
-            if told[name].ndim != 1 or not np.all(np.isfinite(told[name])):
+            columns[name] = np.atleast_1d(np.asarray(particles[name], dtype=float))
+            if columns[name].ndim != 1 or not np.all(np.isfinite(columns[name])):
                 raise ValueError
         except KeyError:
             problems.append(
@@ -388,11 +388,11 @@ def _bodies_of_user(
                     code=Mistake.KIND,
                 )
             )
-    if not problems and len({len(values) for values in told.values()}) > 1:
+    if not problems and len({len(values) for values in columns.values()}) > 1:
         problems.append(
             Problem("", "particles: x, y and diameter must be of one length", code=Mistake.SHAPE)
         )
-    if not problems and not np.all(told["diameter"] > 0):
+    if not problems and not np.all(columns["diameter"] > 0):
         problems.append(Problem("", "particles['diameter'] must be > 0 [m]", code=Mistake.RANGE))
     if not contact.populations:
         problems.append(
@@ -404,8 +404,10 @@ def _bodies_of_user(
         )
     if problems:
         raise InvalidValue(*problems)
-    count = len(told["x"])
-    kind = np.asarray(given["population"] if "population" in given else np.zeros(count, int))
+    count = len(columns["x"])
+    kind = np.asarray(
+        particles["population"] if "population" in particles else np.zeros(count, int)
+    )
     most = len(contact.populations)
     if kind.shape != (count,) or kind.dtype.kind not in "iu" or not np.all(
         (kind >= 0) & (kind < most)
@@ -413,9 +415,11 @@ def _bodies_of_user(
         raise InvalidValue(
             f"particles['population'] must be whole numbers from 0 to {most - 1}", code=Mistake.KIND
         )
-    seats = GivenSeats(positions=tuple(zip(told["x"].tolist(), told["y"].tolist(), strict=True)))
-    places, overlaps = placed_apart(seats, surface.z, surface.spacing, told["diameter"], rng)
-    return _bodies(contact, places, told["diameter"], kind), overlaps
+    seats = GivenSeats(
+        positions=tuple(zip(columns["x"].tolist(), columns["y"].tolist(), strict=True))
+    )
+    places, overlaps = placed_apart(seats, surface.z, surface.spacing, columns["diameter"], rng)
+    return _bodies(contact, places, columns["diameter"], kind), overlaps
 
 
 def _bodies(contact: Contact, places: Seated, size: Array, kind: Index) -> Bodies:
@@ -446,12 +450,12 @@ def _doubts(contact: Contact, surface: Map) -> list[str]:
                 code="explicit.grid",
             )
         )
-    own = contact.roughness.sigma
-    if surface.sigma > 0 and not 0.9 < own / surface.sigma < 1.1:
+    sigma = contact.roughness.sigma
+    if surface.sigma > 0 and not 0.9 < sigma / surface.sigma < 1.1:
         out.append(
             Note(
                 f"the map has sigma = {value_of(surface.sigma, 'm')} and the roughness of the "
-                f"contact {value_of(own, 'm')}: the statistical model is one of another surface",
+                f"contact {value_of(sigma, 'm')}: the statistical model is one of another surface",
                 code="explicit.sigma",
             )
         )

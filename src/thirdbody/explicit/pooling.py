@@ -67,7 +67,7 @@ class AtLoads:
         """
         there = f" at the separations of the {columns} columns" if columns else ""
         error, least, most = (
-            each["particle_load_share"] for each in (self.errors, self.least, self.most)
+            shares["particle_load_share"] for shares in (self.errors, self.least, self.most)
         )
         idle = self.idle.any(axis=0)
         lone = np.isfinite(least) & ~idle & np.isnan(error)
@@ -118,11 +118,12 @@ class Pool:
         """Pool of the records that `one_surface` makes."""
         return cls(
             h=h,
-            nominal=np.array([each["nominal"] for each in records]),
-            good=np.array([each["converged"] for each in records]),
-            sums={name: np.array([each[name] for each in records]) for name in SUMS},
+            nominal=np.array([record["nominal"] for record in records]),
+            good=np.array([record["converged"] for record in records]),
+            sums={name: np.array([record[name] for record in records]) for name in SUMS},
             expected={
-                name: np.array([each["expected"][name] for each in records]) for name in EXPECTED
+                name: np.array([record["expected"][name] for record in records])
+                for name in EXPECTED
             },
         )
 
@@ -295,8 +296,8 @@ def _interpolate(values: Array, log: Array, at: Array) -> Array:
     if np.sum(some) < 2:
         return np.where(at < log[some][0], 0.0, values[some][0])
     within = np.clip(at, log[some][0], log[some][-1])
-    found = np.exp(PchipInterpolator(log[some], logs[some])(within))
-    return np.where(at < log[some][0], 0.0, found)
+    interpolated = np.exp(PchipInterpolator(log[some], logs[some])(within))
+    return np.where(at < log[some][0], 0.0, interpolated)
 
 
 def _ratio_of_draw(hoped: Array, drawn: Array, grid: Array) -> Array:

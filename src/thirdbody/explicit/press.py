@@ -164,9 +164,9 @@ def press(
     n, m = z.shape
     if start is None and min(n, m) >= NESTED_FROM and n % 4 == 0 and m % 4 == 0:
         for stride in (4, 2):
-            found = _press(coarse_programme(stride), start, max(tol, ROUGH), max_iterations=60)
-            coarse += found.iterations
-            start = found.p.repeat(2, axis=0).repeat(2, axis=1), found.f
+            pressed = _press(coarse_programme(stride), start, max(tol, ROUGH), max_iterations=60)
+            coarse += pressed.iterations
+            start = pressed.p.repeat(2, axis=0).repeat(2, axis=1), pressed.f
     return dataclasses.replace(
         _press(coarse_programme(1), start, tol, max_iterations), coarse=coarse
     )
@@ -305,9 +305,11 @@ class _Programme:
         """zᵀK⁻¹z [Pa m] and the separation [m] where pixels without a cap are held apart."""
         if h is not None and np.any(self.c >= UNBOUNDED) and h > np.mean(self.z):
             self.full = self.space.energy_of_full_contact(self.z), h - float(np.mean(self.z))
-        self.own = self.top = np.empty(0)
+        self.self_displacement = self.top = np.empty(0)
         if len(bodies):
-            self.own = self.placed.own_displacement(self.space.green(), self.space.lattice)
+            self.self_displacement = self.placed.own_displacement(
+                self.space.green(), self.space.lattice
+            )
             self.top = self.placed.at_particles(self.z) + bodies.lift + bodies.diameter
 
     def first(self, start: tuple[Array, Array] | None) -> _Iterate:
@@ -359,7 +361,9 @@ class _Programme:
 
     def _displacement_beneath(self, u: Array, phi: Array) -> Array:
         """Displacement under each particle, without the dent that its law counts already [m]."""
-        return self.placed.at_particles(u) - self.own * phi if len(self.bodies) else phi
+        return (
+            self.placed.at_particles(u) - self.self_displacement * phi if len(self.bodies) else phi
+        )
 
     def squeeze(self, x: _Iterate) -> Array:
         """Squeeze δ of each particle under its force [m]."""

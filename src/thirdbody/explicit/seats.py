@@ -222,28 +222,28 @@ SEATS: dict[str, type[AbstractSeats]] = {
 """Every rule by the word that study files use."""
 
 
-def seats_named(given: object) -> AbstractSeats:
+def seats_named(seats: object) -> AbstractSeats:
     """The rule that a word, an array of positions or a rule itself stands for."""
-    if isinstance(given, AbstractSeats):
-        return given
-    if isinstance(given, str):
-        if given in SEATS:
-            return SEATS[given]()
-        known = ", ".join(repr(name) for name in SEATS)
+    if isinstance(seats, AbstractSeats):
+        return seats
+    if isinstance(seats, str):
+        if seats in SEATS:
+            return SEATS[seats]()
+        options = ", ".join(repr(name) for name in SEATS)
         raise InvalidValue(
             Problem(
                 "seats",
-                f"must be one of {known}, or positions (N, 2) [m]",
-                repr(given),
+                f"must be one of {options}, or positions (N, 2) [m]",
+                repr(seats),
                 code=Mistake.OPTION,
             )
         )
     try:
-        places = np.asarray(given, dtype=float)
+        places = np.asarray(seats, dtype=float)
     except (TypeError, ValueError):
         raise InvalidValue(
             Problem(
-                "seats", "must be a word or positions (N, 2) [m]", repr(given), code=Mistake.KIND
+                "seats", "must be a word or positions (N, 2) [m]", repr(seats), code=Mistake.KIND
             )
         ) from None
     if places.ndim != 2 or places.shape[1] != 2:
@@ -369,7 +369,7 @@ def _rest(z: Array, spacing: float, x: Array, y: Array, size: Array) -> Array:
     """How far a sphere's underside is held above the height at its place [m]."""
     n, m = z.shape
     out = np.zeros(len(x))
-    own = height_at(z, spacing, x, y)
+    centre_height = height_at(z, spacing, x, y)
     for k in range(len(x)):
         radius = size[k] / 2
         reach = math.floor(radius / spacing) + 1
@@ -380,7 +380,7 @@ def _rest(z: Array, spacing: float, x: Array, y: Array, size: Array) -> Array:
         if np.any(inside):
             rise = radius - np.sqrt(radius**2 - np.where(inside, away, 0.0))
             heights = np.where(inside, z[np.ix_(i % n, j % m)] - rise, -math.inf)
-            out[k] = max(0.0, float(np.max(heights)) - own[k])
+            out[k] = max(0.0, float(np.max(heights)) - centre_height[k])
     return out
 
 
@@ -397,5 +397,5 @@ def _overlaps(places: Seated, size: Array, shape: tuple[int, int], spacing: floa
     apart = at[pairs[:, 0]] - at[pairs[:, 1]]
     apart -= side * np.round(apart / side)
     close = np.hypot(*apart.T) < (size[pairs[:, 0]] + size[pairs[:, 1]]) / 2
-    found = pairs[close]
-    return found[np.lexsort((found[:, 1], found[:, 0]))]
+    overlapping = pairs[close]
+    return overlapping[np.lexsort((overlapping[:, 1], overlapping[:, 0]))]

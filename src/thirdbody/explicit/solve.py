@@ -159,12 +159,12 @@ def solve(
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> rough = tb.synthetic.self_affine(
+    >>> rough = tb.surfaces.self_affine(
     ...     sigma=100e-9, hurst=0.8, shortest=8e-7, longest=6e-6, spacing=1e-7, points=128)
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=rough.roughness(),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=1e12,
-    ...                            diameter=tb.Monodisperse(mean=2e-7)))
+    ...                            diameter=tb.distributions.Monodisperse(mean=2e-7)))
     >>> state = tb.explicit.solve(contact, rough, F_star=1e-3)
     >>> state.converged, 0 < state.particle_load_share < 1
     (True, True)
@@ -186,21 +186,21 @@ def solve(
     if name != "h":
         values = values * surface_map.area * (contact.E_ss if name == "F_star" else 1.0)
     effort = Effort(tol, max_iterations, precision == "single", workers)
-    found, seconds = curve(inside, "h" if name == "h" else "load", values, effort)
-    columns = [numbers_of(inside, each) for each in found]
-    errors, rough = ({}, []) if blocks is None else _block_errors(inside, found, blocks, effort)
-    told = (*inside.warnings, *_doubts(columns, found, tol), *rough)
-    for sentence in told:
+    states, seconds = curve(inside, "h" if name == "h" else "load", values, effort)
+    columns = [numbers_of(inside, state) for state in states]
+    errors, rough = ({}, []) if blocks is None else _block_errors(inside, states, blocks, effort)
+    notes = (*inside.warnings, *_doubts(columns, states, tol), *rough)
+    for sentence in notes:
         tell_of_range(sentence)
 
     def column(name: str) -> Any:
-        every = [each[name] for each in columns]
+        every = [row[name] for row in columns]
         return every[0] if one else np.array(every)
 
     several = maps == "all" and not one
-    keep = range(len(found)) if several else [len(found) - 1]
-    shown = [_maps(inside, found[i]) for i in keep]
-    bodies = [_particles(inside, found[i]) for i in keep]
+    keep = range(len(states)) if several else [len(states) - 1]
+    shown = [_maps(inside, states[i]) for i in keep]
+    bodies = [_particles(inside, states[i]) for i in keep]
     import xarray
 
     return ExplicitState(
@@ -211,27 +211,27 @@ def solve(
         seats=inside.seats,
         maps=xarray.concat(shown, "state") if several else shown[0],
         particles=xarray.concat(bodies, "state") if several else bodies[0],
-        warnings=told,
-        errors={name: float(each[0]) if one else each for name, each in errors.items()},
+        warnings=notes,
+        errors={name: float(error[0]) if one else error for name, error in errors.items()},
     )
 
 
 def _block_errors(
-    inside: Interface, found: list[Pressed], blocks: int, effort: Effort
+    inside: Interface, states: list[Pressed], blocks: int, effort: Effort
 ) -> tuple[dict[str, Array], list[str]]:
     """Standard errors of every state, and why they are rough."""
-    out = np.full((len(found), len(ERRORS)), math.nan)
+    out = np.full((len(states), len(ERRORS)), math.nan)
     area, spacing = inside.map.area, inside.map.spacing
     most = capacity(inside.c, inside.bodies, spacing)
-    for i, state in enumerate(found):
+    for i, state in enumerate(states):
         load = float(np.sum(state.p)) * spacing**2 + float(np.sum(state.f))
         if not load > 0:
             continue
         other = load * STEP if load * STEP < most else load / STEP
         (beside,), _ = curve(inside, "load", np.array([other]), effort, start=state)
         sums, there = (
-            block_sums(inside, each, _squeeze_columns(inside, each)["areas"][0], blocks)
-            for each in (state, beside)
+            block_sums(inside, pressed, _squeeze_columns(inside, pressed)["areas"][0], blocks)
+            for pressed in (state, beside)
         )
         out[i] = errors_of(sums, there.sum(axis=1), area)
     note = long_waves(inside.map.z, inside.map.sigma, blocks)
@@ -240,7 +240,7 @@ def _block_errors(
 
 def curve(
     inside: Interface,
-    given: str,
+    quantity: str,
     values: Array,
     effort: Effort,
     *,
@@ -252,17 +252,17 @@ def curve(
     """
     z, spacing = inside.map.z, inside.map.spacing
     E_star = inside.contact.E_ss
-    if given == "load":
+    if quantity == "load":
         most = capacity(inside.c, inside.bodies, spacing)
         problems = [
             Problem(
                 "",
-                f"a load of F* = {number(each / (E_star * inside.map.area))} is above "
+                f"a load of F* = {number(load / (E_star * inside.map.area))} is above "
                 f"{number(most / (E_star * inside.map.area))}, which is all that the pixels and "
                 "particles can carry",
                 code=Mistake.BEYOND,
             )
-            for each in values[values >= most][:5]
+            for load in values[values >= most][:5]
         ]
     elif np.all(inside.c >= HARDEST):
         problems = [
@@ -270,19 +270,19 @@ def curve(
                 "h",
                 "must be > 0 where asperities have no cap: the flat cannot come below the mean "
                 "plane of a surface that never yields (give a load, or a cap)",
-                value_of(each, "m"),
+                value_of(separation, "m"),
                 code=Mistake.RANGE,
             )
-            for each in values[values <= 0][:5].tolist()
+            for separation in values[values <= 0][:5].tolist()
         ]
     else:
         problems = []
     if problems:
         raise InvalidValue(*problems)
     order = np.argsort(values, kind="stable")
-    if given == "h":
+    if quantity == "h":
         order = order[::-1]
-    found: dict[int, Pressed] = {}
+    states: dict[int, Pressed] = {}
     seconds: dict[int, float] = {}
     near = start
     for i in order.tolist():
@@ -291,12 +291,12 @@ def curve(
         begun = None if near is None or not (np.any(near.p) or np.any(near.f)) else (near.p, near.f)
         near = press(
             z, spacing, E_star, c=inside.c, bodies=inside.bodies, start=begun,
-            load=at if given == "load" else None, h=at if given == "h" else None,
+            load=at if quantity == "load" else None, h=at if quantity == "h" else None,
             **effort._asdict(),
         )  # fmt: skip
-        found[i], seconds[i] = near, time.perf_counter() - begin
+        states[i], seconds[i] = near, time.perf_counter() - begin
     every = range(len(values))
-    return [found[i] for i in every], [seconds[i] for i in every]
+    return [states[i] for i in every], [seconds[i] for i in every]
 
 
 def numbers_of(inside: Interface, state: Pressed) -> dict[str, Any]:
@@ -306,7 +306,7 @@ def numbers_of(inside: Interface, state: Pressed) -> dict[str, Any]:
     counted = float(np.mean(touching))
     A_ss = float(np.mean(contact_share(state.p, inside.c, inside.cap)))
     first, second = (
-        float(np.sum(each)) / area for each in _squeeze_columns(inside, state)["areas"]
+        float(np.sum(areas)) / area for areas in _squeeze_columns(inside, state)["areas"]
     )
     on_pixels = float(np.sum(state.p)) * spacing**2 / area
     on_particles = float(np.sum(state.f)) / area
@@ -389,21 +389,21 @@ def _options(
 
 
 # -------------------------------------------------------------------------- what is told
-def _doubts(columns: list[dict[str, Any]], found: list[Pressed], tol: float) -> list[str]:
+def _doubts(columns: list[dict[str, Any]], states: list[Pressed], tol: float) -> list[str]:
     out: list[str] = []
-    unsure = [each for each in found if not each.converged]
+    unsure = [state for state in states if not state.converged]
     if unsure:
-        worst = max(each.certificate for each in unsure)
-        known = "to a few per cent" if worst < 1e-3 else "in outline only"
+        worst = max(state.certificate for state in unsure)
+        accuracy = "to a few per cent" if worst < 1e-3 else "in outline only"
         out.append(
             Note(
-                f"{plural(len(unsure), 'state')} of {len(found)} did not converge: certificate "
-                f"{worst:.1e}, asked for {tol:g}; pressures are known {known} (raise "
+                f"{plural(len(unsure), 'state')} of {len(states)} did not converge: certificate "
+                f"{worst:.1e}, asked for {tol:g}; pressures are known {accuracy} (raise "
                 "max_iterations)",
                 code="explicit.converged",
             )
         )
-    carriers = [each["carrying_pixels"] + each["carrying_particles"] for each in columns]
+    carriers = [row["carrying_pixels"] + row["carrying_particles"] for row in columns]
     if nothing := carriers.count(0):
         which = "" if len(columns) == 1 else f" in {nothing} of {len(columns)} states"
         out.append(
@@ -412,7 +412,7 @@ def _doubts(columns: list[dict[str, Any]], found: list[Pressed], tol: float) -> 
                 code="explicit.nothing",
             )
         )
-    few = min((each for each in carriers if each), default=FEW)
+    few = min((count for count in carriers if count), default=FEW)
     if few < FEW:
         out.append(
             Note(
@@ -422,7 +422,7 @@ def _doubts(columns: list[dict[str, Any]], found: list[Pressed], tol: float) -> 
                 code="explicit.few",
             )
         )
-    most = max(each["A_t"] for each in columns)
+    most = max(row["A_t"] for row in columns)
     if most > DENSE:
         out.append(
             Note(
@@ -465,8 +465,10 @@ def _maps(inside: Interface, state: Pressed) -> xarray.Dataset:
 def _particles(inside: Interface, state: Pressed) -> xarray.Dataset:
     import xarray
 
-    bodies, found = inside.bodies, _squeeze_columns(inside, state)
-    names = [each.name or each.material.name for each in inside.contact.populations]
+    bodies, columns = inside.bodies, _squeeze_columns(inside, state)
+    names = [
+        population.name or population.material.name for population in inside.contact.populations
+    ]
     fields = {
         "x": (bodies.x, "m", "position"),
         "y": (bodies.y, "m", "position"),
@@ -475,9 +477,9 @@ def _particles(inside: Interface, state: Pressed) -> xarray.Dataset:
         "zeta": (inside.zeta / (inside.map.sigma or 1.0), "1", "height of the seat over sigma"),
         "squeeze": (np.maximum(state.squeeze, 0.0), "m", "how much the gap is less than x"),
         "force": (state.f, "N", "force"),
-        "dent_1": (found["dents"][0], "m", "indentation of surface 1"),
-        "dent_2": (found["dents"][1], "m", "indentation of surface 2"),
-        "regime": (found["regime"].astype("U13"), "", "regime on surface 1"),
+        "dent_1": (columns["dents"][0], "m", "indentation of surface 1"),
+        "dent_2": (columns["dents"][1], "m", "indentation of surface 2"),
+        "regime": (columns["regime"].astype("U13"), "", "regime on surface 1"),
     }
     return xarray.Dataset(
         {

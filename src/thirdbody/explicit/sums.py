@@ -51,18 +51,18 @@ def one_surface(
     columns = [numbers_of(inside, state) for state in states]
     pixel = surface.spacing**2
     for h, state, alone in zip(grid.tolist(), states, bare, strict=True):
-        told = _sums(inside, h, state, alone, pixel)
+        sums = _sums(inside, h, state, alone, pixel)
         for name in SUMS:
-            out[name].append(told[name])
+            out[name].append(sums[name])
     zeta = places(surface, rule, contact, np.random.default_rng([seed, 1]))
     return {
         **out,
         "nominal": surface.area,
         "sigma": surface.sigma,
         "converged": [a.converged and b.converged for a, b in zip(states, bare, strict=True)],
-        "columns": {name: [each[name] for each in columns] for name in columns[0]},
+        "columns": {name: [row[name] for row in columns] for name in columns[0]},
         "zeta": [float(np.sum(zeta)), float(np.sum(zeta**2)), int(np.sum(zeta > 2.5)), len(zeta)],
-        "warnings": [str(each) for each in inside.warnings],  # plain, as files keep them
+        "warnings": [str(note) for note in inside.warnings],  # plain, as files keep them
         "expected": _sums_of_draw(contact, surface, rule, zeta, grid, gaussian),
     }
 
@@ -71,7 +71,7 @@ def _sums(
     inside: Interface, h: float, state: Pressed, alone: Pressed, pixel: float
 ) -> dict[str, float]:
     bodies, area = inside.bodies, inside.map.area
-    told = numbers_of(inside, state)
+    numbers = numbers_of(inside, state)
     squeeze = bodies.diameter + inside.zeta - h
     law_area = 0.0
     for i, law in enumerate(bodies.laws):
@@ -81,8 +81,8 @@ def _sums(
     return {
         "asperities": float(np.sum(state.p)) * pixel,
         "particles": float(np.sum(state.f)),
-        "area": told["A_ss"] * area,
-        "particle_area": told["A_sa"] * area,
+        "area": numbers["A_ss"] * area,
+        "particle_area": numbers["A_sa"] * area,
         "bearing": float(np.sum(inside.map.z > h)) * pixel,
         "law": float(np.sum(bodies.force(squeeze))),
         "law_area": law_area,
@@ -129,12 +129,12 @@ def _sums_of_draw(
     else:
         seats, weight = np.sort(zeta) * sigma, np.full(len(zeta), 1 / max(len(zeta), 1))
     force, area = np.zeros(len(grid)), np.zeros(len(grid))
-    part = np.exp(-(WIDTHS**2) / 2)
-    part /= part.sum()
-    for each, law in zip(contact.populations, law_tables(contact), strict=True):
-        sizes, same = np.unique(each.diameter.ppf(ndtr(WIDTHS)), return_inverse=True)
-        for x, weighs in zip(sizes, np.bincount(same, part), strict=True):
-            share = each.areal_density * surface.area * weighs
+    size_weights = np.exp(-(WIDTHS**2) / 2)
+    size_weights /= size_weights.sum()
+    for population, law in zip(contact.populations, law_tables(contact), strict=True):
+        sizes, same = np.unique(population.diameter.ppf(ndtr(WIDTHS)), return_inverse=True)
+        for x, weighs in zip(sizes, np.bincount(same, size_weights), strict=True):
+            share = population.areal_density * surface.area * weighs
             for i, h in enumerate(grid):
                 eps = (x + seats - h) / x
                 force[i] += share * x**2 * float(np.sum(weight * law.force(eps)))

@@ -415,20 +415,20 @@ class OneParticle(ABC):
     def spots(self, x: Array, delta: Array, *, share: Array | None, number: Array) -> ParticleSpots:
         """Particles of sizes x squeezed by δ (M, n), so many of each."""
         eps = np.divide(delta, x, out=np.zeros_like(x), where=x > 0).ravel()
-        found = self.at(eps)
-        one, two = (x * depth.reshape(x.shape) for depth in found.depths)
+        unit_state = self.at(eps)
+        one, two = (x * depth.reshape(x.shape) for depth in unit_state.depths)
         first, second = (
-            x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in found.areas
+            x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in unit_state.areas
         )
         sinks = (one, two)
         if any(self.knows_sink):
-            first_sink, second_sink = self.sinks(found.depths)
+            first_sink, second_sink = self.sinks(unit_state.depths)
             sinks = (x * first_sink.reshape(x.shape), x * second_sink.reshape(x.shape))
-        regimes = [self.regime(i, found.depths[i]).reshape(x.shape) for i in (0, 1)]
+        regimes = [self.regime(i, unit_state.depths[i]).reshape(x.shape) for i in (0, 1)]
         return ParticleSpots(
             share=share,
             number=number,
-            load=x**2 * np.where(eps > 0, found.load, 0.0).reshape(x.shape),
+            load=x**2 * np.where(eps > 0, unit_state.load, 0.0).reshape(x.shape),
             x=x,
             radius=self.tip_radius * x,
             depths=(one, two),
@@ -513,9 +513,9 @@ class AbstractParticleLaw(Law):
 
     def probe(self, eps: Array, *, surfaces: MaterialPair, particle: Material) -> ParticleSpots:
         """Spots of particles of unit size squeezed by ε, one a row (N, 1)."""
-        each = np.ones((len(eps), 1))
+        ones = np.ones((len(eps), 1))
         one = self.one(surfaces=surfaces, particle=particle)
-        return one.spots(each, eps[:, None], share=None, number=each)
+        return one.spots(ones, eps[:, None], share=None, number=ones)
 
     def jammed(self, coverage: float) -> str:
         """Note on particles that would cover this part of the area, 1 or more."""

@@ -50,8 +50,8 @@ class Spots:
 
     def total(self, q: Array | float) -> Array:
         """Σ n q per nominal area: (N,) for q that broadcasts with (M, n)."""
-        each = np.sum(self.number * q, axis=-1)
-        return each if self.share is None else self.share @ each
+        sums = np.sum(self.number * q, axis=-1)
+        return sums if self.share is None else self.share @ sums
 
     def above(self, values: Array, levels: Array, weight: Array | float = 1.0) -> Array:
         """Σ n weight over the spots whose value exceeds a level: (N, L) for increasing levels."""

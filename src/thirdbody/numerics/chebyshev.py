@@ -126,8 +126,8 @@ class PiecewiseChebyshev:
         for start, end in zip([0, *ends], ends, strict=False):
             mine, p = slice(start, end), where[start]
             terms, values = basis[:, mine].T, sorted_values[mine]
-            for part in in_pieces(len(values), flat[p].size):
-                np.matmul(terms[part], flat[p], out=values[part])
+            for rows in in_pieces(len(values), flat[p].size):
+                np.matmul(terms[rows], flat[p], out=values[rows])
         out = np.empty_like(sorted_values)
         out[order] = sorted_values
         return out.reshape(len(x), *coefficients.shape[2:])

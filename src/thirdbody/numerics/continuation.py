@@ -110,12 +110,12 @@ class _Walk:
         """The point of the branch in the plane through a guess across a direction, by the Jacobian
         at hand or else one taken there; None where there is none near."""
         kept = self.jacobian
-        found = self.correct_guess(guess, direction, ROUGH)
-        if found is None:
+        solution = self.correct_guess(guess, direction, ROUGH)
+        if solution is None:
             fresh = first_jacobian(self.residual, guess)
             self.jacobian = fresh if np.all(np.isfinite(fresh)) else kept
-            found = self.correct_guess(guess, direction, ROUGH)
-        return None if found is None else found[0]
+            solution = self.correct_guess(guess, direction, ROUGH)
+        return None if solution is None else solution[0]
 
     def slope(self, y: Array, direction: Array) -> float:
         """Change of the parameter per length along the branch at a point, in a direction; NaN where
@@ -144,12 +144,12 @@ class _Walk:
 
         def height(place: float) -> float:
             guess = through[0] * place**2 + through[1] * place + through[2]
-            found = self.correct_guess(guess, direction)
-            if found is None:
+            solution = self.correct_guess(guess, direction)
+            if solution is None:
                 return np.inf
-            if sign * found[0][-1] > sign * best["y"][-1]:
-                best["y"] = found[0]
-            return -sign * float(found[0][-1])
+            if sign * solution[0][-1] > sign * best["y"][-1]:
+                best["y"] = solution[0]
+            return -sign * float(solution[0][-1])
 
         optimize.minimize_scalar(
             height,
@@ -166,19 +166,19 @@ def _point_at_value(residual: Residual, one: Array, other: Array, value: float) 
     direction = (other - one) / np.linalg.norm(other - one)
     last = one
 
-    def excess(part: float) -> float:
+    def excess(share: float) -> float:
         nonlocal last
-        if part in (0.0, 1.0):
-            last = one if part == 0 else other
+        if share in (0.0, 1.0):
+            last = one if share == 0 else other
             return float(last[-1] - value)
-        found = walk.correct_guess(one + part * (other - one), direction)
-        if found is None:
+        solution = walk.correct_guess(one + share * (other - one), direction)
+        if solution is None:
             raise ValueError("the branch is lost between two of its points")
-        last = found[0]
+        last = solution[0]
         return float(last[-1] - value)
 
-    part = optimize.brentq(excess, 0.0, 1.0, xtol=1e-13, rtol=1e-13)
-    excess(part)
+    share = optimize.brentq(excess, 0.0, 1.0, xtol=1e-13, rtol=1e-13)
+    excess(share)
     return last
 
 
@@ -261,10 +261,10 @@ def follow_branch(
     walk = _Walk(residual, first_jacobian(residual, start))
     upright = np.zeros_like(start)
     upright[-1] = 1.0
-    found = walk.correct_guess(start, upright)
-    if found is None:
+    solution = walk.correct_guess(start, upright)
+    if solution is None:
         raise ValueError("no solution near the first guess")
-    walk.points.append(found[0])
+    walk.points.append(solution[0])
     *_, tangent = np.linalg.svd(walk.jacobian)[2]
     tangent = tangent * (1.0 if (tangent[-1] > 0) == forward else -1.0)
     folds: list[int] = []
@@ -275,11 +275,11 @@ def follow_branch(
             break
         here = walk.points[-1]
         kept = walk.jacobian
-        found = walk.correct_guess(_guess(walk.points, tangent, ahead), tangent, ROUGH)
-        if found is None or np.linalg.norm(found[0] - here) > 2 * ahead:
+        solution = walk.correct_guess(_guess(walk.points, tangent, ahead), tangent, ROUGH)
+        if solution is None or np.linalg.norm(solution[0] - here) > 2 * ahead:
             walk.jacobian, ahead = kept, 0.5 * ahead
             continue
-        new, count = found
+        new, count = solution
         if not inside(new[:-1], float(new[-1])):
             ended = "border"
             break
@@ -297,8 +297,8 @@ def _put_missed_folds(walk: _Walk, folds: list[int], step: float) -> list[int]:
     """Numbers of the folds, with those between two points that a step went over."""
     plain = [y for i, y in enumerate(walk.points) if i not in set(folds)]
     stretches = stretches_with_a_turn(walk, plain, step)
-    known = [walk.points[i] for i in folds]
-    if len(known) == len(stretches) == sum(known_turn(s, known) is not None for s in stretches):
+    turns = [walk.points[i] for i in folds]
+    if len(turns) == len(stretches) == sum(known_turn(s, turns) is not None for s in stretches):
         return folds
     points: list[Array] = []
     out = []
@@ -310,7 +310,7 @@ def _put_missed_folds(walk: _Walk, folds: list[int], step: float) -> list[int]:
             _, first, last, highest = stretch
             if first is not points[-1]:
                 points.append(first)
-            fold = known_turn(stretch, known)
+            fold = known_turn(stretch, turns)
             if fold is None:
                 way = (last - first) / np.linalg.norm(last - first)
                 middle = walk.find_point(0.5 * (first + last), way)
@@ -352,7 +352,7 @@ def _put_fold(walk: _Walk, folds: list[int]) -> None:
     rest = [(places[0], fold, True)]
     if not np.allclose(fold, middle, rtol=0, atol=1e-9):
         rest.append((places[1], middle, False))
-    rest.sort(key=lambda each: each[0])
+    rest.sort(key=lambda row: row[0])
     start = len(walk.points) - 2
     walk.points[start:] = [*(y for _, y, _ in rest), last]
-    folds.append(start + next(i for i, each in enumerate(rest) if each[2]))
+    folds.append(start + next(i for i, row in enumerate(rest) if row[2]))

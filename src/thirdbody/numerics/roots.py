@@ -122,7 +122,7 @@ def bracketed_root(
     low, high, *args_ = np.broadcast_arrays(low, high, *args)
     f1, f2 = (np.ravel(np.asarray(function(x, *args_), dtype=float)) for x in (low, high))
     x1, x2 = (np.array(x, dtype=float).ravel() for x in (low, high))
-    f1, f2, given = f1.copy(), f2.copy(), [arg.ravel() for arg in args_]
+    f1, f2, arguments = f1.copy(), f2.copy(), [arg.ravel() for arg in args_]
     root = np.full(x1.shape, np.nan)
     active = np.arange(x1.size)
     x3, f3 = x2, f2
@@ -139,11 +139,11 @@ def bracketed_root(
         active = active[go]
         if not active.size:
             break
-        x1, x2, x3, f1, f2, f3 = (each[go] for each in (x1, x2, x3, f1, f2, f3))
-        width, least, given = width[go], least[go], [arg[go] for arg in given]
+        x1, x2, x3, f1, f2, f3 = (array[go] for array in (x1, x2, x3, f1, f2, f3))
+        width, least, arguments = width[go], least[go], [arg[go] for arg in arguments]
         t = np.full_like(x1, 0.5) if turn == 0 else _step(x1, x2, x3, f1, f2, f3, least / width)
         x = x1 + t * (x2 - x1)
-        f = np.asarray(function(x, *given), dtype=float)
+        f = np.asarray(function(x, *arguments), dtype=float)
         same = np.sign(f) == np.sign(f1)
         x3, f3 = np.where(same, x1, x2), np.where(same, f1, f2)
         x2, f2 = np.where(same, x2, x1), np.where(same, f2, f1)

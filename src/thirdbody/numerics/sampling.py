@@ -121,8 +121,8 @@ def latin(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     bits = 52 - math.ceil(math.log2(size))
     out = np.empty((len(index), width))
     for j in range(width):
-        *keys, own = np.random.SeedSequence([seed, j]).generate_state(ROUNDS + 1, np.uint64)
-        inside = (_mix_bits(index ^ own) >> np.uint64(64 - bits)) * 2.0**-bits
+        *keys, inside_key = np.random.SeedSequence([seed, j]).generate_state(ROUNDS + 1, np.uint64)
+        inside = (_mix_bits(index ^ inside_key) >> np.uint64(64 - bits)) * 2.0**-bits
         out[:, j] = (_permute_index(index, size, keys) + inside) / size
     return out
 

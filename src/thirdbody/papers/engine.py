@@ -121,10 +121,10 @@ def reproduce(
     """
     folder = prepare_folder(out, paper, preset)
     report = progress or (lambda stage, done, total: None)
-    found = find(folder, report)
+    summary = find(folder, report)
     files: list[str] = []
     images: list[tuple[str, str, str, bytes]] = []
-    every = found.pictures()
+    every = summary.pictures()
     for done, draw in enumerate(every):
         report("figures", done, len(every))
         picture = draw()
@@ -133,13 +133,13 @@ def reproduce(
         images.append((picture.name, picture.about, picture.note, (folder / svg).read_bytes()))
     report("figures", len(every), len(every))
     report("page", 0, 1)
-    ledger = json.dumps(found.as_json(), ensure_ascii=False, indent=1, allow_nan=False)
-    page = found.page(figures(images))
-    texts = {**found.tables(), found.LEDGER: ledger + "\n", "index.html": page}
+    ledger = json.dumps(summary.as_json(), ensure_ascii=False, indent=1, allow_nan=False)
+    page = summary.page(figures(images))
+    texts = {**summary.tables(), summary.LEDGER: ledger + "\n", "index.html": page}
     for name, text in texts.items():
         write_text(folder / name, text)
     report("page", 1, 1)
-    return replace(found, files=(*files, *texts))
+    return replace(summary, files=(*files, *texts))
 
 
 @contextmanager
@@ -179,8 +179,8 @@ def prepare_folder(out: str | Path, paper: str, preset: str | None = None) -> Pa
     InvalidValue
         It holds another study or anything else, or cannot be made.
     """
-    told = {"command": "reproduce", "paper": paper, "preset": preset}
-    return claim_folder(out, told, files=FILES, unmarked=_unmarked_study)
+    mark = {"command": "reproduce", "paper": paper, "preset": preset}
+    return claim_folder(out, mark, files=FILES, unmarked=_unmarked_study)
 
 
 def _unmarked_study(folder: Path) -> dict[str, object] | None:
@@ -190,5 +190,5 @@ def _unmarked_study(folder: Path) -> dict[str, object] | None:
         return {}
     kept = folder / "surfaces"
     files = [file.relative_to(kept).as_posix() for file in kept.rglob("*") if file.is_file()]
-    alone = {each.name for each in folder.iterdir()} <= {MARK, kept.name}
+    alone = {entry.name for entry in folder.iterdir()} <= {MARK, kept.name}
     return {} if alone and files and all(map(SURFACE.fullmatch, files)) else None

@@ -166,10 +166,10 @@ def equal_gap(seat: str, size: float, density: float, roughness: float) -> tuple
         from scipy.optimize import brentq
 
         i = cells[-1]
-        found = brentq(
+        d_equal = brentq(
             lambda x: tb.solve(case, d=x).particle_load_share - 0.5, d[i + 1], d[i], xtol=1e-18
         )
-        return float(found), float(tb.solve(case, d=found).pressure)
+        return float(d_equal), float(tb.solve(case, d=d_equal).pressure)
 
 
 def turning_pressure(reading: Reading, of: str, by: float, **also: float) -> Measurement:
@@ -212,7 +212,7 @@ def turning_ratios(reading: Reading, pressures: tuple[float, ...]) -> Measuremen
     """x_a/σ at which particles carry half of a dry load, at several pressures."""
     from scipy.optimize import brentq
 
-    found = []
+    ratios = []
     for p in pressures:
 
         def excess(log_size: float, p: float = p) -> float:
@@ -221,8 +221,8 @@ def turning_ratios(reading: Reading, pressures: tuple[float, ...]) -> Measuremen
         low, high = np.log(np.array([0.2, 15.0]) * SIGMA / SIZE)
         if excess(low) > 0 or excess(high) < 0:
             return Measurement.absent(f"none from 0.2 to 15 at {p:g} Pa")
-        found.append(SIZE / SIGMA * np.exp(brentq(excess, low, high, xtol=1e-6)))
-    return Measurement.from_values(min(found), max(found))
+        ratios.append(SIZE / SIGMA * np.exp(brentq(excess, low, high, xtol=1e-6)))
+    return Measurement.from_values(min(ratios), max(ratios))
 
 
 def area_panel() -> Panel:

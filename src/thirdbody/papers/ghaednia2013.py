@@ -116,14 +116,14 @@ def model(
 
 def solve(surface: str, pressures: Array, factors: Mapping[str, float]) -> Trend:
     """The trend of the model on one of the surfaces."""
-    given = dict(factors)
+    keywords = dict(factors)
     state = model(
         surface,
-        SIZE * given.pop("size", 1.0),
-        bool(given.pop("size_effect", 0.0)),
-        spread=SPREAD * given.pop("spread", 1.0),
-        density=DENSITY * given.pop("density", 1.0),
-        **given,
+        SIZE * keywords.pop("size", 1.0),
+        bool(keywords.pop("size_effect", 0.0)),
+        spread=SPREAD * keywords.pop("spread", 1.0),
+        density=DENSITY * keywords.pop("density", 1.0),
+        **keywords,
     ).solve(pressures)
     return Trend(pressures, state.A_real, state.A_0, state.particle_load_share)
 

@@ -154,10 +154,10 @@ class Claim:
         if kind == "relative":
             return (value - abs(value) * of, value + abs(value) * of)
         if kind == "range":
-            slack, part = self.rule.get("slack", 0.0), self.rule.get("relative_slack", 0.0)
+            slack, relative = self.rule.get("slack", 0.0), self.rule.get("relative_slack", 0.0)
             widen = self.rule.get("of", 1.0)
             low, high = value[0] / widen, value[1] * widen
-            return (low * (1 - part) - slack, high * (1 + part) + slack)
+            return (low * (1 - relative) - slack, high * (1 + relative) + slack)
         # the strict limits move by the smallest step
         return {
             "at_most": (-math.inf, value),

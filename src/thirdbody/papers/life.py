@@ -234,8 +234,8 @@ def _with_grains(contact: tb.Contact, size: float, density: float) -> tb.Contact
 
 
 def _maximum() -> Band:
-    every = [wear_columns(PRESSURES[0], given)["wear"] for given in COEFFICIENTS]
-    return Band.from_values([max(each) / max(each[0], each[-1]) for each in every])
+    every = [wear_columns(PRESSURES[0], coefficients)["wear"] for coefficients in COEFFICIENTS]
+    return Band.from_values([max(wear) / max(wear[0], wear[-1]) for wear in every])
 
 
 def _rolling() -> Band:
@@ -264,7 +264,7 @@ def _dust_in_film() -> tuple[tuple[dict[float, float], dict[float, float]], ...]
                 ingress=(),
                 classes=tb.SizeClasses.covering(smallest=4e-6, largest=32e-6),
             )
-            found = tb.life(
+            history = tb.life(
                 _sliding(K=K),
                 oil=circuit,
                 conjunction=tb.films.Point(R=9.5e-3),
@@ -278,7 +278,7 @@ def _dust_in_film() -> tuple[tuple[dict[float, float], dict[float, float]], ...]
                 duration=1.0,
                 times=[0.0, 1.0],
             )
-            columns = {name: float(values[0]) for name, (_, values) in found.more.items()}
+            columns = {name: float(values[0]) for name, (_, values) in history.more.items()}
             wear[entry] = columns["wear_rate_1"] + columns["wear_rate_2"]
             friction[entry] = columns["mu_solids"]
         out.append((wear, friction))
@@ -294,8 +294,8 @@ def _dusty() -> Band:
 
 def _rise(which: int) -> Band:
     """Wear (0) or friction (1) with ten times as many grains over that with as many."""
-    columns = [each[which] for each in _dust_in_film()]
-    return Band.from_values([each[1.0] / each[0.1] for each in columns])
+    columns = [pair[which] for pair in _dust_in_film()]
+    return Band.from_values([column[1.0] / column[0.1] for column in columns])
 
 
 # ------------------------------------------------------------------------------ running-in
@@ -307,7 +307,7 @@ DRY: dict[str, Any] = {
 
 def _run_in(sigma: float, end: float, until: float, pressure: float) -> float:
     """Wear depth of both surfaces when the roughness has come down to a value [m]."""
-    found = tb.life(
+    history = tb.life(
         _sliding(K=1e-4, sigma=sigma, f_ab=0.0),
         pressure=pressure,
         duration=1e7,
@@ -316,7 +316,7 @@ def _run_in(sigma: float, end: float, until: float, pressure: float) -> float:
         running_in=RunningIn(sigma_end=end),
         **DRY,
     )  # fmt: skip
-    return sum(float(found.more[f"wear_{side}"][1][-1]) for side in (1, 2))
+    return sum(float(history.more[f"wear_{side}"][1][-1]) for side in (1, 2))
 
 
 def _exponents() -> Band:
@@ -332,12 +332,12 @@ def _exponents() -> Band:
 def _equilibrium() -> Band:
     ends = []
     for sigma in (80e-9, 160e-9):
-        found = tb.life(
+        history = tb.life(
             _sliding(K=1e-4, sigma=sigma), pressure=5e6, duration=1e8, times=[0.0, 1e8],
             debris=Debris(diameter=tb.Monodisperse(mean=0.4e-6)),
             running_in=RunningIn(sigma_end=60e-9), **DRY,
         )  # fmt: skip
-        ends.append(float(found.more["sigma"][1][-1]))
+        ends.append(float(history.more["sigma"][1][-1]))
     return Band.from_values([ends[1] / ends[0]])
 
 
@@ -352,15 +352,15 @@ def _steady_courses() -> tuple[tuple[float, float], ...]:
             diameter=tb.PowerLaw(edges=(1e-6, 4e-6), counts=(1.0,), slopes=(3.0,)),
             rate=1e4,
         )
-        found = tb.life(
+        history = tb.life(
             _sliding(5e9), pressure=5e6, duration=3600.0,
             debris=Debris(diameter=tb.LogNormal(median=2e-6, gsd=1.3), hardness=9e9),
             **(DRY | {"loss": loss, "arrivals": arrivals}),
         )  # fmt: skip
-        ledger, half = found.ledger, np.searchsorted(found.times, 1800.0)
+        ledger, half = history.ledger, np.searchsorted(history.times, 1800.0)
         came = sum(values[-1] - values[half] for values in ledger.came.values())
         went = sum(values[-1] - values[half] for values in ledger.went.values())
-        rate = found.more["wear_rate_2"][1][half:]
+        rate = history.more["wear_rate_2"][1][half:]
         out.append((float(went / came), float(np.ptp(rate) / np.max(rate))))
     return tuple(out)
 
@@ -430,8 +430,8 @@ def _rows() -> Iterable[Row]:
     yield row(
         "fillot2007",
         {
-            "equal": lambda: Band.from_values([each[0] for each in _steady_courses()]),
-            "constant": lambda: Band.from_values([each[1] for each in _steady_courses()]),
+            "equal": lambda: Band.from_values([course[0] for course in _steady_courses()]),
+            "constant": lambda: Band.from_values([course[1] for course in _steady_courses()]),
         },
     )
 

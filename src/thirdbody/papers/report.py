@@ -54,9 +54,18 @@ class Study:
         *measures: Measure,
     ) -> Study:
         """The study of a data file; ``measures`` beside those that any reading has."""
-        data, own = data_of(name), {one.__name__: one for one in measures}
-        title, paper, known = data["title"], data["paper"], tuple(data["known"])
-        return cls(name, title, paper, known, readings, claims_of(name), MEASURES | own, panels)
+        data, extra_measures = data_of(name), {one.__name__: one for one in measures}
+        title, paper, paragraphs = data["title"], data["paper"], tuple(data["known"])
+        return cls(
+            name,
+            title,
+            paper,
+            paragraphs,
+            readings,
+            claims_of(name),
+            MEASURES | extra_measures,
+            panels,
+        )
 
     def ledger(self) -> dict[str, dict[str, Verdict]]:
         """Verdicts of every reading, by reading name and claim id."""
@@ -102,9 +111,9 @@ class Study:
 
     def _find(self, folder: Path, report: Progress) -> Summary:
         report("claims", 0, 1)
-        found = Summary(out=folder, study=self, ledger=self.ledger())
+        summary = Summary(out=folder, study=self, ledger=self.ledger())
         report("claims", 1, 1)
-        return found
+        return summary
 
 
 @dataclass(frozen=True, kw_only=True)

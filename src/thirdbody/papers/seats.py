@@ -103,21 +103,21 @@ def contact(diameter: float, seat: Seat = "rough", h_0: float = 0.0) -> tb.Conta
     >>> round(dusty.E_ss / 1e9, 6)
     112.0
     """
-    given = explicit_particles()["parameters"]
+    parameters = explicit_particles()["parameters"]
     nu = 0.3
-    body = tb.Material(E=2 * given["E_star"] * (1 - nu**2), nu=nu, H=given["H"])
+    body = tb.Material(E=2 * parameters["E_star"] * (1 - nu**2), nu=nu, H=parameters["H"])
     return tb.Contact(
         surfaces=tb.MaterialPair(body, body),
         roughness=tb.Roughness(
-            sigma=given["sigma"],
-            R=given["R"],
-            alpha=given["alpha"],
-            eta_R_sigma=given["eta_R_sigma"],
+            sigma=parameters["sigma"],
+            R=parameters["R"],
+            alpha=parameters["alpha"],
+            eta_R_sigma=parameters["eta_R_sigma"],
         ),
         particles=tb.Particles(
             material=body,
             diameter=tb.Monodisperse(mean=diameter),
-            areal_density=given["areal_density"],
+            areal_density=parameters["areal_density"],
         ),
         particle_law=tb.particle.Series(deep="off", seat=seat, h_0=h_0),
     )
@@ -206,15 +206,15 @@ def _draw_model(ax: Axes, diameter: float, loads: np.ndarray, h_0: float) -> Ite
 def _draw_explicit(ax: Axes, diameter: float) -> Iterator[Any]:
     """The library's own runs and the older ones, both without the luck of sampling."""
     stored = [
-        (point["F_star"], told["load_share"], told["load_share_error"])
+        (point["F_star"], run["load_share"], run["load_share_error"])
         for point in explicit_particles()["points"]
         if point["diameter"] == diameter
-        for told in (point["control_variate"] or point["raw"],)
+        for run in (point["control_variate"] or point["raw"],)
     ]
     sigma = explicit_particles()["parameters"]["sigma"]
     name = f"x{diameter / sigma:.2g}".replace(".", "")
     mine = [state for state in comparison() if state["case"] == name]
-    own = [
+    library_points = [
         (state["F_star"], state["share"], state["share_error"])
         for state in mine
         if state["share_error"] is not None
@@ -223,7 +223,7 @@ def _draw_explicit(ax: Axes, diameter: float) -> Iterator[Any]:
     ours: dict[str, Any] = dict(color="black", marker="o", markersize=5, zorder=5)
     for points, words, style in (
         (stored, "explicit particles, earlier runs", older | {"markerfacecolor": "white"}),
-        (own, "explicit particles, this library", ours),
+        (library_points, "explicit particles, this library", ours),
     ):
         load, share, error = zip(*points, strict=True)
         yield ax.errorbar(

@@ -203,9 +203,9 @@ def recovery(reading: Reading, ratio: float) -> Measurement:
     if not len(lost) or lost[-1] == len(trend.ratio) - 1:
         return Measurement.absent(f"not up to {trend.pressure[-1]:.3g} Pa")
     i = lost[-1]
-    part = (ratio - trend.ratio[i]) / (trend.ratio[i + 1] - trend.ratio[i])
+    fraction = (ratio - trend.ratio[i]) / (trend.ratio[i + 1] - trend.ratio[i])
     low, high = np.log(trend.pressure[i : i + 2])
-    return Measurement.from_values(math.exp(low + part * (high - low)))
+    return Measurement.from_values(math.exp(low + fraction * (high - low)))
 
 
 @measure
@@ -249,7 +249,7 @@ def area_panel(readings: Mapping[str, Reading], name: str) -> Panel:
     trends = [(reading, reading.trend()) for reading in readings.values()]
     drawn: list[Array] = []
     for reading, trend in trends:
-        if not any(np.allclose(trend.bare_area, known) for known in drawn):
+        if not any(np.allclose(trend.bare_area, curve) for curve in drawn):
             drawn.append(trend.bare_area)
             label = f"bare: {reading.inputs['surface']}"
             lines.append(Line(label, trend.pressure, trend.bare_area, -1, len(drawn) - 1))

@@ -111,10 +111,10 @@ CASES: dict[str, tuple[float, str | float]] = {
 def solve(name: str, pressures: Array, factors: Mapping[str, float]) -> Trend:
     """The trend of one of the cases, with friction."""
     density, rear = CASES[name]
-    given = dict(factors)
-    count = density * given.pop("density", 1.0)
-    with_them = tb.solve(contact(count, rear, **given), pressure=pressures)
-    bare = tb.solve(contact(0.0, rear, **given), pressure=pressures)
+    keywords = dict(factors)
+    count = density * keywords.pop("density", 1.0)
+    with_them = tb.solve(contact(count, rear, **keywords), pressure=pressures)
+    bare = tb.solve(contact(0.0, rear, **keywords), pressure=pressures)
     mu = {name: np.asarray(value) for name, value in with_them.outputs.items()}
     return Slid(
         pressures,
@@ -173,8 +173,8 @@ def friction_falls(reading: Reading) -> Measurement:
 def particle_over_asperity(reading: Reading) -> Measurement:
     """Smallest and largest μ_sa/μ_ss over loads and x_a/σ."""
     ratio = []
-    for each in RATIOS:
-        trend = friction_trend(reading, size=each * SIGMA / SIZE)
+    for size_ratio in RATIOS:
+        trend = friction_trend(reading, size=size_ratio * SIGMA / SIZE)
         ratio.append(trend.mu_sa / trend.mu_ss)
     return Measurement.from_values(np.min(ratio), np.max(ratio))
 
@@ -193,17 +193,21 @@ def share_at_small_load(reading: Reading, size: float, pressure: float) -> Measu
 def critical_load(reading: Reading, size: float) -> float | None:
     """Load below which the particles carry nearly everything, F* [1]."""
     density, rear = CASES[reading.name]
-    found = tb.transitions(contact(density, rear, size=size).replace(outputs=()))
-    return found.F_cr1.value
+    transitions = tb.transitions(contact(density, rear, size=size).replace(outputs=()))
+    return transitions.F_cr1.value
 
 
 def critical_load_steps(reading: Reading) -> Measurement:
     """Smallest growth of F_cr1 from one x_a/σ to the next."""
-    found = [critical_load(reading, ratio * SIGMA / SIZE) for ratio in RATIOS[2:]]
-    loads = [value for value in found if value is not None]
+    critical_loads = [critical_load(reading, ratio * SIGMA / SIZE) for ratio in RATIOS[2:]]
+    loads = [value for value in critical_loads if value is not None]
     if len(loads) < 2:
         return Measurement.absent("fewer than two sizes have a critical load")
-    note = "" if len(loads) == len(found) else f"{len(loads)} of {len(found)} sizes have one"
+    note = (
+        ""
+        if len(loads) == len(critical_loads)
+        else f"{len(loads)} of {len(critical_loads)} sizes have one"
+    )
     return Measurement.from_values(np.min(np.array(loads[1:]) / np.array(loads[:-1])), note=note)
 
 
@@ -241,8 +245,8 @@ def two_body_above(reading: Reading, factor: float) -> Measurement:
 def rule_holds(reading: Reading) -> Measurement:
     """Part of all loads and sizes at which μ < μ_bare exactly where μ_sa < μ_bare."""
     agree = []
-    for each in RATIOS:
-        trend = friction_trend(reading, size=each * SIGMA / SIZE)
+    for size_ratio in RATIOS:
+        trend = friction_trend(reading, size=size_ratio * SIGMA / SIZE)
         agree.append((trend.mu < trend.bare_mu) == (trend.mu_sa < trend.bare_mu))
     return Measurement.from_values(np.mean(agree))
 
@@ -252,7 +256,7 @@ def slope_follows(reading: Reading) -> Measurement:
     agree = []
     for small, large in zip(RATIOS[:-1], RATIOS[1:], strict=True):
         before, after = (
-            friction_trend(reading, size=each * SIGMA / SIZE) for each in (small, large)
+            friction_trend(reading, size=size_ratio * SIGMA / SIZE) for size_ratio in (small, large)
         )
         agree.append((after.mu < before.mu) == (before.mu_sa < before.mu_ss))
     return Measurement.from_values(np.mean(agree))
@@ -317,8 +321,8 @@ def density_panel() -> Panel:
     densities = np.geomspace(1e9, 3e11, 34)
     pressure = np.array([5e6])
     trends = [
-        friction_trend(READINGS["few"], pressure, size=5 / 3, density=each / FEW)
-        for each in densities
+        friction_trend(READINGS["few"], pressure, size=5 / 3, density=density / FEW)
+        for density in densities
     ]
     lines = (
         Line("no particles", densities, np.array([t.bare_mu[0] for t in trends]), -1),

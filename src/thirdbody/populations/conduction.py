@@ -32,7 +32,7 @@ def conducts(dust: Particles) -> bool | None:
     >>> import thirdbody as tb
     >>> steel, sand, ceramic = (
     ...     tb.Particles(material=tb.materials[name], areal_density=1e9,
-    ...                  diameter=tb.Monodisperse(mean=1e-6))
+    ...                  diameter=tb.distributions.Monodisperse(mean=1e-6))
     ...     for name in ("S45C", "quartz", "SiC")
     ... )
     >>> conducts(steel), conducts(sand), conducts(ceramic), conducts(steel.replace(conducts=False))

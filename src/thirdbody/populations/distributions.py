@@ -318,12 +318,12 @@ class Weibull(Distribution):
         p = 1 + n / self.shape
         A, B = ((edge / self.scale) ** self.shape for edge in (lo, hi))
         upper = A > p
-        part = np.where(
+        integral = np.where(
             upper,
             special.gammaincc(p, A) - special.gammaincc(p, B),
             special.gammainc(p, B) - special.gammainc(p, A),
         )
-        closed = self.scale**n * special.gamma(p) * part
+        closed = self.scale**n * special.gamma(p) * integral
         return _narrow(self, n, lo, hi, (B - A) / np.clip(A, 1e-300, 1), closed)
 
     def scaled(self, factor: float) -> Weibull:

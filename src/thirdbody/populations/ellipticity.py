@@ -181,7 +181,7 @@ class Ellipticity(Value):
         radii = self.radii or (1.0,) * len(self.ratios)
         total = math.fsum(weights)
         shares = (weight / total for weight in weights)
-        return tuple(Asperities(*each) for each in zip(self.ratios, radii, shares, strict=True))
+        return tuple(Asperities(*row) for row in zip(self.ratios, radii, shares, strict=True))
 
     @classmethod
     def from_distribution(cls, ratio: Distribution) -> Ellipticity:
@@ -222,8 +222,8 @@ class Ellipticity(Value):
 
         Examples
         --------
-        >>> from thirdbody import Uniform
-        >>> slender = Ellipticity.from_distribution(Uniform(low=1, high=5))
+        >>> from thirdbody import distributions
+        >>> slender = Ellipticity.from_distribution(distributions.Uniform(low=1, high=5))
         >>> mean = sum(share * (ratio + 1 / ratio) for ratio, _, share in slender.classes)
         >>> len(slender.ratios), round(mean, 6)
         (5, 3.402359)
@@ -244,12 +244,12 @@ class Ellipticity(Value):
         x, order = np.unique(np.log(ratios) ** 2, return_inverse=True)
         mass = np.bincount(order.ravel(), weights=shares).astype(float)
         exact = _means(np.exp(np.sqrt(x)), np.ones_like(x), mass)
-        for nodes, part in _gauss_rules(x, mass):
-            kept = part > SMALLEST_WEIGHT
-            found = np.exp(np.sqrt(np.maximum(nodes[kept], 0.0)))
-            part = part[kept]
-            if _close(_means(found, np.ones_like(found), part), exact):
-                return cls(ratios=tuple(found), weights=tuple(part))
+        for nodes, weights in _gauss_rules(x, mass):
+            kept = weights > SMALLEST_WEIGHT
+            kept_ratios = np.exp(np.sqrt(np.maximum(nodes[kept], 0.0)))
+            weights = weights[kept]
+            if _close(_means(kept_ratios, np.ones_like(kept_ratios), weights), exact):
+                return cls(ratios=tuple(kept_ratios), weights=tuple(weights))
         raise InvalidValue(
             f"ratio = {ratio!r} spreads from {low:.3g} to {high:.3g}, too wide for "
             f"{MOST_CLASSES} classes; narrow it, or give ratios and weights",
@@ -301,30 +301,30 @@ class Ellipticity(Value):
 
         if why := problem_with(FACES["R_first"], R):
             raise InvalidValue(Problem("R", why, repr(R)))
-        given = np.sort(np.atleast_2d(np.asarray(curvatures, dtype=float)), axis=1)[:, ::-1]
-        if given.size == 0 or given.shape[1] != 2:
+        pairs = np.sort(np.atleast_2d(np.asarray(curvatures, dtype=float)), axis=1)[:, ::-1]
+        if pairs.size == 0 or pairs.shape[1] != 2:
             raise InvalidValue(
                 f"curvatures of shape {np.shape(curvatures)} must be (N, 2), two for each summit",
                 code=Mistake.SHAPE,
             )
-        tips = given[np.all(np.isfinite(given) & (given > 0), axis=1)]
-        lost = 1 - len(tips) / len(given)
+        tips = pairs[np.all(np.isfinite(pairs) & (pairs > 0), axis=1)]
+        lost = 1 - len(tips) / len(pairs)
         if lost > MOST_SADDLES:
             raise InvalidValue(
-                f"{percent(lost, digits=2)} of {len(given)} summits lack two positive curvatures; "
+                f"{percent(lost, digits=2)} of {len(pairs)} summits lack two positive curvatures; "
                 "the surface is not resolved at its summits: take a longer cut-off, or a map",
                 code=Mistake.BEYOND,
             )
         ratio, radius = tips[:, 0] / tips[:, 1], 1 / np.sqrt(tips[:, 0] * tips[:, 1]) / R
-        root_load = np.array([elliptic_hertz(float(each)).root_R_F for each in ratio])
+        root_load = np.array([elliptic_hertz(float(value)).root_R_F for value in ratio])
         root_load *= np.sqrt(radius)
         classes = []
         for alike in np.array_split(np.argsort(ratio, kind="stable"), BINS):
             inner = alike[np.argsort(radius[alike], kind="stable")]
-            for part in (part for part in np.array_split(inner, BINS) if len(part)):
-                mean = max(float(np.exp(np.log(ratio[part]).mean())), 1.0)
-                rho = (root_load[part].mean() / elliptic_hertz(mean).root_R_F) ** 2
-                classes.append((mean, float(rho), float(len(part))))
+            for group in (group for group in np.array_split(inner, BINS) if len(group)):
+                mean = max(float(np.exp(np.log(ratio[group]).mean())), 1.0)
+                rho = (root_load[group].mean() / elliptic_hertz(mean).root_R_F) ** 2
+                classes.append((mean, float(rho), float(len(group))))
         ratios, radii, weights = zip(*_merge_alike(classes), strict=True)
         return cls(ratios=ratios, radii=radii, weights=weights)
 
@@ -380,17 +380,17 @@ class Ellipticity(Value):
         >>> [round(number, 9) for number in crossed.classes[0]]
         [1.0, 0.8, 1.0]
         """
-        given = dict(
+        values = dict(
             first_ratio=first_ratio, second_ratio=second_ratio, R_first=R_first, R_second=R_second
         )
         if isinstance(angle, str) and angle != "random":
             raise InvalidValue(
                 f"angle = {angle!r} must be a number [rad] or 'random'", code=Mistake.KIND
             )
-        given |= {} if isinstance(angle, str) else {"angle": angle}
+        values |= {} if isinstance(angle, str) else {"angle": angle}
         problems = [
             Problem(name, why, repr(value))
-            for name, value in given.items()
+            for name, value in values.items()
             if (why := problem_with(FACES[name], value))
         ]
         if problems:
@@ -484,14 +484,14 @@ def _merge_alike(classes: list[tuple[float, float, float]]) -> list[tuple[float,
 def _fine(ratio: Distribution) -> tuple[Array, Array]:
     """Ratios and shares of a rule that leaves no error in a density: (N,), (N,)."""
     ratios, shares = [], []
-    for weight, part in ratio.components:
-        low, high = part.support
+    for weight, component in ratio.components:
+        low, high = component.support
         if low == high:
             ratios.append(np.array([low]))
             shares.append(np.array([weight]))
             continue
-        x, width = panel_rule(subdivide(np.array(part.pieces), width=np.inf, ratio=8.0), 32)
-        mass = width * part.pdf(x)
+        x, width = panel_rule(subdivide(np.array(component.pieces), width=np.inf, ratio=8.0), 32)
+        mass = width * component.pdf(x)
         ratios.append(x)
         shares.append(weight * mass / mass.sum())
     return np.concatenate(ratios), np.concatenate(shares)
@@ -537,5 +537,5 @@ def _means(ratios: Array, radii: Array, shares: float | Array = 1.0) -> Array:
     return shares @ values / shares.sum()
 
 
-def _close(found: Array, exact: Array) -> bool:
-    return bool(np.all(np.abs(found - exact) <= ACCURACY * np.maximum(exact, 1.0)))
+def _close(means: Array, exact: Array) -> bool:
+    return bool(np.all(np.abs(means - exact) <= ACCURACY * np.maximum(exact, 1.0)))

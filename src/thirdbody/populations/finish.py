@@ -95,9 +95,9 @@ class Finish(Value):
     process: str | None = None
 
     def _problems(self) -> list[str]:
-        given = [name for name in STATED if getattr(self, name) is not None]
-        if len(given) != 1:
-            shown = f", not {' and '.join(given)}" if given else ""
+        stated = [name for name in STATED if getattr(self, name) is not None]
+        if len(stated) != 1:
+            shown = f", not {' and '.join(stated)}" if stated else ""
             return [
                 Problem(
                     "",
@@ -106,7 +106,7 @@ class Finish(Value):
                     code=Mistake.MISSING,
                 )
             ]
-        name = given[0]
+        name = stated[0]
         if why := problem_with(STATED[name], getattr(self, name)):
             return [Problem(name, why, repr(getattr(self, name)))]
         object.__setattr__(self, name, float(getattr(self, name)))
@@ -125,11 +125,11 @@ class Finish(Value):
         Ra = self.heights[1] / RQ_OVER_RA
         if low <= Ra <= high:
             return []
-        told = f" (Ra about {value_of(Ra, 'm')})" if name != "Ra" else ""
+        Ra_text = f" (Ra about {value_of(Ra, 'm')})" if name != "Ra" else ""
         return [
             Problem(
                 f"{name}",
-                f"= {value_of(getattr(self, name), 'm')}{told} is not the height of a "
+                f"= {value_of(getattr(self, name), 'm')}{Ra_text} is not the height of a "
                 f"{self.process} face, Ra from {value_of(low, 'm')} to {value_of(high, 'm')}; "
                 "check its unit and the process",
                 code=Mistake.BEYOND,
@@ -191,12 +191,12 @@ def drawing(faces: Sequence[Finish]) -> Drawing:
                 for slope, alpha in product(slopes(face.process, Rq), spread)
             ]
         )
-    ends = [_pair(each) for each in product(*corners)]
-    found = [
+    ends = [_pair(corner) for corner in product(*corners)]
+    ranges = [
         (min(column), middle, max(column))
         for column, middle in zip(zip(*ends, strict=True), _pair(usual), strict=True)
     ]
-    return Drawing(sigma, *found)  # type: ignore[arg-type]
+    return Drawing(sigma, *ranges)  # type: ignore[arg-type]
 
 
 def _mid(ends: Sequence[float]) -> float:
@@ -226,7 +226,7 @@ def needs_process(faces: Sequence[Finish]) -> str:
 
 def assumption_sentence(faces: Sequence[Finish], used: dict[str, float]) -> str:
     """The sentence that says what was taken on the way from the drawing to the numbers used."""
-    found, tables = drawing(faces), _tables()
+    numbers, tables = drawing(faces), _tables()
     stated = "; ".join(face.words for face in faces)
     how = []
     if any(face.Ra is not None for face in faces):
@@ -238,13 +238,13 @@ def assumption_sentence(faces: Sequence[Finish], used: dict[str, float]) -> str:
         how.append("faces added as squares")
     else:
         how.append("one face, or the pair as a whole, against a smooth one")
-    out = f"{stated}: sigma = {_range_text(found.sigma, 'm')} ({'; '.join(how)})"
-    if found.R is None:
+    out = f"{stated}: sigma = {_range_text(numbers.sigma, 'm')} ({'; '.join(how)})"
+    if numbers.R is None:
         return out
     parts = [
-        f"{name} = {_range_text(getattr(found, name), unit)}"
+        f"{name} = {_range_text(getattr(numbers, name), unit)}"
         for name, unit in (("R", "m"), ("alpha", "1"), ("eta_R_sigma", "1"))
-        if used.get(name) == getattr(found, name)[1]
+        if used.get(name) == getattr(numbers, name)[1]
     ]
     if parts:
         out += (
@@ -278,16 +278,16 @@ def check_faces(faces: object) -> list[str]:
     ]
 
 
-def given_or_drawn(faces: Sequence[Finish], given: dict[str, float | None]) -> dict[str, Any]:
+def given_or_drawn(faces: Sequence[Finish], stated: dict[str, float | None]) -> dict[str, Any]:
     """σ, R, α and ηRσ or η: what is given, and the usual values of the process for the rest."""
-    found = drawing(faces)
-    out: dict[str, object] = {name: value for name, value in given.items() if value is not None}
-    if found.R is None:
+    numbers = drawing(faces)
+    out: dict[str, object] = {name: value for name, value in stated.items() if value is not None}
+    if numbers.R is None:
         if "R" not in out:
             raise InvalidValue(needs_process(faces), code=Mistake.MISSING)
     else:
-        out.setdefault("R", found.R[1])
-        out.setdefault("alpha", found.alpha[1])  # type: ignore[index]
+        out.setdefault("R", numbers.R[1])
+        out.setdefault("alpha", numbers.alpha[1])  # type: ignore[index]
         if "eta" not in out:
-            out.setdefault("eta_R_sigma", found.eta_R_sigma[1])  # type: ignore[index]
-    return {"sigma": found.sigma[1]} | out
+            out.setdefault("eta_R_sigma", numbers.eta_R_sigma[1])  # type: ignore[index]
+    return {"sigma": numbers.sigma[1]} | out

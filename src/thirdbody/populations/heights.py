@@ -312,11 +312,11 @@ class JohnsonHeights(Heights):
         try:
             with np.errstate(all="ignore"):
                 z, weight = panel_rule(np.array(self.pieces), 24)
-                found = (weight * self.pdf(z)) @ z[:, None] ** np.arange(5)
+                moments = (weight * self.pdf(z)) @ z[:, None] ** np.arange(5)
         except InvalidValue:
             return False
-        asked = np.array([1.0, 0.0, 1.0, self.skewness, self.kurtosis])
-        return bool(np.all(np.abs(found - asked) <= ASKED * np.maximum(1, np.abs(asked))))
+        wanted = np.array([1.0, 0.0, 1.0, self.skewness, self.kurtosis])
+        return bool(np.all(np.abs(moments - wanted) <= ASKED * np.maximum(1, np.abs(wanted))))
 
     @property
     def family(self) -> str:

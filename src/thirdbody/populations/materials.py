@@ -63,7 +63,7 @@ class Material(Value):
     K_c : float, optional
         Fracture toughness K_c [Pa √m].
     sigma_0, x_0, m, size_exponent : float, optional
-        Strength of grains, as in `thirdbody.WeibullStrength.of`.
+        Strength of grains, as in `thirdbody.grains.WeibullStrength.of`.
 
     Raises
     ------
@@ -232,13 +232,13 @@ class MaterialLibrary(Mapping[str, Material]):
         named = os.environ.get(OWN_FILES, "").split(os.pathsep)
         out = dict(_own_materials())
         for file in (*(Path(name) for name in named if name), *self.files):
-            own = _entries_of_file(file)
-            if taken := [name for name in own if name in out and out[name] != own[name]]:
+            entries = _entries_of_file(file)
+            if taken := [name for name in entries if name in out and out[name] != entries[name]]:
                 raise InvalidValue(
                     *(f"{file}: [{name}] is in the library; choose another name" for name in taken),
                     code=Mistake.CLASH,
                 )
-            out |= own
+            out |= entries
         return out
 
     @names_arguments
@@ -310,13 +310,13 @@ class MaterialLibrary(Mapping[str, Material]):
 
     def near(self, name: str) -> str | None:
         """Name of the entry that was probably meant: an alias, or the most similar name."""
-        known = {name.casefold(): name for name in self}
-        for own, entry in self.entries().items():
+        names = {name.casefold(): name for name in self}
+        for entry_name, entry in self.entries().items():
             for other in entry.get("aliases", ()):
-                known.setdefault(other.casefold(), own)
-                known.setdefault(other.split()[-1].casefold(), own)
-        meant = nearest_word(str(name), known)
-        return known[meant] if meant else None
+                names.setdefault(other.casefold(), entry_name)
+                names.setdefault(other.split()[-1].casefold(), entry_name)
+        meant = nearest_word(str(name), names)
+        return names[meant] if meant else None
 
     @names_arguments
     def __getitem__(self, name: str) -> Material:
@@ -346,8 +346,8 @@ class MaterialLibrary(Mapping[str, Material]):
 
 
 def _material(name: str, entry: dict[str, Any]) -> Material:
-    given = {key: entry[key] for key in NUMBERS if key in entry}
-    return Material(**given, name=name, source=entry["source"])
+    numbers = {key: entry[key] for key in NUMBERS if key in entry}
+    return Material(**numbers, name=name, source=entry["source"])
 
 
 def _text(name: str, entry: dict[str, Any]) -> str:
@@ -397,7 +397,7 @@ def _entries_of_file(file: Path) -> dict[str, dict[str, object]]:
 
 def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, object]:
     """An entry with its numbers in SI; mistakes are added to ``problems``."""
-    known = (*NUMBERS, *_WORDS, "aliases", "range", "sources")
+    allowed_keys = (*NUMBERS, *_WORDS, "aliases", "range", "sources")
     out = dict(entry)
     for key, value in entry.items():
         if key in NUMBERS:
@@ -420,11 +420,11 @@ def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, 
                     "", f"{where}.sources = {value!r} must be a table of text", code=Mistake.KIND
                 )
             )
-        elif key not in known:
+        elif key not in allowed_keys:
             problems.append(
                 Problem(
                     "",
-                    f"{where}.{key} is not a known key; {guess(key, known)}",
+                    f"{where}.{key} is not a known key; {guess(key, allowed_keys)}",
                     code=Mistake.UNKNOWN,
                 )
             )
@@ -466,9 +466,9 @@ def _number(where: str, key: str, value: object, problems: list[str]) -> float |
     return number
 
 
-def _ranges(where: str, given: object, problems: list[str]) -> dict[str, list[float]]:
+def _ranges(where: str, ranges: object, problems: list[str]) -> dict[str, list[float]]:
     out: dict[str, list[float]] = {}
-    for key, ends in given.items() if isinstance(given, dict) else [("range", given)]:
+    for key, ends in ranges.items() if isinstance(ranges, dict) else [("range", ranges)]:
         if key not in NUMBERS or not isinstance(ends, list) or len(ends) != 2:
             problems.append(
                 Problem(

@@ -52,9 +52,9 @@ class Particles(Value):
 
     Examples
     --------
-    >>> from thirdbody import materials, Monodisperse
-    >>> dust = Particles(material=materials["SiO2"], diameter=Monodisperse(mean=3e-7),
-    ...                  areal_density=1e11)
+    >>> from thirdbody import distributions, materials
+    >>> dust = Particles(material=materials["SiO2"], areal_density=1e11,
+    ...                  diameter=distributions.Monodisperse(mean=3e-7))
     >>> round(dust.coverage, 6)
     0.007069
     """
@@ -391,9 +391,9 @@ class Particles(Value):
 
         Examples
         --------
-        >>> from thirdbody import materials, Monodisperse
-        >>> dust = Particles(material=materials["SiO2"], diameter=Monodisperse(mean=8e-6),
-        ...                  areal_density=1e3)
+        >>> from thirdbody import distributions, materials
+        >>> dust = Particles(material=materials["SiO2"], areal_density=1e3,
+        ...                  diameter=distributions.Monodisperse(mean=8e-6))
         >>> dust.iso4406(gap="1 um")
         '17/17/0'
         """

@@ -128,19 +128,19 @@ class Roughness(Value):
         faces = (first,) if second is None else (first, second)
         if problems := check_faces(faces):
             raise InvalidValue(*problems)
-        given = {"R": R, "alpha": alpha, "eta_R_sigma": eta_R_sigma, "eta": eta}
-        return cls(**given_or_drawn(faces, given), **others, finish=faces)
+        values = {"R": R, "alpha": alpha, "eta_R_sigma": eta_R_sigma, "eta": eta}
+        return cls(**given_or_drawn(faces, values), **others, finish=faces)
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:
         """Low and high ends of what the drawing leaves open, in SI; of numbers set since, none."""
         if not self.finish:
             return {}
-        found = drawing(self.finish)._asdict()
+        numbers = drawing(self.finish)._asdict()
         return {
-            name: (known[0], known[2])
-            for name, known in found.items()
-            if known is not None and known[0] < known[2] and getattr(self, name) == known[1]
+            name: (ends[0], ends[2])
+            for name, ends in numbers.items()
+            if ends is not None and ends[0] < ends[2] and getattr(self, name) == ends[1]
         }
 
     def to_dict(self) -> dict[str, Any]:

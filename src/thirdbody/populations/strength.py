@@ -134,12 +134,12 @@ class WeibullStrength(Value):
         """
         if not isinstance(material, Material):
             raise InvalidValue(f"material = {material!r} must be a Material", code=Mistake.KIND)
-        known = {name: getattr(material, name) for name in ("sigma_0", "x_0", "m")}
-        if None not in known.values():
-            return cls(**known | {"size_exponent": material.size_exponent} | options)
+        numbers = {name: getattr(material, name) for name in ("sigma_0", "x_0", "m")}
+        if None not in numbers.values():
+            return cls(**numbers | {"size_exponent": material.size_exponent} | options)
         if material.K_c is not None:
             return cls.from_toughness(material.K_c, **options)
-        missing = ", ".join(name for name, value in known.items() if value is None)
+        missing = ", ".join(name for name, value in numbers.items() if value is None)
         raise InvalidValue(
             f"the material {material.name or 'of these particles'} has no strength: it lacks "
             f"{missing}, and K_c for an estimate; " + OTHER_STRENGTH,

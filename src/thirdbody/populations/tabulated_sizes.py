@@ -82,9 +82,9 @@ class Histogram(Distribution):
         """Lower edges, upper edges and densities of the bins between the first and last filled."""
         e, c = np.array(self.edges), np.array(self.counts)
         filled = np.flatnonzero(c)
-        part = slice(filled[0], filled[-1] + 1)
-        lo, hi = e[:-1][part], e[1:][part]
-        return lo, hi, c[part] / c.sum() / (hi - lo)
+        rows = slice(filled[0], filled[-1] + 1)
+        lo, hi = e[:-1][rows], e[1:][rows]
+        return lo, hi, c[rows] / c.sum() / (hi - lo)
 
     @property
     def support(self) -> tuple[float, float]:
@@ -202,9 +202,9 @@ class PowerLaw(Distribution):
     def _sections(self) -> tuple[Array, Array, Array, Array]:
         """Edges below and above, slopes and shares, from the first to the last filled section."""
         filled = np.flatnonzero(self.counts)
-        part = slice(filled[0], filled[-1] + 1)
+        rows = slice(filled[0], filled[-1] + 1)
         e, c = np.array(self.edges), np.array(self.counts)
-        return e[:-1][part], e[1:][part], np.array(self.slopes)[part], c[part] / c.sum()
+        return e[:-1][rows], e[1:][rows], np.array(self.slopes)[rows], c[rows] / c.sum()
 
     @property
     def support(self) -> tuple[float, float]:
@@ -242,12 +242,12 @@ class PowerLaw(Distribution):
         above = np.cumsum(share[filled])
         i = filled[np.clip(np.searchsorted(above, q), 0, len(filled) - 1)]
         start = (np.cumsum(share) - share)[i]
-        part = np.clip((q - start) / share[i], 0.0, 1.0)
+        fraction = np.clip((q - start) / share[i], 0.0, 1.0)
         long, slope = np.log(hi / lo)[i], s[i]
         safe = np.where(slope == 0, 1.0, slope)
         with np.errstate(divide="ignore"):
-            step = -np.log1p(part * np.expm1(-safe * long)) / safe
-        step = np.where(slope == 0, part * long, step)
+            step = -np.log1p(fraction * np.expm1(-safe * long)) / safe
+        step = np.where(slope == 0, fraction * long, step)
         return lo[i] * np.exp(np.clip(step, 0.0, long))
 
     def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:
@@ -284,8 +284,9 @@ class Mixture(Distribution):
 
     Examples
     --------
-    >>> from thirdbody import Monodisperse
-    >>> both = Mixture(parts=(Monodisperse(mean=1e-7), Monodisperse(mean=3e-7)), weights=(3, 1))
+    >>> from thirdbody import distributions
+    >>> parts = (distributions.Monodisperse(mean=1e-7), distributions.Monodisperse(mean=3e-7))
+    >>> both = Mixture(parts=parts, weights=(3, 1))
     >>> round(both.mean_diameter * 1e9, 6)
     150.0
     """
@@ -312,7 +313,7 @@ class Mixture(Distribution):
                     code=Mistake.SHAPE,
                 )
             )
-        if any(not isinstance(part, Distribution) for part in self.parts):
+        if any(not isinstance(component, Distribution) for component in self.parts):
             out.append(Problem("parts", "must all be size distributions", code=Mistake.KIND))
         if any(not (w > 0 and math.isfinite(w)) for w in self.weights):
             out.append(Problem("weights", "must all be > 0", code=Mistake.RANGE))
@@ -323,29 +324,29 @@ class Mixture(Distribution):
         total = sum(self.weights)
         return tuple(
             (w / total * inner, simple)
-            for w, part in zip(self.weights, self.parts, strict=True)
-            for inner, simple in part.components
+            for w, component in zip(self.weights, self.parts, strict=True)
+            for inner, simple in component.components
         )
 
     @property
     def support(self) -> tuple[float, float]:
-        ends = [part.support for _, part in self.components]
+        ends = [component.support for _, component in self.components]
         return (min(lo for lo, _ in ends), max(hi for _, hi in ends))
 
     @property
     def pieces(self) -> tuple[float, ...]:
-        return tuple(sorted({x for _, part in self.components for x in part.pieces}))
+        return tuple(sorted({x for _, component in self.components for x in component.pieces}))
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        return tuple(sorted({x for _, part in self.components for x in part.kinks}))
+        return tuple(sorted({x for _, component in self.components for x in component.kinks}))
 
     @property
     def retained_mass(self) -> float:
-        return sum(w * part.retained_mass for w, part in self.components)
+        return sum(w * component.retained_mass for w, component in self.components)
 
     def _sum(self, method: str, *args: object) -> Array:
-        return sum(w * getattr(part, method)(*args) for w, part in self.components)
+        return sum(w * getattr(component, method)(*args) for w, component in self.components)
 
     def pdf(self, x: ArrayLike) -> Array:
         return self._sum("pdf", x)
@@ -365,7 +366,7 @@ class Mixture(Distribution):
 
     def scaled(self, factor: float) -> Mixture:
         return Mixture(
-            parts=tuple(part.scaled(factor) for part in self.parts), weights=self.weights
+            parts=tuple(component.scaled(factor) for component in self.parts), weights=self.weights
         )
 
     def standardised(self) -> tuple[float, Distribution]:

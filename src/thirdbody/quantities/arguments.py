@@ -88,21 +88,21 @@ def need_one(name: str, value: object, *options: str | int) -> None:
     """
     if not (type(value) in (str, int) or isinstance(value, np.integer)) or value not in options:
         two = len(options) == 2
-        known = (" or " if two else ", ").join(map(repr, options))
+        allowed = (" or " if two else ", ").join(map(repr, options))
         shown = repr(value) if isinstance(value, str) else _short_text(value)
-        rule = f"must be {'' if two else 'one of '}{known}"
+        rule = f"must be {'' if two else 'one of '}{allowed}"
         raise InvalidValue(Problem(name, rule, shown, code=Mistake.OPTION))
 
 
 def only_one(**quantities: object) -> tuple[str, object]:
     """Name and value of the only quantity that is not None."""
-    given = {name: value for name, value in quantities.items() if value is not None}
-    if len(given) != 1:
-        names = ", ".join(given) or "none"
+    values = {name: value for name, value in quantities.items() if value is not None}
+    if len(values) != 1:
+        names = ", ".join(values) or "none"
         raise InvalidValue(
             f"give exactly one of {', '.join(quantities)}; got {names}", code=Mistake.MISSING
         )
-    return given.popitem()
+    return values.popitem()
 
 
 def is_empty(name: str, hint: str) -> Problem:
@@ -205,7 +205,7 @@ def refuse_misfits(
     if isinstance(error, InvalidValue) and not isinstance(error, WrongKind):
         return
     if problems := misfits(function, args, named, numbers=numbers):
-        raise WrongKind(*(each.changed(owner=where) for each in problems)) from None
+        raise WrongKind(*(problem.changed(owner=where) for problem in problems)) from None
 
 
 def misfits(
@@ -227,11 +227,11 @@ def misfits(
     """
     try:
         signature = inspect.signature(function)
-        given = signature.bind_partial(*args, **named).arguments
+        arguments = signature.bind_partial(*args, **named).arguments
     except TypeError:
         return []  # Python's own sentence names what is missing or too much
     problems = []
-    for name, value in given.items():
+    for name, value in arguments.items():
         parameter = signature.parameters[name]
         if parameter.kind is parameter.VAR_KEYWORD:
             continue  # another function takes them
@@ -241,11 +241,11 @@ def misfits(
         if node is None or (value is parameter.default and value is not None):
             continue
         space = getattr(inspect.unwrap(function), "__globals__", {})
-        for each in value if parameter.kind is parameter.VAR_POSITIONAL else [value]:
-            if not _fits(node, each, space):
+        for argument in value if parameter.kind is parameter.VAR_POSITIONAL else [value]:
+            if not _fits(node, argument, space):
                 words = " or ".join(dict.fromkeys(_words(node, space)))
                 problems.append(
-                    Problem(name, f"must be {words}", _short_text(each), code=Mistake.KIND)
+                    Problem(name, f"must be {words}", _short_text(argument), code=Mistake.KIND)
                 )
     return problems
 
@@ -307,8 +307,8 @@ def _are_numbers(value: object) -> bool:
     if isinstance(value, Iterator):
         return True  # it is not used up to look at it
     try:
-        found = np.asarray(value)
-        return found.dtype.kind in "iuf" or found.astype(float).dtype.kind == "f"
+        array = np.asarray(value)
+        return array.dtype.kind in "iuf" or array.astype(float).dtype.kind == "f"
     except (TypeError, ValueError):
         return False
 
@@ -374,7 +374,7 @@ def _inside(node: ast.expr) -> list[ast.expr]:
 
 
 def _fits(node: ast.expr, value: object, space: Mapping[str, object]) -> bool:
-    return any(_fits_one(each, value, space) for each in _alternatives(node))
+    return any(_fits_one(alternative, value, space) for alternative in _alternatives(node))
 
 
 def _fits_one(node: ast.expr, value: Any, space: Mapping[str, object]) -> bool:
@@ -388,17 +388,19 @@ def _fits_one(node: ast.expr, value: Any, space: Mapping[str, object]) -> bool:
             return (
                 hasattr(value, "__len__")
                 and len(value) == len(inside)
-                and all(_fits(one, each, space) for one, each in zip(inside, value, strict=True))
+                and all(
+                    _fits(one, element, space) for one, element in zip(inside, value, strict=True)
+                )
             )
         if not inside or isinstance(value, Iterator):
             return True
-        return all(_fits(inside[0], each, space) for each in value)
+        return all(_fits(inside[0], element, space) for element in value)
     if name in MAPPINGS:
         return isinstance(value, Mapping) and (
             len(inside) != 2
             or all(
-                _fits(inside[0], key, space) and _fits(inside[1], each, space)
-                for key, each in value.items()
+                _fits(inside[0], key, space) and _fits(inside[1], element, space)
+                for key, element in value.items()
             )
         )
     if _are_words(name, space):
@@ -414,26 +416,26 @@ def _are_words(name: str, space: Mapping[str, object]) -> bool:
 
 def _kind(name: str, space: Mapping[str, object]) -> type | None:
     """Class that an annotation names; None for anything else, or if it is not known."""
-    found = space.get(name)
-    if found is None:  # imported for types alone
+    named_class = space.get(name)
+    if named_class is None:  # imported for types alone
         held = (vars(module).get(name) for key, module in list(sys.modules.items())
                 if key.startswith("thirdbody") and module is not None)  # fmt: skip
-        found = next((each for each in held if each is not None), None)
-    if not isinstance(found, type) or getattr(found, "_is_protocol", False):
+        named_class = next((member for member in held if member is not None), None)
+    if not isinstance(named_class, type) or getattr(named_class, "_is_protocol", False):
         return None
-    return found
+    return named_class
 
 
 def _words(node: ast.expr, space: Mapping[str, object]) -> Iterator[str]:
     """Values that an annotation takes, in words."""
-    names = [_name(each) for each in _alternatives(node)]
-    for each, name in zip(_alternatives(node), names, strict=True):
+    names = [_name(alternative) for alternative in _alternatives(node)]
+    for alternative, name in zip(_alternatives(node), names, strict=True):
         if name == "str" and ("PathLike" in names or "Path" in names):
             continue  # the text is the path
         if name in LEAVES:
             yield LEAVES[name][1]
         elif name in LISTS:
-            inner = _inside(each)
+            inner = _inside(alternative)
             exact = name == "tuple" and len(inner) > 1 and _name(inner[-1]) != "Ellipsis"
             if exact:
                 yield f"{len(inner)} values, " + " and ".join(
@@ -442,7 +444,7 @@ def _words(node: ast.expr, space: Mapping[str, object]) -> Iterator[str]:
             else:
                 yield f"a list of {_many(inner, space)}" if inner else "a list"
         elif name in MAPPINGS:
-            yield "a mapping (dict) of names" if _inside(each) else "a mapping (dict)"
+            yield "a mapping (dict) of names" if _inside(alternative) else "a mapping (dict)"
         elif _are_words(name, space):
             yield "text"
         elif name:
@@ -454,5 +456,5 @@ PLURALS = {"text": "texts", "a number": "numbers", "a whole number": "whole numb
 
 
 def _many(inner: Sequence[ast.expr], space: Mapping[str, object]) -> str:
-    each = " or ".join(dict.fromkeys(_words(inner[0], space)))
-    return PLURALS.get(each, f"which each is {each}")
+    words = " or ".join(dict.fromkeys(_words(inner[0], space)))
+    return PLURALS.get(words, f"which each is {words}")

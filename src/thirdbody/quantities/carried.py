@@ -143,11 +143,11 @@ def in_si(value: Any, unit: str) -> Any:
     if not carries_unit(value):
         return value
     if isinstance(value, Mapping):
-        return {key: in_si(each, unit) for key, each in value.items()}
+        return {key: in_si(element, unit) for key, element in value.items()}
     if isinstance(value, tuple):
-        return tuple(in_si(each, unit) for each in value)
+        return tuple(in_si(element, unit) for element in value)
     if isinstance(value, list):
-        return [in_si(each, unit) for each in value]
+        return [in_si(element, unit) for element in value]
     if _speaks(value):
         return _convert(value, unit)
     if (label := _unit_label(value)) is not None:
@@ -155,7 +155,7 @@ def in_si(value: Any, unit: str) -> Any:
             return _convert(value.data, unit)
         return _scale(np.asarray(value, float), _factor(value.name, label, unit))
     items = value.ravel() if type(value) is np.ndarray else value
-    return np.reshape([float(in_si(each, unit)) for each in items], np.shape(value))
+    return np.reshape([float(in_si(element, unit)) for element in items], np.shape(value))
 
 
 def _convert(value: Any, unit: str) -> Any:
@@ -167,13 +167,19 @@ def _convert(value: Any, unit: str) -> Any:
         except Exception:
             raise InvalidValue(_why_not(value, unit), code=Mistake.UNIT) from None
     try:
-        given, found = (_magnitude(each) for each in (value, value.to(wanted or "dimensionless")))
+        numbers, wanted_numbers = (
+            _magnitude(quantity) for quantity in (value, value.to(wanted or "dimensionless"))
+        )
     except Exception:
         raise InvalidValue(_why_not(value, unit), code=Mistake.UNIT) from None
-    some = np.flatnonzero(np.isfinite(given) & (given != 0))
-    factor = float(found.flat[some[0]] / given.flat[some[0]]) if len(some) else math.nan
-    exact = _scale(given, factor)
-    out = exact if np.allclose(exact, found, rtol=1e-12, atol=0, equal_nan=True) else found
+    some = np.flatnonzero(np.isfinite(numbers) & (numbers != 0))
+    factor = float(wanted_numbers.flat[some[0]] / numbers.flat[some[0]]) if len(some) else math.nan
+    exact = _scale(numbers, factor)
+    out = (
+        exact
+        if np.allclose(exact, wanted_numbers, rtol=1e-12, atol=0, equal_nan=True)
+        else wanted_numbers
+    )
     return out if out.ndim else float(out)
 
 
@@ -182,36 +188,36 @@ def _magnitude(value: Any) -> np.ndarray:
     return np.asarray(bare, float)
 
 
-def _scale(given: np.ndarray, factor: float) -> np.ndarray:
+def _scale(numbers: np.ndarray, factor: float) -> np.ndarray:
     """Numbers times a factor; powers of ten as one writes them: 250 nm is the double 250e-9."""
     exponent = round(math.log10(factor)) if factor > 0 and math.isfinite(factor) else 0
     if not math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
-        return given * factor
-    shifted = [float(Decimal(repr(each)).scaleb(exponent)) for each in given.ravel().tolist()]
-    return np.reshape(shifted, given.shape)
+        return numbers * factor
+    shifted = [float(Decimal(repr(number)).scaleb(exponent)) for number in numbers.ravel().tolist()]
+    return np.reshape(shifted, numbers.shape)
 
 
 def _factor(name: object, label: str, unit: str) -> float:
     """Factor from the unit of an array's label to the unit wanted."""
-    own = "" if label == "1" else label.replace("^", "**")
+    label_unit = "" if label == "1" else label.replace("^", "**")
     wanted = library_unit(unit) or "dimensionless"
     try:
-        return float(registry().convert(1.0, own or "dimensionless", wanted))
+        return float(registry().convert(1.0, label_unit or "dimensionless", wanted))
     except Exception:
         shown = f"{name or 'the array'} [{label}]"
         raise InvalidValue(
-            f"{shown} is {kind_of(own)}, but {kind_needed(unit)}", code=Mistake.UNIT
+            f"{shown} is {kind_of(label_unit)}, but {kind_needed(unit)}", code=Mistake.UNIT
         ) from None
 
 
 def _why_not(value: Any, unit: str) -> str:
     """Why a quantity cannot stand for this unit."""
-    own = value.units if hasattr(value, "units") else value.unit
+    value_unit = value.units if hasattr(value, "units") else value.unit
     shown = " ".join(str(value).split())
-    shown = shown if len(shown) <= 60 else f"an array [{own}]"
+    shown = shown if len(shown) <= 60 else f"an array [{value_unit}]"
     if isinstance(getattr(value, "magnitude", getattr(value, "value", None)), str):
         return f"{shown} is no number with a unit; it must be {kind_needed(unit)}"
-    kind = kind_of(str(own))
+    kind = kind_of(str(value_unit))
     return f"{shown} is {kind}, but {kind_needed(unit)}"
 
 
@@ -336,15 +342,19 @@ def _refuse_no_numbers(
     function: Callable[..., object], args: tuple[object, ...], named: dict[str, object]
 ) -> None:
     """Refuse masked and huge values, and truth values where a number with a unit is needed."""
-    given = _signature_of(function).bind_partial(*args, **named).arguments
+    arguments = _signature_of(function).bind_partial(*args, **named).arguments
     owner: type = type(args[0]) if args else object
     units = units_of(function, owner)
     problems: list[str] = []
-    for name, value in given.items():
-        for key, each in value.items() if isinstance(value, dict) else [(name, value)]:
-            some = each if type(each) in (list, tuple) and len(each) <= LOOKED_AT else [each]
-            if isinstance(each, np.ndarray) and each.dtype.kind == "O":
-                some = list(each.flat)
+    for name, value in arguments.items():
+        for key, argument in value.items() if isinstance(value, dict) else [(name, value)]:
+            some = (
+                argument
+                if type(argument) in (list, tuple) and len(argument) <= LOOKED_AT
+                else [argument]
+            )
+            if isinstance(argument, np.ndarray) and argument.dtype.kind == "O":
+                some = list(argument.flat)
             if why := next(filter(None, map(huge_words, some)), ""):
                 problems.append(Problem(key, why))
                 continue
@@ -352,7 +362,7 @@ def _refuse_no_numbers(
                 problems.append(Problem(key, why))
             elif units.get(key) is not None and any(map(_is_truth, some)):
                 rule = "must be a number, not a truth value"
-                problems.append(Problem(key, rule, repr(each), code=Mistake.KIND))
+                problems.append(Problem(key, rule, repr(argument), code=Mistake.KIND))
     if problems:
         raise InvalidValue(*problems)
 
@@ -362,12 +372,12 @@ def _is_truth(value: object) -> bool:
     return isinstance(value, (bool, np.bool_)) or getattr(value, "dtype", None) == np.bool_
 
 
-def _need_contact(given: object) -> None:
+def _need_contact(value: object) -> None:
     """Refuse what is no contact: None, a study, a mapping."""
-    if hasattr(given, "asperity_law"):
+    if hasattr(value, "asperity_law"):
         return
-    shown = f"a {type(given).__name__}" if given is not None else "None"
-    cause = "; of a study take study.contact" if hasattr(given, "contact") else ""
+    shown = f"a {type(value).__name__}" if value is not None else "None"
+    cause = "; of a study take study.contact" if hasattr(value, "contact") else ""
     raise InvalidValue(
         Problem(
             "contact",
@@ -382,28 +392,31 @@ def _all_in_si(
     function: Callable[..., object], args: tuple[object, ...], named: dict[str, object]
 ) -> tuple[tuple[object, ...], dict[str, object]]:
     """Arguments in SI."""
-    given = _signature_of(function).bind_partial(*args, **named)
+    call = _signature_of(function).bind_partial(*args, **named)
     owner = args[0] if args else None
     units = units_of(function, owner if isinstance(owner, type) else type(owner))
     problems: list[str] = []
-    for name, value in given.arguments.items():
-        parameter = given.signature.parameters[name]
+    for name, value in call.arguments.items():
+        parameter = call.signature.parameters[name]
         if parameter.kind is parameter.VAR_KEYWORD:  # another door takes them
-            own = {key: _argument_in_si(units, key, each, problems) for key, each in value.items()
-                   if carries_unit(each) and units.get(key)}  # fmt: skip
-            given.arguments[name] = value | own
+            converted = {
+                key: _argument_in_si(units, key, quantity, problems)
+                for key, quantity in value.items()
+                if carries_unit(quantity) and units.get(key)
+            }
+            call.arguments[name] = value | converted
         elif not carries_unit(value):
             continue
         elif name == "vary" and isinstance(value, Mapping):
             inputs = {key: _unit_of_input(owner, key) for key in value}
-            given.arguments[name] = {
+            call.arguments[name] = {
                 k: _argument_in_si(inputs, k, v, problems) for k, v in value.items()
             }
         elif units.get(name) or _is_number(parameter) or not hasattr(value, "attrs"):
-            given.arguments[name] = _argument_in_si(units, name, value, problems)
+            call.arguments[name] = _argument_in_si(units, name, value, problems)
     if problems:
         raise InvalidValue(*problems)
-    return given.args, given.kwargs
+    return call.args, call.kwargs
 
 
 def _argument_in_si(
@@ -423,14 +436,17 @@ def _argument_in_si(
     try:
         return in_si(value, unit)
     except InvalidValue as error:
-        problems += [Problem(name, f"= {each}", code=each.code) for each in error.problems]
+        problems += [Problem(name, f"= {problem}", code=problem.code) for problem in error.problems]
         return value
 
 
 def _is_number(parameter: inspect.Parameter) -> bool:
     """Whether an argument is a number or an array by its type, or may be."""
-    told = "" if parameter.annotation is parameter.empty else str(parameter.annotation)
-    return not told or re.search(r"\b(float|int|ArrayLike|Array|Number)\b", told) is not None
+    annotation = "" if parameter.annotation is parameter.empty else str(parameter.annotation)
+    return (
+        not annotation
+        or re.search(r"\b(float|int|ArrayLike|Array|Number)\b", annotation) is not None
+    )
 
 
 def _unit_of_input(contact: Any, name: str) -> str | None:
@@ -453,10 +469,10 @@ def units_of(function: Callable[..., object], owner: type = object) -> dict[str,
 
     None where a docstring names none, or several.
     """
-    found: dict[str, str | None] = dict(USUAL)
+    units: dict[str, str | None] = dict(USUAL)
     for docstring in reversed(list(_docstrings(function, owner))):
-        found |= {name: unit for name, unit in arguments_of(docstring) if unit or name not in found}
-    return found
+        units |= {name: unit for name, unit in arguments_of(docstring) if unit or name not in units}
+    return units
 
 
 def _docstrings(function: Callable[..., object], owner: type) -> Iterator[str]:
@@ -483,15 +499,15 @@ def arguments_of(docstring: str) -> Iterator[tuple[str, str | None]]:
     """
     text = inspect.cleandoc(docstring)
     section = re.search(r"^Parameters\n-+\n(.*?)(?=^\S[^\n]*\n-{3,}|\Z)", text, re.S | re.M)
-    for part in re.split(r"^(?=\S)", section[1], flags=re.M) if section else ():
-        if not (head := re.match(r"(\*{0,2}\w+(?:, *\w+)*) :", part)):
+    for entry in re.split(r"^(?=\S)", section[1], flags=re.M) if section else ():
+        if not (head := re.match(r"(\*{0,2}\w+(?:, *\w+)*) :", entry)):
             continue
         names = head[1].split(", ")
-        units = re.findall(r"\[([^\]\[]+)\]", part)
+        units = re.findall(r"\[([^\]\[]+)\]", entry)
         if len(set(units)) == 1:
             units = units[:1] * len(names)
-        known = units if len(units) == len(names) else [None] * len(names)
-        for name, unit in zip(names, known, strict=True):
+        named_units = units if len(units) == len(names) else [None] * len(names)
+        for name, unit in zip(names, named_units, strict=True):
             yield (
                 name.strip("*"),
                 unit if unit is not None and library_unit(unit) is not None else None,

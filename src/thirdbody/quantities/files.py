@@ -73,13 +73,13 @@ def read_bytes(path: str | os.PathLike[str], what: str, *, most: int = MOST_BYTE
             f"cannot read {path}: it is a device, not {what}", code=Mistake.UNREADABLE
         )
     with open(path, "rb") as file:
-        found = file.read(most + 1)
-    if len(found) > most:
+        content = file.read(most + 1)
+    if len(content) > most:
         raise InvalidValue(
             f"cannot read {path}: it is longer than {most // 2**20} MiB, which {what} never is",
             code=Mistake.UNREADABLE,
         )
-    return found
+    return content
 
 
 @contextmanager
@@ -166,7 +166,7 @@ def refused_by_disk(
     except OSError as error:
         about = error.filename
         ours = about is None or any(
-            Path(about).is_relative_to(each) for each in (path, draft) if each
+            Path(about).is_relative_to(place) for place in (path, draft) if place
         )
         if not ours:
             raise
@@ -209,8 +209,8 @@ def _remove_left(target: Path) -> None:
     names = _draft_names(target.stem, target.suffix)
     with suppress(OSError), os.scandir(target.parent) as entries:
         for entry in entries:
-            found = names.fullmatch(entry.name)
-            if found and entry.is_file(follow_symlinks=False) and not _is_written(found, entry):
+            match = names.fullmatch(entry.name)
+            if match and entry.is_file(follow_symlinks=False) and not _is_written(match, entry):
                 Path(entry.path).unlink(missing_ok=True)
 
 
@@ -247,15 +247,15 @@ def remove_files(place: Path, names: re.Pattern[str]) -> None:
     if place.is_symlink() or not place.is_dir():
         return
     files = [Path(folder, name) for folder, _, held in os.walk(place) for name in held]
-    strange = [each for each in files if not names.fullmatch(each.relative_to(place).as_posix())]
+    strange = [file for file in files if not names.fullmatch(file.relative_to(place).as_posix())]
     if strange:
-        shown = ", ".join(str(each) for each in sorted(strange)[:3])
+        shown = ", ".join(str(file) for file in sorted(strange)[:3])
         raise InvalidValue(
             f"{place} has to go, and holds what this run did not make ({shown}); move that away",
             code=Mistake.UNWRITABLE,
         )
-    for each in files:
-        each.unlink(missing_ok=True)
+    for file in files:
+        file.unlink(missing_ok=True)
     for folder, _, _ in os.walk(place, topdown=False):
         Path(folder).rmdir()
 

@@ -18,5 +18,5 @@ def offers() -> tuple[EntryPoint, ...]:
     return tuple(
         entry
         for group in GROUPS
-        for entry in sorted(every.select(group=group), key=lambda each: (each.name, each.value))
+        for entry in sorted(every.select(group=group), key=lambda point: (point.name, point.value))
     )

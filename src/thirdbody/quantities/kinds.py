@@ -141,10 +141,10 @@ def kind_of(unit: str) -> str:
     ('a pressure', 'in m**7', 'in wibble')
     """
     try:
-        found = registry().parse_units(unit)
+        parsed = registry().parse_units(unit)
     except Exception:
         return f"in {unit}"
-    return kind_of_parsed(found)
+    return kind_of_parsed(parsed)
 
 
 def kind_needed(unit: str) -> str:
@@ -160,11 +160,11 @@ def kind_needed(unit: str) -> str:
     return f"{kind} is needed" if unit == "1" else f"{kind} [{unit}] is needed"
 
 
-def kind_of_parsed(found: Any) -> str:
+def kind_of_parsed(parsed: Any) -> str:
     """What a unit of the registry measures, in words."""
     kinds = (
         name
         for kind, name in KINDS.items()
-        if registry().parse_units(kind).dimensionality == found.dimensionality
+        if registry().parse_units(kind).dimensionality == parsed.dimensionality
     )
-    return next(kinds, f"in {registry().get_base_units(found)[1]:~C}")
+    return next(kinds, f"in {registry().get_base_units(parsed)[1]:~C}")

@@ -34,8 +34,8 @@ def nearest_word(word: str, options: Iterable[str], *, cutoff: float = 0.6) -> s
     ('sigma', None)
     """
     folded = {option.casefold(): option for option in reversed(list(options))}
-    found = difflib.get_close_matches(word.casefold(), folded, n=1, cutoff=cutoff)
-    return folded[found[0]] if found else None
+    matches = difflib.get_close_matches(word.casefold(), folded, n=1, cutoff=cutoff)
+    return folded[matches[0]] if matches else None
 
 
 def near_path(name: str, paths: Iterable[str]) -> str | None:
@@ -51,14 +51,14 @@ def near_path(name: str, paths: Iterable[str]) -> str | None:
     """
     owner, _, last = name.rpartition(".")
     every = [(path, *path.rpartition(".")[::2]) for path in paths]
-    beside = {own: path for path, above, own in every if above == owner}
+    beside = {leaf: path for path, above, leaf in every if above == owner}
     if meant := nearest_word(last, beside):
         return beside[meant]
     if below := [path for path, _, _ in every if path.startswith(f"{name}.")]:
         return nearest_word(name, below, cutoff=0.0)
     start = owner.partition(".")[0]
-    inside = [(path, own) for path, _, own in every if path.startswith(start)]
-    same = [path for path, own in inside if own.casefold() == last.casefold()]
+    inside = [(path, leaf) for path, _, leaf in every if path.startswith(start)]
+    same = [path for path, leaf in inside if leaf.casefold() == last.casefold()]
     if same:
         return nearest_word(name, same, cutoff=0.0)
     # names of one owner are alike by it alone

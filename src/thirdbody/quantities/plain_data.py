@@ -19,11 +19,11 @@ def plain_data(value: object) -> Any:
     {'A_t': [0.1, None], 'mode': ['p-s', None], 'n': 3}
     """
     if isinstance(value, Mapping):
-        return {key: plain_data(part) for key, part in value.items()}
+        return {key: plain_data(element) for key, element in value.items()}
     if hasattr(value, "to_dict"):
         return plain_data(value.to_dict())
     if hasattr(value, "tolist"):  # an array or a number of NumPy, which is not loaded for this
         return plain_data(value.tolist())
     if isinstance(value, (list, tuple)):
-        return [plain_data(part) for part in value]
+        return [plain_data(element) for element in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -139,7 +139,7 @@ class Stages:
         self.name, self.begun = name, self.begun + 1
         self.show(0.0, "")
 
-    def show(self, part: float, more: str) -> None:
+    def show(self, share: float, more: str) -> None:
         """Show what part of the present part is done, where there is something to show it on."""
 
     def expect(self, contacts: int) -> None:
@@ -152,8 +152,8 @@ class Stages:
         if done == 1:
             self.counted_from, self.uncounted = time.monotonic(), 1
         if self.expected and not self.said and done >= MEASURED:
-            each = (time.monotonic() - self.counted_from) / (done - self.uncounted)
-            self.cost(self.expected, each, "contacts")
+            seconds = (time.monotonic() - self.counted_from) / (done - self.uncounted)
+            self.cost(self.expected, seconds, "contacts")
             self.said = True
         self.report_progress(done, total)
 
@@ -163,11 +163,13 @@ class Stages:
             words = f"{done:,} of about {max(done, total):,} {what}".rstrip()
             self.show(min(done / max(total, 1), 1.0), words)
 
-    def cost(self, count: int, each: float, what: str) -> None:
+    def cost(self, count: int, seconds: float, what: str) -> None:
         """Report the cost of so many items of so many seconds, once, if it is long."""
-        if each * count > LONG and not self.said:
+        if seconds * count > LONG and not self.said:
             self.said = True
-            self.tell(f"about {count:,} {what}, {each:.2g} s each: some {duration(each * count)}")
+            self.tell(
+                f"about {count:,} {what}, {seconds:.2g} s each: some {duration(seconds * count)}"
+            )
 
     def tell(self, sentence: str) -> None:
         """A first result, or what the work costs, on standard error."""
@@ -190,7 +192,7 @@ def duration(seconds: float) -> str:
 class _Lines(Stages):
     """A line now and then."""
 
-    def show(self, part: float, more: str) -> None:
+    def show(self, share: float, more: str) -> None:
         if time.monotonic() - self.seen >= EVERY:
             self.seen = time.monotonic()
             self.tell(f"{self.name}, {more}" if more else self.name)
@@ -218,9 +220,9 @@ def stages(title: str, total: int, wanted: bool = True) -> Iterator[Stages]:
         task = bar.add_task(title, total=total)
 
         class OnBar(Stages):
-            def show(self, part: float, more: str) -> None:
+            def show(self, share: float, more: str) -> None:
                 words = f"{self.name}, {more}" if more else self.name
-                bar.update(task, completed=self.begun + part, description=f"{title}: {words}")
+                bar.update(task, completed=self.begun + share, description=f"{title}: {words}")
 
             def tell(self, sentence: str) -> None:
                 bar.console.print(f"{title}: {sentence}", highlight=False, markup=False)
@@ -272,10 +274,10 @@ def nested_stages(outer: Callable[[str], None], count: int) -> Stages:
     inner = Stages("")
     if isinstance(outer, Stages):
 
-        def show(part: float, more: str) -> None:
-            own = inner.name if inner.name != outer.name else ""
-            words = ", ".join(filter(None, (own, more)))
-            outer.show((inner.begun + part) / count, words)
+        def show(share: float, more: str) -> None:
+            inner_name = inner.name if inner.name != outer.name else ""
+            words = ", ".join(filter(None, (inner_name, more)))
+            outer.show((inner.begun + share) / count, words)
 
         inner.show = show  # type: ignore[method-assign]
         inner.tell = outer.tell  # type: ignore[method-assign]
@@ -319,14 +321,14 @@ def heartbeat(title: str) -> Iterator[None]:
     title : str
         What stands in front.
     """
-    bound, start, ended = 0, time.monotonic(), threading.Event()
+    contacts, start, ended = 0, time.monotonic(), threading.Event()
 
     def count(done: int, expected: int) -> None:
-        nonlocal bound
-        bound = done
+        nonlocal contacts
+        contacts = done
 
     def words() -> str:
-        more = f", contacts so far: {bound}" if bound > 1 else ""
+        more = f", contacts so far: {contacts}" if contacts > 1 else ""
         return f"{title}: still at work after {duration(time.monotonic() - start)}{more}"
 
     beat = _beat_on_terminal if _terminal() else _beat_in_lines
@@ -420,7 +422,7 @@ class Cost:
         self, total: int, report: Report, what: str = "", done: int = 0, early: bool = True
     ):
         self.total, self.report, self.what, self.early = total, report, what, early
-        self.done, self.told = float(done), done
+        self.done, self.reported = float(done), done
         self.start: float | None = None
         self.shown, self.first = -math.inf, 0.0
 
@@ -444,8 +446,8 @@ class Cost:
 
     def _report_count(self, states: int) -> None:
         """Report a number if it is higher than all before: no state is reported twice."""
-        if states > self.told:
-            self.told = states
+        if states > self.reported:
+            self.reported = states
             self.report(states)
 
     def _warn(self, whole: float, why: str) -> None:

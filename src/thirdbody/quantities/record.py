@@ -56,7 +56,7 @@ def column(symbol: str, unit: str, meaning: str) -> Any:
 def declared_columns(kind: type) -> Mapping[str, Column]:
     """The columns that a class declares, by name."""
     every = {item.name: item.metadata.get("column") for item in fields(kind)}
-    return {name: told for name, told in every.items() if told is not None}
+    return {name: column for name, column in every.items() if column is not None}
 
 
 class Record:
@@ -103,17 +103,17 @@ class StateRecord(Record):
     @names_arguments
     def about(self, name: str) -> Column:
         """Symbol, unit and meaning of a column."""
-        known = declared_columns(type(self))
-        if name not in known:
+        columns = declared_columns(type(self))
+        if name not in columns:
             raise InvalidValue(
-                f"name = {name!r} must be one of {', '.join(known)}", code=Mistake.OPTION
+                f"name = {name!r} must be one of {', '.join(columns)}", code=Mistake.OPTION
             )
-        return known[name]
+        return columns[name]
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Every column as a 1-D array, those of the outputs last."""
-        own = {name: getattr(self, name) for name in declared_columns(type(self))}
-        every = own | dict(getattr(self, "outputs", {}))
+        stored = {name: getattr(self, name) for name in declared_columns(type(self))}
+        every = stored | dict(getattr(self, "outputs", {}))
         return {name: np.atleast_1d(values) for name, values in every.items()}
 
     def to_dict(self) -> dict[str, object]:
@@ -202,8 +202,8 @@ class StateRecord(Record):
         """A table for notebooks: a row for each column, the first and the last states."""
         columns = {name: (self.about(name), values) for name, values in self.columns().items()}
         rows = [
-            notebook.Row(told.symbol or name, _cells(values, told.unit), told.meaning)
-            for name, (told, values) in columns.items()
+            notebook.Row(column.symbol or name, _cells(values, column.unit), column.meaning)
+            for name, (column, values) in columns.items()
         ]
         count = len(next(iter(self.columns().values())))
         states = "1 state" if count == 1 else f"{count} states"

@@ -67,10 +67,10 @@ def _digest(data: Mapping[str, object]) -> str:
 def read_json(path: Path) -> dict[str, Any] | None:
     """Content of a small JSON file; None if it is missing or broken."""
     try:
-        found = json.loads(path.read_text("utf-8"))
+        content = json.loads(path.read_text("utf-8"))
     except (OSError, ValueError, RecursionError):
         return None
-    return found if isinstance(found, dict) else None
+    return content if isinstance(content, dict) else None
 
 
 def read_record(path: Path, unsealed: Collection[str]) -> Sealed | None:
@@ -83,13 +83,13 @@ def read_record(path: Path, unsealed: Collection[str]) -> Sealed | None:
         Keys of the records that earlier versions wrote without a seal. What has others and no
         seal is broken.
     """
-    found = read_json(path)
-    if found is None:
+    content = read_json(path)
+    if content is None:
         return None
-    seal = found.pop(SEAL, None)
+    seal = content.pop(SEAL, None)
     if seal is None:
-        return Sealed(found, checked=False) if set(found) <= set(unsealed) else None
-    return Sealed(found, checked=True) if seal == _digest(found) else None
+        return Sealed(content, checked=False) if set(content) <= set(unsealed) else None
+    return Sealed(content, checked=True) if seal == _digest(content) else None
 
 
 def fingerprint(path: Path) -> Fingerprint:
@@ -161,24 +161,28 @@ def claim_folder(
             f"{place} must be a folder, and a file of that name exists", code=Mistake.UNWRITABLE
         )
     record = read_record(place / MARK, ())
-    found: Mapping[str, Any] | None = None if record is None else record.data
-    if found is None and place.exists():
-        names = sorted(each.name for each in place.iterdir() if not is_draft(each.name, MARK))
-        found = unmarked(place) if names else None
+    held_study: Mapping[str, Any] | None = None if record is None else record.data
+    if held_study is None and place.exists():
+        names = sorted(entry.name for entry in place.iterdir() if not is_draft(entry.name, MARK))
+        held_study = unmarked(place) if names else None
         # a mark that cannot be read beside results is a damaged one of theirs
         ours = [name for name in names if files.fullmatch(name) or name == MARK]
-        strange = [name for name in names if name not in ours] or (ours if found is None else [])
+        strange = [name for name in names if name not in ours] or (
+            ours if held_study is None else []
+        )
         if strange:
             raise InvalidValue(
                 f"{place} holds files that are not of thirdbody {study['command']} "
                 f"({', '.join(strange[:3])}); give a new or an empty folder",
                 code=Mistake.UNWRITABLE,
             )
-    if found is not None:
-        asked = {key: study.get(key) for key in found} if record is None else dict(study)
-        less = [key for key in growing if found.get(key, 0) > study[key]]
-        kept = {key: value for key, value in asked.items() if key not in growing or key in less}
-        there = {key: value for key, value in found.items() if key not in growing or key in less}
+    if held_study is not None:
+        wanted = {key: study.get(key) for key in held_study} if record is None else dict(study)
+        less = [key for key in growing if held_study.get(key, 0) > study[key]]
+        kept = {key: value for key, value in wanted.items() if key not in growing or key in less}
+        there = {
+            key: value for key, value in held_study.items() if key not in growing or key in less
+        }
         refuse_another(place, there, kept)
     make_folder(place)
     if record is None or differences(record.data, study):
@@ -188,7 +192,7 @@ def claim_folder(
 
 def release_folder(place: Path) -> None:
     """Let go of a claimed folder that holds nothing yet."""
-    if [each.name for each in place.iterdir()] == [MARK]:
+    if [entry.name for entry in place.iterdir()] == [MARK]:
         (place / MARK).unlink()
         with suppress(OSError):
             place.rmdir()
@@ -231,7 +235,7 @@ def print_of(text: str) -> Fingerprint:
 
 def refuse_another(
     place: Path,
-    found: Mapping[str, object],
+    held: Mapping[str, object],
     wanted: Mapping[str, object],
     *,
     derived: tuple[str, ...] = (),
@@ -241,7 +245,7 @@ def refuse_another(
     Parameters
     ----------
     place : pathlib.Path
-    found, wanted : mapping
+    held, wanted : mapping
         What was studied there, and what is asked.
     derived : tuple of str, optional
         Keys that follow from the others, and are no difference of their own.
@@ -251,7 +255,7 @@ def refuse_another(
     InvalidValue
         They differ; the sentence says in what.
     """
-    differ = [(key, *two) for key, two in differences(found, wanted).items() if key not in derived]
+    differ = [(key, *two) for key, two in differences(held, wanted).items() if key not in derived]
     if not differ:
         return
     shown = "; ".join(f"{key} is {_say(a)} there and {_say(b)} here" for key, a, b in differ[:3])

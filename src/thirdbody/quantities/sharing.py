@@ -38,7 +38,7 @@ def share_parts(
     *,
     workers: int = 1,
     client: Client | None = None,
-    part: str = "block",
+    noun: str = "block",
     smaller: str = "a smaller chunk",
 ) -> Results[Result]:
     """Results of numbered parts, in the order in which they finish.
@@ -51,19 +51,19 @@ def share_parts(
         Threads that solve parts.
     client : distributed.Client, optional
         A Dask cluster that solves them instead.
-    part, smaller : str
+    noun, smaller : str
         What a part is called, and what to take where workers die on it.
     """
     if client is not None:
-        return _on_cluster(parts, client, part, smaller)
+        return _on_cluster(parts, client, noun, smaller)
     return _in_threads(parts, workers) if workers > 1 else _in_line(parts)
 
 
-def need_version(asked: str, what: str) -> None:
+def need_version(version: str, what: str) -> None:
     """Refuse work that another version of the library hands out."""
-    if asked != __version__:
+    if version != __version__:
         raise InvalidValue(
-            f"this worker runs thirdbody {__version__} and the {what} needs {asked}; "
+            f"this worker runs thirdbody {__version__} and the {what} needs {version}; "
             "install the same version everywhere",
             code=Mistake.OTHER_STUDY,
         )
@@ -111,15 +111,15 @@ async def _greet(address: str, seconds: float) -> None:
 
     scheduler = rpc(address, connection_args=Security().get_connection_args("client"))
     try:
-        found = await asyncio.wait_for(scheduler.identity(), seconds)
+        identity = await asyncio.wait_for(scheduler.identity(), seconds)
     except TimeoutError:
         raise TimeoutError(f"no answer within {seconds:g} s") from None
     except MemoryError:  # words of another protocol read as the length of an answer
         raise ValueError("what answers there is no scheduler") from None
     finally:
         await scheduler.close_rpc()
-    if found.get("type") != "Scheduler":
-        raise ValueError(f"{found.get('type')} answers there")
+    if identity.get("type") != "Scheduler":
+        raise ValueError(f"{identity.get('type')} answers there")
 
 
 def _in_line(parts: Parts[Result]) -> Results[Result]:
@@ -173,7 +173,7 @@ def _solve_task(task: Callable[[], object]) -> Any:
     return task()
 
 
-def _on_cluster(parts: Parts[Result], client: Client, part: str, smaller: str) -> Results[Result]:
+def _on_cluster(parts: Parts[Result], client: Client, noun: str, smaller: str) -> Results[Result]:
     """Results in the order in which they come.
 
     No more parts are under way than the workers can chew, twice, so that neither the scheduler
@@ -214,7 +214,7 @@ def _on_cluster(parts: Parts[Result], client: Client, part: str, smaller: str) -
                 given_up[number] = given_up.get(number, 0) + 1
                 if given_up[number] > TIMES:
                     raise ThirdBodyError(
-                        f"{part} {number} was given up {TIMES + 1} times, each time after several "
+                        f"{noun} {number} was given up {TIMES + 1} times, each time after several "
                         f"workers had died on it; check their memory, or take {smaller}"
                     ) from None
                 hand_out(number, task)

@@ -122,9 +122,11 @@ class Table:
                 break
             yield self._draw_table(now, widths, gap)
             shown += now[1:]
-        told = [self.heads[i] for i in every if i in shown]
-        if told := [f"{head}: {self.legend[head]}" for head in told if head in self.legend]:
-            yield "; ".join(told) + "."
+        shown_heads = [self.heads[i] for i in every if i in shown]
+        if meanings := [
+            f"{head}: {self.legend[head]}" for head in shown_heads if head in self.legend
+        ]:
+            yield "; ".join(meanings) + "."
         if gone := [self.heads[i] for i in every if i not in shown]:
             yield f"Not shown, because the window is too narrow: {join_words(gone)}; {self.more}."
 

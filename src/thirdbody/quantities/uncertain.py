@@ -56,4 +56,4 @@ def shift_value(value: float, changes: list[tuple[float, Any]]) -> Any:
 
     It stays correlated with them, and is a plain number without any.
     """
-    return value + sum(slope * (each - each.nominal_value) for slope, each in changes)
+    return value + sum(slope * (number - number.nominal_value) for slope, number in changes)

@@ -291,20 +291,20 @@ def _scale(number: str, body: str, shown: str, unit: str) -> float:
     units = registry()
     wanted = "" if unit == "1" else unit.replace("^", "**")
     try:
-        found = units.parse_units(body)
+        parsed = units.parse_units(body)
     except Exception:
         return _refuse(_unknown(body, shown, unit))
     if strange := next((word for word in re.findall(r"[^\W\d_]+", body) if not is_usual(word)), ""):
         return _refuse(
             f"{shown} has the unit {strange}, which is not used here; it must be {_need_text(unit)}"
         )
-    if found.dimensionality == units.parse_units(wanted).dimensionality:
-        factor = units.convert(1.0, found, wanted)
+    if parsed.dimensionality == units.parse_units(wanted).dimensionality:
+        factor = units.convert(1.0, parsed, wanted)
         exponent = round(math.log10(factor)) if factor > 0 else 0
         if math.isfinite(float(number)) and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
             return _shift(number, exponent)
         return float(number) * factor
-    kind = kind_of_parsed(found)
+    kind = kind_of_parsed(parsed)
     if unit == "1":
         return _refuse(f"{shown} is {kind}, but a pure number is needed, e.g. {EXAMPLES['1']}")
     return _refuse(

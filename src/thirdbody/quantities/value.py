@@ -224,17 +224,17 @@ def unit_meant(about: Usual, number: float, *, load: bool = False) -> str | None
     return meant if size and not least <= size <= most else None
 
 
-_told: ContextVar[bool] = ContextVar("_told", default=False)
+_is_silent: ContextVar[bool] = ContextVar("_is_silent", default=False)
 
 
 @contextmanager
 def slips_are_told() -> Iterator[None]:
     """Context without warnings of unit slips; the caller reports them."""
-    token = _told.set(True)
+    token = _is_silent.set(True)
     try:
         yield
     finally:
-        _told.reset(token)
+        _is_silent.reset(token)
 
 
 SLIP = "unit of "
@@ -243,7 +243,7 @@ SLIP = "unit of "
 
 def warn_of_slip(where: str, about: Usual, number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
-    if not _told.get() and (meant := unit_meant(about, number)):
+    if not _is_silent.get() and (meant := unit_meant(about, number)):
         what = f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI"
         action = f"was {number:g} {meant} meant?"
         tell_of_range(Note(what, code=SLIP + where, effect=math.inf, action=action))
@@ -254,20 +254,20 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
 
     Of a copy of ``before`` only what has changed is told: the rest was, when that was made.
     """
-    if _told.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
+    if _is_silent.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
         return
     for name, about, _ in _declarations(type(value)):
-        part, old = getattr(value, name), getattr(before, name, None)
-        if part is old:
+        new, old = getattr(value, name), getattr(before, name, None)
+        if new is old:
             continue
         if about:
-            if part is not None and unit_meant(about, part):
-                warn_of_slip(prefix + name, about, part)
-        elif isinstance(part, (Value, tuple)):
-            known = dict(_values_in(prefix + name, old))
-            for where, inner in _values_in(prefix + name, part):
-                if inner is not known.get(where):
-                    warn_of_slips(inner, prefix=f"{where}.", before=known.get(where))
+            if new is not None and unit_meant(about, new):
+                warn_of_slip(prefix + name, about, new)
+        elif isinstance(new, (Value, tuple)):
+            old_values = dict(_values_in(prefix + name, old))
+            for where, inner in _values_in(prefix + name, new):
+                if inner is not old_values.get(where):
+                    warn_of_slips(inner, prefix=f"{where}.", before=old_values.get(where))
 
 
 @cache
@@ -281,12 +281,16 @@ def _declarations(
     )
 
 
-def _values_in(name: str, part: object) -> Iterator[tuple[str, Value]]:
+def _values_in(name: str, content: object) -> Iterator[tuple[str, Value]]:
     """The values in a field, by dotted names."""
-    if isinstance(part, Value):
-        yield name, part
-    elif isinstance(part, tuple):
-        yield from ((f"{name}.{i}", each) for i, each in enumerate(part) if isinstance(each, Value))
+    if isinstance(content, Value):
+        yield name, content
+    elif isinstance(content, tuple):
+        yield from (
+            (f"{name}.{i}", element)
+            for i, element in enumerate(content)
+            if isinstance(element, Value)
+        )
 
 
 BARE = (float, str, bool, type(None))
@@ -316,13 +320,13 @@ class Value:
         for name, about, words in _declarations(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             why, bare = None, type(value) in BARE or isinstance(value, Value)
-            if not bare and (told := masked_words(value) or huge_words(value)):
-                problems.append(Problem(name, told, owner=owner))
+            if not bare and (fault := masked_words(value) or huge_words(value)):
+                problems.append(Problem(name, fault, owner=owner))
                 continue
             if not bare and carries_unit(value):
-                value, told = _without_unit(type(self), name, value)
-                if told:
-                    problems.append(told)
+                value, fault = _without_unit(type(self), name, value)
+                if fault:
+                    problems.append(fault)
                     continue
                 object.__setattr__(self, name, value)
             if about:
@@ -340,7 +344,7 @@ class Value:
                 problems.append(Problem(name, why, shown, owner=owner))
         if not problems:
             try:
-                problems = [_problem_of_class(owner, each) for each in self._problems()]
+                problems = [_problem_of_class(owner, problem) for problem in self._problems()]
             except FAILURES as error:
                 kind = type(self)
                 held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]
@@ -377,8 +381,8 @@ class Value:
             else:
                 now[head] = value
         for head, deeper in inner.items():
-            where, part = f"{type(self).__name__}.{head}", now.get(head, getattr(self, head))
-            now[head] = _replace_at(where, part, deeper)
+            where, field_value = f"{type(self).__name__}.{head}", now.get(head, getattr(self, head))
+            now[head] = _replace_at(where, field_value, deeper)
         with slips_are_told():
             out = dataclasses.replace(self, **now)  # type: ignore[type-var]
         if self._tells_of_slips:
@@ -444,13 +448,15 @@ class Value:
                     raise InvalidValue(Problem(head, why, repr(extreme), owner=owner))
             now[head] = values
         for head, deeper in inner.items():
-            part = getattr(self, head)
-            if isinstance(part, tuple) and all(isinstance(each, Value) for each in part):
-                now[head] = _each_with_arrays(part, deeper, f"{type(self).__name__}.{head}")
+            field_value = getattr(self, head)
+            if isinstance(field_value, tuple) and all(
+                isinstance(element, Value) for element in field_value
+            ):
+                now[head] = _each_with_arrays(field_value, deeper, f"{type(self).__name__}.{head}")
                 continue
-            if not isinstance(part, Value):
+            if not isinstance(field_value, Value):
                 raise NotCompiled(f"{type(self).__name__}.{head} has no fields of its own")
-            now[head] = part.with_arrays(deeper)
+            now[head] = field_value.with_arrays(deeper)
         out = object.__new__(_stand_in(type(self)))  # type: ignore[arg-type]
         for name in fields:
             object.__setattr__(out, name, now.get(name, getattr(self, name)))
@@ -479,13 +485,16 @@ def _each_with_arrays(
     parts: tuple[Value, ...], changes: Mapping[str, NDArray[np.float64]], name: str
 ) -> tuple[object, ...]:
     """Stand-ins of the numbered parts that change, beside the others."""
-    own: dict[int, dict[str, NDArray[np.float64]]] = {}
+    changes_by_number: dict[int, dict[str, NDArray[np.float64]]] = {}
     for key, values in changes.items():
         number, _, rest = key.partition(".")
         if not number.isdigit() or int(number) >= len(parts) or not rest:
             raise NotCompiled(f"{name} has no number {number}")
-        own.setdefault(int(number), {})[rest] = values
-    return tuple(part.with_arrays(own[i]) if i in own else part for i, part in enumerate(parts))
+        changes_by_number.setdefault(int(number), {})[rest] = values
+    return tuple(
+        element.with_arrays(changes_by_number[i]) if i in changes_by_number else element
+        for i, element in enumerate(parts)
+    )
 
 
 def _problem_of_class(owner: str, problem: str) -> str:
@@ -514,13 +523,15 @@ def _no_field(value: Value, name: str, names: Iterable[str]) -> Problem:
 def paths_of(value: Value, prefix: str = "") -> Iterator[str]:
     """Dotted names of every field of a value and of the values in it, for `Value.part`."""
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
-        name, part = f"{prefix}{item.name}", getattr(value, item.name)
+        name, field_value = f"{prefix}{item.name}", getattr(value, item.name)
         yield name
-        several = enumerate(part) if isinstance(part, tuple) else ((None, part),)
-        for place, each in several:
-            if isinstance(each, Value):
-                label = getattr(each, "name", "") or place
-                yield from paths_of(each, f"{name}." if place is None else f"{name}.{label}.")
+        several = (
+            enumerate(field_value) if isinstance(field_value, tuple) else ((None, field_value),)
+        )
+        for place, element in several:
+            if isinstance(element, Value):
+                label = getattr(element, "name", "") or place
+                yield from paths_of(element, f"{name}." if place is None else f"{name}.{label}.")
 
 
 def _without_unit(kind: type[Value], name: str, value: object) -> tuple[object, str]:
@@ -543,12 +554,12 @@ def _without_unit(kind: type[Value], name: str, value: object) -> tuple[object, 
         return value, Problem(name, f"= {error}", owner=kind.__name__, code=error.code)
 
 
-def items_of(given: Any) -> tuple[object, ...]:
+def items_of(values: Any) -> tuple[object, ...]:
     """The items of what should hold several; of anything else itself, to be refused by name."""
     try:
-        return tuple(given)
+        return tuple(values)
     except TypeError:
-        return (given,)
+        return (values,)
 
 
 def sequences(value: Value, *names: str) -> None:
@@ -561,23 +572,23 @@ def sequences(value: Value, *names: str) -> None:
     """
     problems = []
     for name in names:
-        given = getattr(value, name)
-        if given is None and type(value).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
+        values = getattr(value, name)
+        if values is None and type(value).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
             continue
-        some = given if type(given) in (list, tuple) else ()
-        told = masked_words(given) or next(filter(None, map(huge_words, some)), "")
-        if told:
-            told = Problem(name, told, owner=type(value).__name__)
-        elif carries_unit(given):
-            given, told = _without_unit(type(value), name, given)
-        if told:
-            problems.append(told)
+        some = values if type(values) in (list, tuple) else ()
+        fault = masked_words(values) or next(filter(None, map(huge_words, some)), "")
+        if fault:
+            fault = Problem(name, fault, owner=type(value).__name__)
+        elif carries_unit(values):
+            values, fault = _without_unit(type(value), name, values)
+        if fault:
+            problems.append(fault)
             continue
         try:
-            object.__setattr__(value, name, tuple(float(item) for item in given))
+            object.__setattr__(value, name, tuple(float(item) for item in values))
         except (TypeError, ValueError, OverflowError):
             rule, owner = "must be a sequence of numbers", type(value).__name__
-            problems.append(Problem(name, rule, repr(given), owner=owner, code=Mistake.KIND))
+            problems.append(Problem(name, rule, repr(values), owner=owner, code=Mistake.KIND))
             continue
         unit = type(value).__dataclass_fields__[name].metadata["several"]["unit"]  # type: ignore[attr-defined]
         for i, number in enumerate(getattr(value, name)):
@@ -595,21 +606,21 @@ def _rows(value: Value) -> Iterator[Row]:
 
     inner: list[tuple[str, Value]] = []
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
-        part = getattr(value, item.name)
-        if found := list(_values_in(item.name, part)):
-            inner += found
-        elif part is None or (isinstance(part, (str, tuple)) and not part):
+        field_value = getattr(value, item.name)
+        if held_values := list(_values_in(item.name, field_value)):
+            inner += held_values
+        elif field_value is None or (isinstance(field_value, (str, tuple)) and not field_value):
             continue
         elif about := item.metadata.get("quantity"):
-            yield Row(about["symbol"], [words_of(part, about["unit"])], about["meaning"])
+            yield Row(about["symbol"], [words_of(field_value, about["unit"])], about["meaning"])
         else:
             meaning = item.metadata.get("choice", {}).get("meaning", "")
-            yield Row(item.name, [words_of(part)], meaning)
-    for name, part in inner:
-        yield Row(name, [], type(part).__name__)
+            yield Row(item.name, [words_of(field_value)], meaning)
+    for name, inner_value in inner:
+        yield Row(name, [], type(inner_value).__name__)
         yield from (
             row if row.values else row._replace(symbol=f"{name}.{row.symbol}")
-            for row in _rows(part)
+            for row in _rows(inner_value)
         )
 
 
@@ -621,13 +632,13 @@ def _stand_in(kind: type[Value]) -> type[Any]:
     return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))
 
 
-def _replace_at(where: str, part: object, changes: Mapping[str, object]) -> object:
+def _replace_at(where: str, field_value: object, changes: Mapping[str, object]) -> object:
     """A value, or a tuple of them with the number of the one before the dot, with changes."""
-    if isinstance(part, Value):
-        return part.replace(**changes)
-    if not isinstance(part, tuple):
+    if isinstance(field_value, Value):
+        return field_value.replace(**changes)
+    if not isinstance(field_value, tuple):
         raise InvalidValue(f"{where} has no fields of its own", code=Mistake.MISSING)
-    items = list(part)
+    items = list(field_value)
     inner: dict[int, dict[str, object]] = {}
     for key, value in changes.items():
         which, _, rest = key.partition(".")
@@ -644,9 +655,9 @@ def _index(where: str, items: Sequence[object], which: str) -> int:
         return int(which)
     if which in names:
         return names.index(which)
-    known = ", ".join([*map(str, range(len(items))), *filter(None, names)]) or "none"
+    choices = ", ".join([*map(str, range(len(items))), *filter(None, names)]) or "none"
     raise InvalidValue(
-        f"{where} holds {len(items)} values and no {which!r}; name one by place or name: {known}",
+        f"{where} holds {len(items)} values and no {which!r}; name one by place or name: {choices}",
         code=Mistake.UNKNOWN,
     )
 

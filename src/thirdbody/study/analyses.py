@@ -83,15 +83,15 @@ def _assess_each(
     touching = loads > FAINT
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)  # the pages tell of them
-        found = iter(_assess(study, name, loads[touching].tolist(), report, alone=True))
+        solved_pages = iter(_assess(study, name, loads[touching].tolist(), report, alone=True))
     pages, unsolved, where = [], [], []
     for i, load in enumerate(loads.tolist()):
-        told = value_of(apart[i], "m") if len(apart) else value_of(load, LOADS[name]["unit"])
-        page = next(found) if touching[i] else None
+        load_text = value_of(apart[i], "m") if len(apart) else value_of(load, LOADS[name]["unit"])
+        page = next(solved_pages) if touching[i] else None
         if page is None:
-            unsolved.append(f"At {told} nothing is in contact.")
+            unsolved.append(f"At {load_text} nothing is in contact.")
         elif isinstance(page, NoEquilibrium):
-            unsolved.append(f"At {told} there is {page}.")
+            unsolved.append(f"At {load_text} there is {page}.")
         else:
             pages.append(page)
             where += apart[i : i + 1].tolist()
@@ -113,16 +113,16 @@ def _assess_body(study: Study, progress: bool) -> Assessment | Assessments:
     assert study.forces is not None
     some = study.forces[_some(len(study.forces))].tolist()
     pressed = [press(study.contact, study.body, force) for force in some]
-    means = [found.mean for found in pressed]
+    means = [pressing.mean for pressing in pressed]
     with stages("assess", len(PARTS), progress) as report:
         bare = _assess(study, study.load, means, report, alone=len(some) > 1)
     pages = []
-    for found, page in zip(pressed, bare, strict=True):
+    for pressing, page in zip(pressed, bare, strict=True):
         if isinstance(page, NoEquilibrium):
             raise page
-        notes = [found.sentence(), *(f"Warning: {text}." for text in found.warnings)]
-        if found.kind != "flat":
-            largest = value_of(found.maximum, "Pa")
+        notes = [pressing.sentence(), *(f"Warning: {text}." for text in pressing.warnings)]
+        if pressing.kind != "flat":
+            largest = value_of(pressing.maximum, "Pa")
             notes.append(
                 "This page is for the mean pressure; for the largest: "
                 f"--set load.pressure={largest!r}."
@@ -142,17 +142,21 @@ def _assess(
     alone: bool = False,
 ) -> list[Assessment | NoEquilibrium]:
     """At each load; ``alone`` without its own scatter."""
-    asked = study.uncertainty
+    uncertainty = study.uncertainty
     value: dict[str, Any] = {}
     taken: tuple[str, ...] = ()
-    if asked is not None:
-        inputs = {label: known for label, known in asked.inputs.items() if label not in OF_LOADS}
-        value = {"vary": inputs if alone else asked.inputs}
-        value |= {"samples": asked.samples, "seed": asked.seed}
+    if uncertainty is not None:
+        inputs = {
+            label: uncertain
+            for label, uncertain in uncertainty.inputs.items()
+            if label not in OF_LOADS
+        }
+        value = {"vary": inputs if alone else uncertainty.inputs}
+        value |= {"samples": uncertainty.samples, "seed": uncertainty.seed}
         if not value["vary"]:
             value = {}
-        elif (asked.samples or 0) > MOST_COSTLY and costly(study.contact, value["vary"]):
-            value["samples"], taken = MOST_COSTLY, (TAKEN.format(asked=asked.samples),)
+        elif (uncertainty.samples or 0) > MOST_COSTLY and costly(study.contact, value["vary"]):
+            value["samples"], taken = MOST_COSTLY, (TAKEN.format(asked=uncertainty.samples),)
     pages = assess_each(study.contact, name, loads, **value, title=study.title, progress=report)
     return [
         replace(page, notes=(*taken, *page.notes)) if isinstance(page, Assessment) else page
@@ -202,17 +206,19 @@ def arguments(study: Study) -> dict[str, Any]:
             '{ low = "50 nm", high = "200 nm" }; or [life.design], of an oil',
             code=Mistake.MISSING,
         )
-    given = dict(study.design)
-    if given.pop("scatter", False) and study.uncertainty is not None:
-        given["scatter"] = study.uncertainty.inputs
-    names = [name for name in ("F_star", "pressure") if name in given]
+    keywords = dict(study.design)
+    if keywords.pop("scatter", False) and study.uncertainty is not None:
+        keywords["scatter"] = study.uncertainty.inputs
+    names = [name for name in ("F_star", "pressure") if name in keywords]
     if not names:
         if study.load == "separation":
             raise InvalidValue(
                 "design needs a load: [load] gives a separation", code=Mistake.BEYOND
             )
-        given[study.load] = study.values
+        keywords[study.load] = study.values
     for name in names:
-        if is_span(given[name]):
-            given[name] = Span(given[name]["low"], given[name]["high"], given[name]["scale"])
-    return given
+        if is_span(keywords[name]):
+            keywords[name] = Span(
+                keywords[name]["low"], keywords[name]["high"], keywords[name]["scale"]
+            )
+    return keywords

@@ -110,13 +110,13 @@ class AskedResult(QuestionResult):
     @property
     def meanings(self) -> Mapping[str, str]:
         """Meanings as the columns declare them."""
-        return {name: each.meaning for name, each in declared_columns(type(self)).items()}
+        return {name: column.meaning for name, column in declared_columns(type(self)).items()}
 
     def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, and their units."""
         declared = declared_columns(type(self))
         columns = {name: plain_data(getattr(self, name)) for name in declared}
-        return columns, {name: each.unit for name, each in declared.items()}
+        return columns, {name: column.unit for name, column in declared.items()}
 
     @abstractmethod
     def inputs(self) -> dict[str, object]:
@@ -132,5 +132,5 @@ class AskedResult(QuestionResult):
             inputs=self.inputs(),
             states=self.table()[0],
             **self.numbers(),
-            what_ifs=[each.to_dict() for each in self.what_ifs],
+            what_ifs=[what_if.to_dict() for what_if in self.what_ifs],
         )

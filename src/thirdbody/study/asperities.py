@@ -78,17 +78,17 @@ RADII = ("R_first", "R_second")
 
 def _ellipticity(reader: Reader, path: str, data: object) -> object:
     """Classes of ratios, or two faces at an angle."""
-    given = data if isinstance(data, dict) else {}
-    if "ratios" in given or not {"first", "second", "angle"} & given.keys():
+    table = data if isinstance(data, dict) else {}
+    if "ratios" in table or not {"first", "second", "angle"} & table.keys():
         keys = dict(keys_of(Ellipticity))
         keys["ratios"] = keys["ratios"]._replace(about="e.g. ratios = [1, 2, 5]")
         keys |= {
             key: refused_key(SECOND_SHAPE, Mistake.CLASH)
             for key in (*FACE_KEYS, "angle")
-            if key in given
+            if key in table
         }
         return reader.table(path, data, keys, lambda values: reader.make(Ellipticity, path, values))
-    if len(set(RADII) & given.keys()) == 1:
+    if len(set(RADII) & table.keys()) == 1:
         rule = "has the radius of one face only; give both R_first and R_second, or "
         reader.mistakes.append(
             Problem(path, f"{rule}neither where they are equal", code=Mistake.MISSING)
@@ -146,7 +146,7 @@ def _measured_spectrum(reader: Reader, path: str, value: object) -> OwnSpectrum 
         return OwnSpectrum.of_both(one, others[0]) if others else OwnSpectrum.of(one)
     except InvalidValue as error:
         raise InvalidValue(
-            *(Problem(path, f": {told}", code=told.code) for told in error.problems)
+            *(Problem(path, f": {problem}", code=problem.code) for problem in error.problems)
         ) from None
 
 

@@ -62,5 +62,5 @@ def _force_in_kn(force: float) -> str:
 
 
 def _clearance(size: BearingSize) -> str:
-    least, most = (f"{1e6 * each:g}" for each in size.clearance)
+    least, most = (f"{1e6 * clearance:g}" for clearance in size.clearance)
     return f"in operation; ISO 5753 {size.clearance_class}, unmounted: {least} to {most}"

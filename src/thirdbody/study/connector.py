@@ -81,8 +81,8 @@ def populations_of(values: Mapping[str, object]) -> tuple[object, ...]:
 
 def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
     """The connector, from the objects that the tables of its study stand for."""
-    given = dict(values["connector"])
-    forces = np.sort(given.pop("force"))
+    keywords = dict(values["connector"])
+    forces = np.sort(keywords.pop("force"))
     dust = populations_of(values)
     if not dust:
         raise InvalidValue(
@@ -92,7 +92,7 @@ def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
             code=Mistake.BEYOND,
         )
     law = values.get("particle_law", Series())
-    whole = given | {"surfaces": values["surfaces"], "particles": dust, "law": law}
+    whole = keywords | {"surfaces": values["surfaces"], "particles": dust, "law": law}
     made = reader.make(Connector, "connector", whole)
     notes = []
     if made.pushed_aside and not made.wipe:

@@ -36,18 +36,18 @@ class Described(NamedTuple):
     numbers: tuple[BareNumber, ...] = ()
 
 
-def describe(prefix: str, part: Connector | Chuck) -> Described:
+def describe(prefix: str, system: Connector | Chuck) -> Described:
     """Inputs of a part that has surfaces and particles.
 
     Parameters
     ----------
     prefix : str
         What the names of its fields begin with.
-    part : Value
+    system : Value
         With ``surfaces`` and ``particles``.
     """
     from ..systems.connector import name_of
 
-    bodies = {"surface 1": part.surfaces.first, "surface 2": part.surfaces.second}
-    bodies |= {name_of(dust, i): dust.material for i, dust in enumerate(part.particles)}
-    return Described({prefix: part}, bodies)
+    bodies = {"surface 1": system.surfaces.first, "surface 2": system.surfaces.second}
+    bodies |= {name_of(dust, i): dust.material for i, dust in enumerate(system.particles)}
+    return Described({prefix: system}, bodies)

@@ -57,13 +57,13 @@ def _design(reader: Reader, path: str, data: object) -> object:
 
 
 # -------------------------------------------------------------------------- what may be chosen
-def _vary(reader: Reader, path: str, given: object) -> dict[str, object]:
+def _vary(reader: Reader, path: str, data: object) -> dict[str, object]:
     """Ranges and lists of materials by the names of the library."""
-    if not isinstance(given, dict) or not given:
+    if not isinstance(data, dict) or not data:
         rule = "must be a table, e.g. "
         rule += '{ "particles.mean+particles.std" = { low = "50 nm", high = "1 um" } }'
-        raise wrong(path, rule, given, code=Mistake.KIND)
-    flat = _flat(given).items()
+        raise wrong(path, rule, data, code=Mistake.KIND)
+    flat = _flat(data).items()
     return dict(
         reader.read_each(
             {f"{path}.{say(label)}": (label, entry) for label, entry in flat}, _variable
@@ -71,11 +71,11 @@ def _vary(reader: Reader, path: str, given: object) -> dict[str, object]:
     )
 
 
-def _variable(reader: Reader, where: str, told: tuple[str, object]) -> tuple[str, object]:
+def _variable(reader: Reader, where: str, variable: tuple[str, object]) -> tuple[str, object]:
     """One variable: its name in the library, and its range or its materials."""
-    label, entry = told
+    label, entry = variable
     if isinstance(entry, list):
-        items = {f"{where}.{i}": each for i, each in enumerate(entry)}
+        items = {f"{where}.{i}": material for i, material in enumerate(entry)}
         return label, list(reader.read_each(items, MATERIAL.read_any))
     if not (isinstance(entry, dict) and set(entry) == {"low", "high"}):
         raise wrong(
@@ -89,17 +89,19 @@ def _variable(reader: Reader, where: str, told: tuple[str, object]) -> tuple[str
             rule = ": [particles] gives no concentration; write there concentration and gap"
             raise InvalidValue(Problem(where, rule, code=Mistake.MISSING))
         ends = [_amount(f"{where}.{end}", entry[end]) for end in ("low", "high")]
-        own = _amount("particles.concentration", get(reader.whole["particles"], "concentration"))
-        if {each.by for each in ends} != {own.by}:
-            rule = f"must be by {own.by}, like particles.concentration"
+        study_amount = _amount(
+            "particles.concentration", get(reader.whole["particles"], "concentration")
+        )
+        if {amount.by for amount in ends} != {study_amount.by}:
+            rule = f"must be by {study_amount.by}, like particles.concentration"
             raise InvalidValue(Problem(where, rule, code=Mistake.KIND))
-        return label, tuple(each.amount for each in ends)
+        return label, tuple(amount.amount for amount in ends)
     inputs = inputs_of(reader.whole)
-    found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
+    fields = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
     lowest, highest = (
-        read_number(found[0][1], reader, f"{where}.{end}", entry[end]) for end in ("low", "high")
+        read_number(fields[0][1], reader, f"{where}.{end}", entry[end]) for end in ("low", "high")
     )
-    return "+".join(name for name, _ in found), (lowest, highest)
+    return "+".join(name for name, _ in fields), (lowest, highest)
 
 
 def _amount(where: str, value: Any) -> cleanliness.Concentration:
@@ -121,21 +123,21 @@ def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, object]:
 
 def _fluid(reader: Reader) -> Suspension | None:
     """The fluid that brings the particles, where [particles] gives a concentration."""
-    given = reader.whole.get("particles")
-    if get(given, "concentration") is None:
+    particles = reader.whole.get("particles")
+    if get(particles, "concentration") is None:
         return None
     values: dict[str, float] = {}
     try:
-        amount = cleanliness.concentration(given["concentration"])  # type: ignore[index]
+        amount = cleanliness.concentration(particles["concentration"])  # type: ignore[index]
         for key, name in (
             ("gap", "gap"),
             ("film", "gap"),
             ("particle_density", "particle_density"),
             ("oil_density", "oil_density"),
         ):
-            if get(given, key) is not None:
+            if get(particles, key) is not None:
                 where, about = f"particles.{key}", OF_FLUID[key]
-                values[name] = read_number(about, reader, where, given[key])  # type: ignore[index]
+                values[name] = read_number(about, reader, where, particles[key])  # type: ignore[index]
         return Suspension(concentration=amount.amount, by=amount.by, **values)
     except (InvalidValue, TypeError):
         return None  # told where [particles] is read
@@ -143,12 +145,12 @@ def _fluid(reader: Reader) -> Suspension | None:
 
 # -------------------------------------------------------------------------- what is good
 def _several(
-    kind: type[Objective] | type[Limit], reader: Reader, path: str, given: object
+    kind: type[Objective] | type[Limit], reader: Reader, path: str, data: object
 ) -> list[object]:
     """One objective or limit, or a list of them."""
-    entries = {path: given}
-    if isinstance(given, list):
-        entries = {f"{path}.{i}": entry for i, entry in enumerate(given)}
+    entries = {path: data}
+    if isinstance(data, list):
+        entries = {f"{path}.{i}": entry for i, entry in enumerate(data)}
     return list(reader.read_each(entries, partial(_one, kind)))
 
 
@@ -156,13 +158,13 @@ def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry:
     example = EXAMPLE if kind is Objective else '{ of = "plastic_share", most = 0.3 }'
     if not isinstance(entry, dict) or not isinstance(entry.get("of"), str):
         raise wrong(where, f"must be a table such as {example}", entry, code=Mistake.KIND)
-    own = ("low", "high", "k", "tail", *WORDS) if kind is Objective else ("most", "least", "share")
+    keys = ("low", "high", "k", "tail", *WORDS) if kind is Objective else ("most", "least", "share")
 
     def one(reader: Reader, path: str, key: str) -> tuple[str, Any]:
         if key == "of":
             return key, entry["of"]
-        if key not in own:
-            hint = guess(key, ("of", *own))
+        if key not in keys:
+            hint = guess(key, ("of", *keys))
             raise InvalidValue(Problem(path, "is not a known key", hint=hint, code=Mistake.UNKNOWN))
         if key in WORDS:
             return key, read_word(WORDS[key], reader, path, entry[key])

@@ -203,7 +203,7 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
             return None
         h = float(state.h_T)
         solids = 1 - float(state.film_share)
-        shares = [float(each.load_share) for each in state.state.populations]
+        shares = [float(population.load_share) for population in state.state.populations]
         shares = shares or [float(state.state.particle_load_share)]
         force = None if study.forces is None else float(study.forces[0])
         rate, area, where = track_areas(study.body, force, film, E_star=contact.E_ss, speed=speed)
@@ -212,31 +212,35 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
             entry=1.0 if film.entrainment is None else film.entrainment.entry_ratio,
         )  # fmt: skip
 
-        def particles(i: int, each: Particles) -> FilmParticles:
-            density = each.areal_density / (gaps.get(i) or h)
-            return track.particles(each.material, each.diameter, density, each.strength)
+        def particles(i: int, population: Particles) -> FilmParticles:
+            density = population.areal_density / (gaps.get(i) or h)
+            return track.particles(
+                population.material, population.diameter, density, population.strength
+            )
 
         parts = []
-        for i, each in enumerate(contact.populations):
-            dents = particles(i, each)
-            found = dents.dents(SIDE)
+        for i, population in enumerate(contact.populations):
+            dents = particles(i, population)
+            side_dents = dents.dents(SIDE)
             parts.append(
                 PopulationDents(
                     name=before[i].name or before[i].material.name or f"particles {i + 1}",
                     per_volume=dents.number,
                     load_share=solids * shares[i],
-                    per_overrolling=found.number,
-                    per_hour=track.per_hour(found),
-                    depth=found.depth,
-                    depth_p95=found.depth_p95,
-                    width=found.diameter,
+                    per_overrolling=side_dents.number,
+                    per_hour=track.per_hour(side_dents),
+                    depth=side_dents.depth,
+                    depth_p95=side_dents.depth_p95,
+                    width=side_dents.diameter,
                     deepest=track.deepest(dents),
                 )
             )
         most: dict[str, float] = {}
         if filter is not None and leaky is not None:
             some = enumerate(leaky.populations)
-            more = sum(track.per_hour(particles(i, each).dents(SIDE)) for i, each in some)
+            more = sum(
+                track.per_hour(particles(i, population).dents(SIDE)) for i, population in some
+            )
             most = {"from_size": filter.sizes[0], "most_per_hour": more}
         return DirtyOil(
             where=where,
@@ -256,9 +260,11 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
 def _behind_filter(contact: Contact, filter: Filter, *, goes_on: bool = True) -> Contact:
     """The contact with the particles that come through a filter."""
     behind = []
-    for each in contact.populations:
-        number, sizes = filter.behind(each.areal_density, each.diameter, goes_on=goes_on)
-        behind.append(each.replace(areal_density=number, diameter=sizes))
+    for population in contact.populations:
+        number, sizes = filter.behind(
+            population.areal_density, population.diameter, goes_on=goes_on
+        )
+        behind.append(population.replace(areal_density=number, diameter=sizes))
     return contact.replace(particles=tuple(behind) if len(behind) > 1 else behind[0])
 
 
@@ -275,21 +281,21 @@ def _life(
     if turns_not or study.forces is None:
         return None
     turns, D, P = body.shaft_speed / (2 * math.pi), body.pitch_diameter, float(study.forces[0])
-    numbers = [each.per_volume for each in parts]
-    sizes = [each.diameter for each in contact.populations]
+    numbers = [dents.per_volume for dents in parts]
+    sizes = [population.diameter for population in contact.populations]
     mixed = Mixture(parts=tuple(sizes), weights=tuple(numbers)) if len(sizes) > 1 else sizes[0]
     code = iso4406_of(density=sum(numbers), diameter=mixed)
     kappa = viscosity_ratio(film.oil.eta / DENSITY, turns=turns, D=D)
     place = "bath" if filter is None else "filter"
-    known: dict[str, Any] = {"kappa": kappa, "code": code, "place": place}
+    keywords: dict[str, Any] = {"kappa": kappa, "code": code, "place": place}
     try:
         e_C = contamination_factor(place, code, kappa=kappa, D=D)
-        own = body.fatigue_load / P
-        a_ISO = life_factor(body.rated_as, kappa=kappa, load=e_C * own)
-        clean = life_factor(body.rated_as, kappa=kappa, load=own)
+        fatigue_ratio = body.fatigue_load / P
+        a_ISO = life_factor(body.rated_as, kappa=kappa, load=e_C * fatigue_ratio)
+        clean = life_factor(body.rated_as, kappa=kappa, load=fatigue_ratio)
     except InvalidValue as error:
-        return Life(**known, why=error.problems[0])
+        return Life(**keywords, why=error.problems[0])
     exponent = 3.0 if body.rated_as == "ball" else 10 / 3
     hours = float(a_ISO * (body.rating / P) ** exponent * 1e6 / (turns * HOUR))
-    known |= {"e_C": e_C, "a_ISO": a_ISO, "clean": clean}
-    return Life(**known, hours=hours, load_over_rating=P / body.rating)
+    keywords |= {"e_C": e_C, "a_ISO": a_ISO, "clean": clean}
+    return Life(**keywords, hours=hours, load_over_rating=P / body.rating)

@@ -116,7 +116,7 @@ def _declaration(item: dataclasses.Field[Any]) -> Declaration:
 
 def needed_fields(kind: type) -> list[str]:
     """Fields of a value class without a default."""
-    return [each.name for each in declarations(kind) if each.needed]
+    return [field.name for field in declarations(kind) if field.needed]
 
 
 @cache
@@ -124,18 +124,18 @@ def filled_in(kind: Any) -> frozenset[str]:
     """Options of an asperity law that a contact always sets, or that are no numbers."""
     if not issubclass(kind, asperity.AbstractAsperityLaw):
         return frozenset()
-    found = set()
+    names = set()
     for item in dataclasses.fields(kind):
         if "table" in item.metadata:
             continue
         if item.default is None and "quantity" not in item.metadata:
-            found.add(item.name)
+            names.add(item.name)
         elif item.default is None:
-            given = kind(**{item.name: 0.1})
-            used = given.bound(R=1e-6, E_star=1e11, H=1e9, nu=0.3)
+            law = kind(**{item.name: 0.1})
+            used = law.bound(R=1e-6, E_star=1e11, H=1e9, nu=0.3)
             if getattr(used, item.name) != 0.1:
-                found.add(item.name)
-    return frozenset(found)
+                names.add(item.name)
+    return frozenset(names)
 
 
 def idle(kind: type) -> dict[str, str]:

@@ -44,8 +44,8 @@ def _read_filter(reader: Reader, path: str, value: object) -> Filter:
 
 def filter_of(whole: Mapping[str, object]) -> Filter | None:
     """The filter of a parsed file that was read; None where it names none."""
-    told = get(whole.get("film"), "filter")
-    return Filter.from_text(told) if isinstance(told, str) else None
+    filter_text = get(whole.get("film"), "filter")
+    return Filter.from_text(filter_text) if isinstance(filter_text, str) else None
 
 
 @cache
@@ -73,7 +73,7 @@ def _keys() -> dict[str, Key]:
 
 def _film(reader: Reader, path: str, data: object) -> FilmConditions | dict[str, object]:
     """The bodies, the oil, the load, and the speeds."""
-    reader.known.refused[path] = {"pressure": NO_PRESSURE}
+    reader.known_keys.refused[path] = {"pressure": NO_PRESSURE}
     keys = _keys()
     pressed = reader.every_way or get(reader.whole, "body") is not None
     if pressed:
@@ -107,15 +107,15 @@ def on_body(
     """The film, with conjunction, load and speed of one contact of [body] where not given."""
     if isinstance(film, FilmConditions):
         return film
-    own: dict[str, object] = {}
+    from_body: dict[str, object] = {}
     shape = None if bodies is None else bodies.conjunction
     if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:
-        own = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}
+        from_body = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}
     if bodies is not None and bodies.rolling_speed is not None:
-        own["speed"] = (bodies.rolling_speed,)
-    missing = [name for name in TAKEN if name not in film | own]
+        from_body["speed"] = (bodies.rolling_speed,)
+    missing = [name for name in TAKEN if name not in film | from_body]
     if not missing:
-        return reader.make(FilmConditions, "film", own | film)
+        return reader.make(FilmConditions, "film", from_body | film)
     problems = []
     if "speed" in missing:
         missing.remove("speed")

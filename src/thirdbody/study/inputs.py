@@ -48,15 +48,15 @@ class Input:
 
 def field_of(table: str, key: str) -> str:
     """The dotted name of a field: sizes stand beside the other keys of [particles] in a file."""
-    own = {item.name for item in dataclasses.fields(Particles)} - {"shape"}  # a number of sizes
-    if re.fullmatch(r"particles(\.\d+)?", table) and key not in own:
+    fields = {item.name for item in dataclasses.fields(Particles)} - {"shape"}  # a number of sizes
+    if re.fullmatch(r"particles(\.\d+)?", table) and key not in fields:
         return f"{table}.diameter.{key}"
     return f"{table}.{key}"
 
 
 def inputs_of(whole: Mapping[str, object]) -> list[Input]:
     """Every field of the tables of a file that holds a number, a word or a label."""
-    found: dict[tuple[str, str], Input] = {}
+    inputs: dict[tuple[str, str], Input] = {}
     for table, kind in _kinds(whole):
         without_effect = {
             name: f"has no part in the contact ({what}), so nothing would change with it"
@@ -71,13 +71,13 @@ def inputs_of(whole: Mapping[str, object]) -> list[Input]:
             why = without_effect.get(item.name, "")
             if why or any(about.values()):
                 one = Input(table=table, key=item.name, idle=why, **about)
-                found.setdefault((table, item.name), one)
-    return list(found.values())
+                inputs.setdefault((table, item.name), one)
+    return list(inputs.values())
 
 
 def _kinds(whole: Mapping[str, object]) -> list[tuple[str, type]]:
     """The classes whose fields each table of the file holds."""
-    found: list[tuple[str, type | None]] = [
+    kinds: list[tuple[str, type | None]] = [
         ("surfaces.first", Material),
         ("surfaces.second", Material),
         ("roughness", Roughness),
@@ -86,17 +86,17 @@ def _kinds(whole: Mapping[str, object]) -> list[tuple[str, type]]:
     tables = populations(whole)
     for path, table in tables.items():
         sizes = DISTRIBUTIONS.get(str(get(table, "distribution")))
-        found += [(path, Particles), (path, sizes), (f"{path}.material", Material)]
+        kinds += [(path, Particles), (path, sizes), (f"{path}.material", Material)]
         if get(table, "strength") is not None:
-            found.append((f"{path}.strength", WeibullStrength))
+            kinds.append((f"{path}.strength", WeibullStrength))
         if isinstance(word := get(get(table, "shape"), "kind"), str):
-            found.append((f"{path}.shape", SHAPES.get(word)))
+            kinds.append((f"{path}.shape", SHAPES.get(word)))
         if get(table, "law") is not None:
-            found.append((f"{path}.law", class_of(get(table, "law"), particle.REGISTRY)))
+            kinds.append((f"{path}.law", class_of(get(table, "law"), particle.REGISTRY)))
     if any(get(table, "law") is None for table in tables.values()):
         common = class_of(whole.get("particle_law", "series"), particle.REGISTRY)
-        found.append(("particle_law", common))
-    asked = whole.get("outputs")
-    if isinstance(asked, dict):
-        found += [(f"outputs.{name}", OUTPUTS.get(name)) for name in asked]
-    return [(path, kind) for path, kind in found if kind is not None]
+        kinds.append(("particle_law", common))
+    outputs = whole.get("outputs")
+    if isinstance(outputs, dict):
+        kinds += [(f"outputs.{name}", OUTPUTS.get(name)) for name in outputs]
+    return [(path, kind) for path, kind in kinds if kind is not None]

@@ -121,9 +121,9 @@ class AskedLife:
     def described_inputs(self) -> Described:
         """What the tables describe."""
         bodies = {
-            each.material.name or "particles": each.material
+            dirt.material.name or "particles": dirt.material
             for some in (self.circuit.start, self.circuit.ingress)
-            for each in some
+            for dirt in some
         }
         values: dict[str, Value] = {"life.oil.": self.circuit}
         if self.contact is not None:
@@ -135,20 +135,20 @@ class AskedLife:
 
 def _duration(reader: Reader, path: str, value: object) -> float:
     """A duration; without a unit it is in seconds, which is said."""
-    found = read_number(DURATION, reader, path, value)
+    duration = read_number(DURATION, reader, path, value)
     bare = str(value).strip()
     if re.fullmatch(r"[\d.+]+([eE][+-]?\d+)?", bare):
-        said = f"{path} = {bare} has no unit and is taken as {value_of(found, 's')}"
+        said = f"{path} = {bare} has no unit and is taken as {value_of(duration, 's')}"
         reader.assumed.append(f'{said}; for hours write "{bare} h"')
-    return found
+    return duration
 
 
 def _times(reader: Reader, path: str, value: object) -> tuple[float, ...]:
     """One time, or a list of them."""
-    given = value if isinstance(value, list) else [value]
-    items = {f"{path}[{i}]": each for i, each in enumerate(given)}
+    entries = value if isinstance(value, list) else [value]
+    items = {f"{path}[{i}]": entry for i, entry in enumerate(entries)}
     return reader.read_each(
-        items, lambda reader, where, each: read_number(TIME, reader, where, each)
+        items, lambda reader, where, entry: read_number(TIME, reader, where, entry)
     )
 
 
@@ -156,8 +156,8 @@ def _times(reader: Reader, path: str, value: object) -> tuple[float, ...]:
 def _oil_keys() -> dict[str, Key]:
     """Keys of [life.oil]."""
     one = number(TIME).schema
-    own = {name: key for name, key in keys_of(OilCircuit).items() if name != "classes"}
-    return own | {
+    circuit_keys = {name: key for name, key in keys_of(OilCircuit).items() if name != "classes"}
+    return circuit_keys | {
         "material": MATERIAL._replace(about='what the particles are of, e.g. "quartz"'),
         "start": DIRT._replace(required=True),
         "ingress": INGRESS._replace(required=True),
@@ -177,9 +177,9 @@ def _oil(reader: Reader, path: str, data: object) -> dict[str, object]:
 # -------------------------------------------------------------------------- filters
 def _filter(reader: Reader, path: str, data: object, *, with_flow: bool = True) -> Filter:
     """One filter."""
-    own = keys_of(Filter)
+    filter_keys = keys_of(Filter)
     beta = sized_numbers(BETA, '{ "5 um" = 2, "10 um" = 75 }')
-    keys = {name: key for name, key in own.items() if name not in ("sizes", "betas")}
+    keys = {name: key for name, key in filter_keys.items() if name not in ("sizes", "betas")}
     keys["flow"] = keys["flow"]._replace(required=with_flow)
     keys["beta"] = beta._replace(required=True, about="β ratios of the data sheet " + beta.about)
 
@@ -188,7 +188,7 @@ def _filter(reader: Reader, path: str, data: object, *, with_flow: bool = True) 
         try:
             return Filter(sizes=sizes, betas=betas, **values)
         except InvalidValue as error:
-            named = (each.changed(path=_in_beta(each.path)) for each in error.problems)
+            named = (problem.changed(path=_in_beta(problem.path)) for problem in error.problems)
             raise InvalidValue(*named).under(path) from None
 
     return reader.table(path, data, keys, build)
@@ -203,7 +203,7 @@ def _filters(reader: Reader, path: str, data: object) -> tuple[Filter, ...]:
     """A list of filters."""
     if not isinstance(data, list):
         raise wrong(path, "must be a table, headed [[life.filters]]", data, code=Mistake.KIND)
-    return reader.read_each({f"{path}.{i}": each for i, each in enumerate(data)}, _filter)
+    return reader.read_each({f"{path}.{i}": entry for i, entry in enumerate(data)}, _filter)
 
 
 FILTERS = Key(
@@ -252,15 +252,15 @@ def _read_entries(reader: Reader, path: str, value: object) -> dict[str, object]
 
 
 def _uncertainty(
-    reader: Reader, given: Mapping[str, object], circuit: OilCircuit, contact: LifeContact | None
+    reader: Reader, ranges: Mapping[str, object], circuit: OilCircuit, contact: LifeContact | None
 ) -> KnownOfLife:
     """What is known of the numbers of a circuit and of its contacts, by their names in them."""
     more = {} if contact is None else {f"contact.{name}": q for name, q in OF_CONTACT.items()}
     if contact is not None and contact.debris is not None:
         more[BANDS_HARDNESS] = HARDNESS
     some = '"ingress" (a factor), "oil.volume", "filters.0.service", "filters.0.flow"'
-    for i, each in enumerate(circuit.filters):
-        some += "".join(f', "filters.{i}.beta.{value_of(x, "m")}"' for x in each.sizes)
+    for i, oil_filter in enumerate(circuit.filters):
+        some += "".join(f', "filters.{i}.beta.{value_of(x, "m")}"' for x in oil_filter.sizes)
     some += "".join(f', "{name}"' for name in more)
 
     def about(label: str) -> tuple[str, Quantity | None]:
@@ -270,7 +270,7 @@ def _uncertainty(
         return one_name_of(circuit, name), about_circuit(circuit, name)
 
     names = f"is not a number of the circuit; it has {some}"
-    return known_of_life(reader, given, about, names, contact=contact is not None)
+    return known_of_life(reader, ranges, about, names, contact=contact is not None)
 
 
 @cache
@@ -308,42 +308,49 @@ def _life(reader: Reader, path: str, data: object) -> dict[str, object]:
 
 
 def _with_reports(
-    reader: Reader, path: str, entry: Mapping[str, Any], circuit: OilCircuit, own: Material | None
+    reader: Reader,
+    path: str,
+    entry: Mapping[str, Any],
+    circuit: OilCircuit,
+    oil_material: Material | None,
 ) -> OilCircuit:
     """The circuit with the ingress that reports of its oil say."""
     times, reports, sizes = entry["reports"]
-    material = entry.get("material", own)
+    material = entry.get("material", oil_material)
     try:
-        found = oil_reports(times, reports=reports, sizes=sizes, circuit=circuit, material=material)
+        reported = oil_reports(
+            times, reports=reports, sizes=sizes, circuit=circuit, material=material
+        )
     except InvalidValue as error:
         raise error.under(path) from None
-    low, high = (3.6e9 * each for each in (found.mass_low, found.mass_high))
-    first, last = (value_of(float(found.sizes[i]), "m") for i in (0, -1))
+    low, high = (3.6e9 * rate for rate in (reported.mass_low, reported.mass_high))
+    first, last = (value_of(float(reported.sizes[i]), "m") for i in (0, -1))
     reader.assumed.append(
-        f"{path}: from its reports {3.6e9 * found.mass_rate:.3g} mg/h of particles from {first} on "
-        f"enter the oil, {low:.3g} to {high:.3g} mg/h; {percent(share_beyond(found), digits=2)} of "
-        f"it is of sizes beyond {last} that no report says. None below {first} enter, so their "
+        f"{path}: from its reports {3.6e9 * reported.mass_rate:.3g} mg/h of particles from {first} "
+        f"on enter the oil, {low:.3g} to {high:.3g} mg/h; "
+        f"{percent(share_beyond(reported), digits=2)} of it is of sizes beyond {last} that "
+        f"no report says. None below {first} enter, so their "
         "mass, dents and wear are left out: "
-        + below_counts(found).split("; ")[-1].removesuffix(".")
+        + below_counts(reported).split("; ")[-1].removesuffix(".")
     )
-    return circuit.replace(ingress=(found.ingress,))
+    return circuit.replace(ingress=(reported.ingress,))
 
 
 def life_of(reader: Reader, values: dict[str, Any]) -> AskedLife | AskedDry:
     """The life that a study asks for, from the objects that its tables stand for."""
-    given = values["life"]
-    return dry_of(reader, values) if "dry" in given else oil_of(reader, values)
+    life_table = values["life"]
+    return dry_of(reader, values) if "dry" in life_table else oil_of(reader, values)
 
 
 def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     """The oil of a study, from the objects that its tables stand for."""
-    given = values["life"]
-    if "oil" not in given:
+    life_table = values["life"]
+    if "oil" not in life_table:
         rule = "is a dry contact, and this asks for an oil, [life.oil]"
         raise InvalidValue(Problem("life.dry", rule, code=Mistake.CLASH))
-    oil = dict(given["oil"])
+    oil = dict(life_table["oil"])
     material = oil.pop("material", None)
-    reported = [each for each in oil["ingress"] if "reports" in each[1]]
+    reported = [source for source in oil["ingress"] if "reports" in source[1]]
     if reported and len(oil["ingress"]) > 1:
         rule = "from reports is all that enters; leave the others out"
         raise InvalidValue(Problem("life.oil.ingress", rule, code=Mistake.CLASH))
@@ -351,24 +358,26 @@ def oil_of(reader: Reader, values: dict[str, Any]) -> AskedLife:
     for name in ("start", "ingress", "fresh_oil"):
         if name in oil:
             oil[name] = dirts_of(oil[name], material, ingress=name == "ingress")
-    oil["filters"] = given.get("filters", ())
+    oil["filters"] = life_table.get("filters", ())
     circuit = reader.make(OilCircuit, "life.oil", oil)
     for path, entry in reported:
         circuit = _with_reports(reader, path, entry, circuit, material)
     circuit.terms()  # what does not go together is told before anything is computed
     rolling = rolling_of(reader, values)
     contact = contact_of(reader, values, rolling)
-    known = _uncertainty(reader, given.get("uncertainty", {}), circuit, contact)
+    uncertainty = _uncertainty(reader, life_table.get("uncertainty", {}), circuit, contact)
     design = None
-    if "design" in given:
-        design = design_of(reader, given["design"], circuit, given.get("until", ()), about_circuit)
+    if "design" in life_table:
+        design = design_of(
+            reader, life_table["design"], circuit, life_table.get("until", ()), about_circuit
+        )
     return AskedLife(
         title=values.get("title", ""),
         circuit=circuit,
-        duration=given["duration"],
-        until=given.get("until", ()),
-        uncertainty=known.vary,
-        drawn=known,
+        duration=life_table["duration"],
+        until=life_table.get("until", ()),
+        uncertainty=uncertainty.vary,
+        drawn=uncertainty,
         contact=contact,
         rolling=rolling,
         design=design,

@@ -57,10 +57,10 @@ class LifeAssessment(QuestionResult):
         swings = self.bands.swings
         unit = "1/m^3" if self.bands.swings_of == COUNT else "m"
         columns: dict[str, list[object]] = {
-            "input": [each.name for each in swings],
-            "at_low": [each.low for each in swings],
-            "at_high": [each.high for each in swings],
-            "factor": [each.factor for each in swings],
+            "input": [swing.name for swing in swings],
+            "at_low": [swing.low for swing in swings],
+            "at_high": [swing.high for swing in swings],
+            "factor": [swing.factor for swing in swings],
         }
         return columns, {"input": "", "at_low": unit, "at_high": unit, "factor": "1"}
 
@@ -77,19 +77,19 @@ class LifeAssessment(QuestionResult):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        vary = {name: repr(each) for name, each in self.asked.uncertainty.items()}
+        vary = {name: repr(uncertain) for name, uncertain in self.asked.uncertainty.items()}
         missed = {name: self.bands.missed(name) for name in self.bands.reached}
         return self.whole(inputs=vary, **self.bands.to_dict(), missed=missed)
 
 
 def assess_life(
-    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+    request: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
 ) -> LifeAssessment:
     """Bands of a life, from its table [life.uncertainty].
 
     Parameters
     ----------
-    asked : AskedLife or AskedDry
+    request : AskedLife or AskedDry
         As `thirdbody.study.run_life.load_life` reads it.
     progress, keep
         As in `thirdbody.study.run_life.bands_of`.
@@ -99,11 +99,11 @@ def assess_life(
     InvalidValue
         Nothing is said of what is known.
     """
-    bands = bands_of(asked, progress=progress, keep=keep)
+    bands = bands_of(request, progress=progress, keep=keep)
     if bands is None:
         raise InvalidValue(
             Problem(
                 "life.uncertainty", "is missing: what is known of the numbers", code=Mistake.MISSING
             )
         )
-    return LifeAssessment(asked=asked, bands=bands)
+    return LifeAssessment(asked=request, bands=bands)

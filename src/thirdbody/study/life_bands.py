@@ -174,15 +174,15 @@ def _check(
         if vary
         else [Problem("vary", "must name a number that is uncertain", code=Mistake.EMPTY)]
     )
-    for name, known in vary.items():
+    for name, uncertain in vary.items():
         if name in (*OF_CONTACT, HARDNESS) and contact is not None:
-            problems += _problems_of_condition(name, known, contact)
+            problems += _problems_of_condition(name, uncertain, contact)
             continue
-        if not isinstance(known, Uncertain):
-            problems.append(Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND))
+        if not isinstance(uncertain, Uncertain):
+            problems.append(Problem(name, "must be Uncertain", repr(uncertain), code=Mistake.KIND))
             continue
         if name == INGRESS:
-            if not known.quantile(1e-9) >= 0:
+            if not uncertain.quantile(1e-9) >= 0:
                 problems.append(
                     Problem(
                         name, "is a factor on all that enters and must be >= 0", code=Mistake.RANGE
@@ -190,7 +190,7 @@ def _check(
                 )
             continue
         if contact is not None and is_of_contact(name):
-            problems += _problems_of_part(name, known, contact["contact"])
+            problems += _problems_of_part(name, uncertain, contact["contact"])
             continue
         try:
             if not isinstance(_number_of(circuit, name), float):
@@ -250,12 +250,12 @@ def check_oil(
     """
     _check(circuit, vary, contact)
     count = samples or (SAMPLES if contact is None else SAMPLES_OF_CONTACT)
-    own = {name: each for name, each in vary.items() if _is_of_circuit(name)}
-    if not own:
+    of_circuit = {name: uncertain for name, uncertain in vary.items() if _is_of_circuit(name)}
+    if not of_circuit:
         return
     sets = [
-        {name: value for name, value in each.items() if name in own}
-        for each in _Drawing(vary, count, seed, tuple(probabilities)).sets()
+        {name: value for name, value in drawn.items() if name in of_circuit}
+        for drawn in _Drawing(vary, count, seed, tuple(probabilities)).sets()
     ]
     wrong: dict[str, tuple[int, Problem]] = {}
     for values in filter(None, sets):
@@ -291,7 +291,7 @@ def _problem_of_set(
     for name, value in values.items():
         if (problem := _problem_of(circuit, {name: value}, duration)) is not None:
             return [(name, problem)]
-    name = next((each for each in values if each in EMPTYING), next(iter(values)))
+    name = next((key for key in values if key in EMPTYING), next(iter(values)))
     return [(name, whole)]
 
 
@@ -299,7 +299,7 @@ def _problem_of(
     circuit: OilCircuit, values: Mapping[str, float], duration: float
 ) -> Problem | None:
     """Why a circuit cannot be with some values."""
-    name = next((each for each in values if each in EMPTYING), next(iter(values)))
+    name = next((key for key in values if key in EMPTYING), next(iter(values)))
     about = about_circuit(circuit, name)
     value = value_of(values[name], "1" if about is None else about["unit"], 3)
     try:
@@ -316,18 +316,18 @@ def _problem_of(
 
 def _problems_of_betas(circuit: OilCircuit, vary: Mapping[str, Any]) -> Iterator[Problem]:
     """Why β ratios cannot be varied so: below 1, or with one that may fall towards larger sizes."""
-    known = {place_of_beta(circuit, name): name for name in vary}
-    for f, each in enumerate(circuit.filters):
+    names = {place_of_beta(circuit, name): name for name in vary}
+    for f, oil_filter in enumerate(circuit.filters):
         before, whose = 1.0, "the least there is"
-        for i, (size, beta) in enumerate(zip(each.sizes, each.betas, strict=True)):
-            name, low, high = known.get((f, i)), beta, beta
+        for i, (size, beta) in enumerate(zip(oil_filter.sizes, oil_filter.betas, strict=True)):
+            name, low, high = names.get((f, i)), beta, beta
             if name is not None and isinstance(vary[name], Uncertain):
                 low, high = (float(vary[name].quantile(end)) for end in (0.0, 1.0))
             if low < before * (1 - 1e-6):
                 if name is not None:
                     rule = f"may be as low as {number(low, 4)}, below {number(before, 4)}, {whose}"
                 else:
-                    name = known.get((f, i - 1), "")
+                    name = names.get((f, i - 1), "")
                     at = value_of(size, "m")
                     rule = (
                         f"may be as high as {number(before, 4)}, above {number(low, 4)}, β at {at}"
@@ -343,15 +343,15 @@ def is_of_contact(name: str) -> bool:
     return "." in name and name.partition(".")[0] in PARTS
 
 
-def _problems_of_part(name: str, known: object, contact: Contact) -> list[Problem]:
+def _problems_of_part(name: str, uncertain: object, contact: Contact) -> list[Problem]:
     """Why a number inside a contact cannot be varied so."""
-    if not isinstance(known, Uncertain):
-        return [Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND)]
+    if not isinstance(uncertain, Uncertain):
+        return [Problem(name, "must be Uncertain", repr(uncertain), code=Mistake.KIND)]
     try:
         if not isinstance(contact.value_at(name), float | int):
             return [Problem(name, "is not a number of the contact", code=Mistake.UNKNOWN)]
         for end in (1e-9, 1 - 1e-9):
-            contact.replace(**{name: known.quantile(end)})
+            contact.replace(**{name: uncertain.quantile(end)})
     except InvalidValue as error:
         return list(error.problems)
     return []
@@ -359,17 +359,19 @@ def _problems_of_part(name: str, known: object, contact: Contact) -> list[Proble
 
 def _contact_with(contact: Contact, values: dict[str, float]) -> Contact:
     """A contact with some of its numbers changed, which are taken out of the values."""
-    own = {name: values.pop(name) for name in list(values) if is_of_contact(name)}
-    return contact.replace(**own) if own else contact
+    changes = {name: values.pop(name) for name in list(values) if is_of_contact(name)}
+    return contact.replace(**changes) if changes else contact
 
 
-def _problems_of_condition(name: str, known: object, given: Mapping[str, object]) -> list[Problem]:
+def _problems_of_condition(
+    name: str, uncertain: object, conditions: Mapping[str, object]
+) -> list[Problem]:
     """Why a condition of a contact cannot be varied so."""
-    if not isinstance(known, Uncertain):
-        return [Problem(name, "must be Uncertain", repr(known), code=Mistake.KIND)]
-    if name == HARDNESS and given.get("debris") is None:
+    if not isinstance(uncertain, Uncertain):
+        return [Problem(name, "must be Uncertain", repr(uncertain), code=Mistake.KIND)]
+    if name == HARDNESS and conditions.get("debris") is None:
         return [Problem(name, "needs debris", code=Mistake.MISSING)]
-    ends = known.quantile(1e-9), known.quantile(1 - 1e-9)
+    ends = uncertain.quantile(1e-9), uncertain.quantile(1 - 1e-9)
     low, high = float(ends[0]), float(ends[1])
     if low < 0 or (low == 0 and name not in ("loss", "stays", "slide_roll")):
         return [Problem(name, "must be above 0 throughout", code=Mistake.RANGE)]
@@ -378,11 +380,11 @@ def _problems_of_condition(name: str, known: object, given: Mapping[str, object]
     return []
 
 
-def _with_hardness(given: Mapping[str, object], values: dict[str, float]) -> dict[str, Any]:
+def _with_hardness(arguments: Mapping[str, object], values: dict[str, float]) -> dict[str, Any]:
     """Arguments of a contact with some of its numbers changed."""
-    out = dict(given)
+    out = dict(arguments)
     if HARDNESS in values:
-        debris = given["debris"]
+        debris = arguments["debris"]
         assert isinstance(debris, Debris)
         out["debris"] = debris.replace(hardness=values.pop(HARDNESS))
     return out | values
@@ -392,8 +394,8 @@ def _end_of(history: LifeHistory | DryHistory) -> End:
     counts = history.counts[-1].tolist() if isinstance(history, LifeHistory) else ()
     depths = [history.more[n][1][-1] for n in ("wear_1", "wear_2") if n in history.more]
     times: dict[str, float] = {}
-    for each in history.events:
-        times.setdefault(each.name, each.time)
+    for event in history.events:
+        times.setdefault(event.name, event.time)
     wear = float(max(depths)) if depths else math.nan
     return End(tuple(counts), wear, float(history.R0) if depths else math.nan, times)
 
@@ -458,10 +460,11 @@ def propagate_life(
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz),
-    ...     ingress=tb.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[1e6, 3e5], material=quartz),
-    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz),
+    ...     ingress=tb.oil.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[1e6, 3e5],
+    ...                                        material=quartz),
+    ...     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> found = propagate_life(oil, vary={"ingress": tb.Uncertain.lognormal(median=1, gsd=2)},
     ...                        duration=36000.0, samples=64)
     >>> [code.split("/")[0] for code in found.codes]
@@ -472,7 +475,7 @@ def propagate_life(
         circuit, vary=vary, duration=duration, contact=contact, samples=count, seed=seed,
         probabilities=probabilities,
     )  # fmt: skip
-    waits = tuple(each.replace(stops=False) for each in until)
+    waits = tuple(event.replace(stops=False) for event in until)
     shared: dict[str, Any] = {"duration": duration, "until": waits, "times": [0.0, duration]}
 
     def end(values: Mapping[str, float]) -> End:
@@ -480,9 +483,9 @@ def propagate_life(
             return _end_of(run_oil_history(with_numbers(circuit, values), **shared))
         rest = dict(values)
         changed = _contact_with(contact["contact"], rest)
-        own = {name: rest.pop(name) for name in (*OF_CONTACT, HARDNESS) if name in rest}
-        given = _with_hardness(contact, own) | {"contact": changed}
-        return _end_of(life(**given, oil=with_numbers(circuit, rest), **shared))
+        conditions = {name: rest.pop(name) for name in (*OF_CONTACT, HARDNESS) if name in rest}
+        arguments = _with_hardness(contact, conditions) | {"contact": changed}
+        return _end_of(life(**arguments, oil=with_numbers(circuit, rest), **shared))
 
     return _bands(
         end, _Drawing(vary, count, seed, tuple(probabilities)), waits, duration=duration,
@@ -505,21 +508,21 @@ def check_dry(
     ------
     InvalidValue
     """
-    known = (ARRIVALS, *OF_DRY, HARDNESS)
+    names = (ARRIVALS, *OF_DRY, HARDNESS)
     problems = (
         []
         if vary
         else [Problem("vary", "must name a number that is uncertain", code=Mistake.EMPTY)]
     )
-    for name, each in vary.items():
+    for name, uncertain in vary.items():
         if is_of_contact(name):
-            problems += _problems_of_part(name, each, contact)
-        elif name not in known:
+            problems += _problems_of_part(name, uncertain, contact)
+        elif name not in names:
             problems.append(
-                Problem(name, f"must be one of {', '.join(known)}", code=Mistake.UNKNOWN)
+                Problem(name, f"must be one of {', '.join(names)}", code=Mistake.UNKNOWN)
             )
         else:
-            problems += _problems_of_condition(name, each, conditions)
+            problems += _problems_of_condition(name, uncertain, conditions)
     if problems:
         raise InvalidValue(*problems)
 
@@ -563,18 +566,18 @@ def propagate_dry(
         What is no number of the contact, or a range beyond what it may be.
     """
     check_dry(contact, vary=vary, conditions=conditions)
-    waits = tuple(each.replace(stops=False) for each in until)
+    waits = tuple(event.replace(stops=False) for event in until)
 
     def end(values: Mapping[str, float]) -> End:
         changes = dict(values)
         factor = changes.pop(ARRIVALS, 1.0)
         changed = _contact_with(contact, changes)
-        given = _with_hardness(conditions, changes)
-        some = given.get(ARRIVALS, ())
+        arguments = _with_hardness(conditions, changes)
+        some = arguments.get(ARRIVALS, ())
         some = (some,) if isinstance(some, Ingress) else tuple(some)
-        given[ARRIVALS] = tuple(each.replace(rate=factor * each.rate) for each in some)
+        arguments[ARRIVALS] = tuple(ingress.replace(rate=factor * ingress.rate) for ingress in some)
         shared: dict[str, Any] = {"duration": duration, "until": waits, "times": [0.0, duration]}
-        return _end_of(life(changed, **given, **shared))
+        return _end_of(life(changed, **arguments, **shared))
 
     count = samples or SAMPLES_OF_CONTACT
     return _bands(
@@ -598,12 +601,12 @@ def _bands(
     """Ends of all sets of inputs, and of each input alone at its ends."""
     vary, samples, seed, probabilities = drawing
     sets = drawing.sets()
-    asked = dict(inputs) | {
-        "vary": {name: repr(each) for name, each in vary.items()},
-        "until": [each.to_dict() for each in waits],
+    all_inputs = dict(inputs) | {
+        "vary": {name: repr(uncertain) for name, uncertain in vary.items()},
+        "until": [event.to_dict() for event in waits],
         "numbers": [duration, samples, seed, *probabilities],
     }
-    kept = KeptEnds(None if keep is None else Path(keep), asked)
+    kept = KeptEnds(None if keep is None else Path(keep), all_inputs)
     ends = []
     with (
         warnings.catch_warnings(),
@@ -611,35 +614,35 @@ def _bands(
     ):
         warnings.simplefilter("ignore", RangeWarning)  # they stand in the history of the study
         for i, values in enumerate(sets):
-            if (found := kept.get(i)) is None:
-                found = kept.add(i, end(values)._asdict())
-            ends.append(End(**found))
+            if (outcome := kept.get(i)) is None:
+                outcome = kept.add(i, end(values)._asdict())
+            ends.append(End(**outcome))
             report(i + 1)
     drawn = ends[:samples]
-    swung = [_value_of_end(each, swings_of) for each in ends[samples:]]
+    swung = [_value_of_end(outcome, swings_of) for outcome in ends[samples:]]
     swings = [Swing(name, *swung[2 * i : 2 * i + 2]) for i, name in enumerate(vary)]
     counts = np.quantile(
-        np.array([each.counts for each in drawn]).reshape(samples, -1), probabilities, axis=0,
+        np.array([outcome.counts for outcome in drawn]).reshape(samples, -1), probabilities, axis=0,
         method="hazen",
     )  # fmt: skip
-    events = sorted({each.name for each in waits})
-    events += [JAM] if any(JAM in each.times for each in drawn) else []
-    times = {name: [each.times.get(name, math.inf) for each in drawn] for name in events}
+    events = sorted({event.name for event in waits})
+    events += [JAM] if any(JAM in outcome.times for outcome in drawn) else []
+    times = {name: [outcome.times.get(name, math.inf) for outcome in drawn] for name in events}
     return LifeBands(
         probabilities=probabilities,
         samples=samples,
         duration=duration,
         counts=counts,
-        codes=tuple(iso4406_of_counts(each) for each in counts if len(each)),
+        codes=tuple(iso4406_of_counts(row) for row in counts if len(row)),
         times={
             name: np.quantile(np.array(some), probabilities, method="inverted_cdf")
             for name, some in times.items()
         },
         reached={name: float(np.mean(np.isfinite(some))) for name, some in times.items()},
-        swings=tuple(sorted(swings, key=lambda each: -each.factor)),
+        swings=tuple(sorted(swings, key=lambda swing: -swing.factor)),
         swings_of=swings_of,
-        wear=_quantiles([each.wear for each in drawn], probabilities),
-        R0=_quantiles([each.R0 for each in drawn], probabilities),
+        wear=_quantiles([outcome.wear for outcome in drawn], probabilities),
+        R0=_quantiles([outcome.R0 for outcome in drawn], probabilities),
     )
 
 
@@ -649,6 +652,6 @@ def _value_of_end(end: End, of: str) -> float:
 
 def _quantiles(values: Sequence[float], probabilities: Sequence[float]) -> Array:
     """Quantiles; NaN where one of the values is not known."""
-    if any(math.isnan(each) for each in values):
+    if any(math.isnan(value) for value in values):
         return np.full(len(probabilities), math.nan)
     return np.quantile(np.array(values), probabilities, method="hazen")

@@ -245,13 +245,13 @@ def contact_of(
     reader: Reader, values: dict[str, Any], rolling: Rolling | None
 ) -> LifeContact | None:
     """The contacts in the oil of a study; None where it has no [life.contact]."""
-    given = values["life"]
-    if "contact" not in given:
+    life_table = values["life"]
+    if "contact" not in life_table:
         for name in ("debris", "running_in"):
-            if name in given:
+            if name in life_table:
                 rule = "has no effect without [life.contact], with entry_ratio"
                 raise InvalidValue(Problem(f"life.{name}", rule, code=Mistake.IDLE))
-        idle = [each for each in given.get("until", ()) if isinstance(each, ContactUntil)]
+        idle = [event for event in life_table.get("until", ()) if isinstance(event, ContactUntil)]
         if idle:
             rule = "has no effect without [life.contact], with entry_ratio"
             raise InvalidValue(
@@ -266,7 +266,7 @@ def contact_of(
         )
     assert rolling is not None
     contact, film = rolling.contact, rolling.film
-    need_debris(contact, given)
+    need_debris(contact, life_table)
     conditions = {
         "conjunction": film.conjunction,
         "lubricant": film.oil,
@@ -276,7 +276,7 @@ def contact_of(
         "hertz": film.hertz,
         "slide_roll": film.slide_roll or 0.0,
     }
-    given_here = dict(given["contact"])
+    given_here = dict(life_table["contact"])
     if "contacts" not in given_here and rolling.body is not None:
         given_here["contacts"] = rolling.contacts
         reader.assumed.append(
@@ -286,7 +286,7 @@ def contact_of(
     body = rolling.body
     if isinstance(body, RadialBearing) and "worn_area" not in given_here and wears(contact):
         worn = given_here["worn_area"] = rolling.worn_area
-        both = join_words([f"{value_of(each, 'm^2', 3)}" for each in worn])
+        both = join_words([f"{value_of(area, 'm^2', 3)}" for area in worn])
         reader.assumed.append(
             f"life.contact.worn_area: {both} are worn in turn, all {body.rolling_bodies} wherever "
             f"they turn, and the track of {body.track}"
@@ -294,6 +294,6 @@ def contact_of(
     return LifeContact(
         contact=contact,
         conditions=conditions | given_here,
-        debris=given.get("debris"),
-        running_in=given.get("running_in"),
+        debris=life_table.get("debris"),
+        running_in=life_table.get("running_in"),
     )

@@ -111,7 +111,7 @@ class LifeDents(Record):
 
 
 def dents_of_life(
-    asked: AskedLife,
+    request: AskedLife,
     history: LifeHistory,
     *,
     filter: Filter | None = None,
@@ -121,7 +121,7 @@ def dents_of_life(
 
     Parameters
     ----------
-    asked : AskedLife
+    request : AskedLife
     history : LifeHistory
         Of its oil.
     filter : Filter, optional
@@ -140,10 +140,10 @@ def dents_of_life(
     time of the history and no full filter lets the oil past, else as they are after it; smaller
     ones as they are after it.
     """
-    rolling = asked.rolling
+    rolling = request.rolling
     if rolling is None:
         return None
-    entry, assumed = _entry(asked)
+    entry, assumed = _entry(request)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RangeWarning)
@@ -155,11 +155,11 @@ def dents_of_life(
         return LifeDents(
             entry_ratio=entry, assumed=assumed, oils=(), warnings=(Note(why, code="life.dents"),)
         )
-    circuit = asked.circuit
+    circuit = request.circuit
     oils = [_dents("as it begins", 0.0, history.terms, tracks, (history.terms.start,) * 2)]
-    for name, each in _circuits(circuit, asked, filter):
-        own = history if each is circuit else None
-        oils.append(_dents_after(name, each, tracks, asked, own, contact))
+    for name, tried_circuit in _circuits(circuit, request, filter):
+        ready_history = history if tried_circuit is circuit else None
+        oils.append(_dents_after(name, tried_circuit, tracks, request, ready_history, contact))
     said = [] if filter is None else _notes_of_filter(circuit, filter)
     if assumed:
         what = "the entry ratio of particles is not given and taken as 1: dents are upper bounds"
@@ -168,36 +168,36 @@ def dents_of_life(
     return LifeDents(entry_ratio=entry, assumed=assumed, oils=tuple(oils), warnings=tuple(said))
 
 
-def _entry(asked: AskedLife) -> tuple[float, bool]:
+def _entry(request: AskedLife) -> tuple[float, bool]:
     """ε, and whether it is assumed."""
-    assert asked.rolling is not None
-    if asked.contact is not None:
-        return float(asked.contact.conditions["entry_ratio"]), False
-    if (brought := asked.rolling.film.entrainment) is not None:
+    assert request.rolling is not None
+    if request.contact is not None:
+        return float(request.contact.conditions["entry_ratio"]), False
+    if (brought := request.rolling.film.entrainment) is not None:
         return brought.entry_ratio, False
     return ENTRY, True
 
 
 def _circuits(
-    circuit: OilCircuit, asked: AskedLife, filter: Filter | None
+    circuit: OilCircuit, request: AskedLife, filter: Filter | None
 ) -> list[tuple[str, OilCircuit]]:
     """The circuit as it is, with other filters in the place of the first one, and without it."""
     if not circuit.filters:
         return [("without a filter", circuit)]
     first, rest = circuit.filters[0], circuit.filters[1:]
-    own = circuit.filter_names()[0]
-    own = own if own.startswith("filter") else f"the {own}"
+    first_name = circuit.filter_names()[0]
+    first_name = first_name if first_name.startswith("filter") else f"the {first_name}"
     others: list[tuple[str, Filter]] = []
-    design = () if asked.design is None else asked.design.filters
-    for i, each in enumerate(design, 1):
-        others.append((f"with {each.name or f'filter {i}'} instead", each))
+    design = () if request.design is None else request.design.filters
+    for i, new_filter in enumerate(design, 1):
+        others.append((f"with {new_filter.name or f'filter {i}'} instead", new_filter))
     if filter is not None:
         others.append(("with --filter instead", filter))
-    named = [(name, _with_flow(each, first)) for name, each in others]
+    named = [(name, _with_flow(new_filter, first)) for name, new_filter in others]
     return [
-        (f"with {own}", circuit),
-        *((name, circuit.replace(filters=(each, *rest))) for name, each in named),
-        (f"without {own}", circuit.replace(filters=rest)),
+        (f"with {first_name}", circuit),
+        *((name, circuit.replace(filters=(new_filter, *rest))) for name, new_filter in named),
+        (f"without {first_name}", circuit.replace(filters=rest)),
     ]
 
 
@@ -216,9 +216,9 @@ def _notes_of_filter(circuit: OilCircuit, filter: Filter) -> list[Note]:
     every = circuit.replace(filters=(tried,)).notes()
     # of a code of their own: the filter of the study may have the same doubts
     return [
-        Note(each, code=f"{each.code}, tried")
-        for each in every
-        if each.code in ("clipped", "below the data sheet")
+        Note(note, code=f"{note.code}, tried")
+        for note in every
+        if note.code in ("clipped", "below the data sheet")
     ]
 
 
@@ -226,25 +226,25 @@ def _dents_after(
     name: str,
     circuit: OilCircuit,
     tracks: Sequence[Track],
-    asked: AskedLife,
-    own: LifeHistory | None,
+    request: AskedLife,
+    ready_history: LifeHistory | None,
     contact: Mapping[str, Any] | None,
 ) -> OilDents:
     """Dents by the oil of a circuit as it ends, or after the duration."""
-    duration = float(asked.duration)
+    duration = float(request.duration)
     times: dict[str, Any] = {"duration": duration, "times": [0.0, duration]}
     history: LifeHistory
     if contact is None:
         history = run_oil_history(circuit, **times)
-    elif own is not None and own.times[-1] >= duration * (1 - 1e-12):
-        history = own
+    elif ready_history is not None and ready_history.times[-1] >= duration * (1 - 1e-12):
+        history = ready_history
     else:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RangeWarning)
             history = life(**contact, oil=circuit, **times)
     last = history.numbers[-1]
     soon = max(history.code_times)  # NaN for a count that grows for ever
-    ends = all(math.isfinite(each) for each in history.code_times) and soon <= duration
+    ends = all(math.isfinite(code_time) for code_time in history.code_times) and soon <= duration
     ends = ends and not history.bypassed  # the code times are those of filters in work
     steady = history.steady()
     counted = np.nan_to_num(steady[0].numbers) if ends and steady else last
@@ -261,7 +261,7 @@ def _dents(
         oil=name,
         time=time,
         code=terms.classes.iso4406(counted.sum(axis=1)),
-        tracks=tuple(_in_track(each, terms, counted, smaller, first) for each in tracks),
+        tracks=tuple(_in_track(track, terms, counted, smaller, first) for track in tracks),
     )
 
 
@@ -276,24 +276,26 @@ def _in_track(
 ) -> TrackDents:
     above = _sums(track, terms, counted, slice(first, None))
     below = _sums(track, terms, smaller, slice(0, first))
-    deepest = max(above, key=lambda each: np.nan_to_num(each.depth_p95, nan=-1.0), default=None)
+    deepest = max(above, key=lambda group: np.nan_to_num(group.depth_p95, nan=-1.0), default=None)
     return TrackDents(
         track=track.name,
         film=track.film,
-        per_overrolling=float(sum(each.number for each in above)),
-        per_hour=float(sum(track.per_hour(each) for each in above)),
+        per_overrolling=float(sum(group.number for group in above)),
+        per_hour=float(sum(track.per_hour(group) for group in above)),
         depth=math.nan if deepest is None else deepest.depth,
         depth_p95=math.nan if deepest is None else deepest.depth_p95,
-        smaller_per_hour=float(sum(track.per_hour(each) for each in below)),
+        smaller_per_hour=float(sum(track.per_hour(group) for group in below)),
         smaller_depth=_mean_depth(below),
     )
 
 
 def _mean_depth(dents: Sequence[FilmDents]) -> float:
     """Mean depth of the dents whose depth is known [m]."""
-    known = [each for each in dents if each.number > 0 and math.isfinite(each.depth)]
-    number = sum(each.number for each in known)
-    return sum(each.number * each.depth for each in known) / number if known else math.nan
+    with_depth = [group for group in dents if group.number > 0 and math.isfinite(group.depth)]
+    number = sum(group.number for group in with_depth)
+    return (
+        sum(group.number * group.depth for group in with_depth) / number if with_depth else math.nan
+    )
 
 
 def _sums(track: Track, terms: OilTerms, numbers: Array, some: slice) -> list[FilmDents]:

@@ -54,7 +54,7 @@ def design_key(one_filter: Callable[[Reader, str, object], Filter]) -> Key:
             raise wrong(
                 path, "must be a table, headed [[life.design.filters]]", data, code=Mistake.KIND
             )
-        return reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, one_filter)
+        return reader.read_each({f"{path}[{i}]": entry for i, entry in enumerate(data)}, one_filter)
 
     def read_table(reader: Reader, path: str, data: object) -> dict[str, object]:
         keys = {
@@ -97,13 +97,13 @@ def _choice(reader: Reader, path: str, data: object) -> dict[str, object]:
 def _choices(reader: Reader, path: str, data: object) -> tuple[dict[str, object], ...]:
     if not isinstance(data, list) or len(data) < 2:
         raise wrong(path, f"must be a list of tables, {CHOICES}", data, code=Mistake.SHAPE)
-    found = reader.read_each({f"{path}[{i}]": each for i, each in enumerate(data)}, _choice)
-    names = [each["name"] for each in found]
+    choices = reader.read_each({f"{path}[{i}]": entry for i, entry in enumerate(data)}, _choice)
+    names = [choice["name"] for choice in choices]
     if twice := next((name for name in names if names.count(name) > 1), None):
         raise InvalidValue(
             Problem(path, f"has two choices that are called {twice}", code=Mistake.CLASH)
         )
-    return found
+    return choices
 
 
 def _circuit(
@@ -137,28 +137,28 @@ def _circuit(
 
 def design_of(
     reader: Reader,
-    given: Mapping[str, Any],
+    table: Mapping[str, Any],
     circuit: OilCircuit,
     until: tuple[Until, ...],
     about: About,
 ) -> AskedDesign:
     """What is to be chosen, checked against the circuit and what is waited for."""
     path = "life.design"
-    if ("code" in given) == ("choices" in given):
+    if ("code" in table) == ("choices" in table):
         rule = (
             'needs either code, e.g. code = "16/14/11" and a list of [[life.design.filters]], or '
             f"choices with one event in [life.until], {CHOICES}"
         )
         raise InvalidValue(Problem(path, rule, code=Mistake.CLASH))
-    if "choices" not in given:
+    if "choices" not in table:
         if not circuit.filters:
             raise InvalidValue(
                 Problem(
                     path, "chooses the first of [[life.filters]]: add one", code=Mistake.MISSING
                 )
             )
-        return AskedDesign(code=given["code"], filters=given.get("filters", ()), circuits={})
-    if "filters" in given:
+        return AskedDesign(code=table["code"], filters=table.get("filters", ()), circuits={})
+    if "filters" in table:
         rule = "go with code; a choice changes numbers of the circuit"
         raise InvalidValue(Problem(f"{path}.filters", rule, code=Mistake.IDLE))
     if len(until) != 1:
@@ -166,6 +166,6 @@ def design_of(
         raise InvalidValue(Problem(f"{path}.choices", rule, code=Mistake.SHAPE))
     circuits = {
         entry["name"]: _circuit(reader, f"{path}.choices[{i}]", entry, circuit, about)
-        for i, entry in enumerate(given["choices"])
+        for i, entry in enumerate(table["choices"])
     }
     return AskedDesign(circuits=circuits)

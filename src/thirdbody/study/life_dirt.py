@@ -166,11 +166,11 @@ def _one_source(reader: Reader, path: str, data: object, sources: tuple[str, ...
     """Tell where particles are given twice, or not at all."""
     if reader.every_way or not isinstance(data, dict):
         return
-    given = [name for name in sources if get(data, name) is not None]
-    if len(given) > 1:
+    present = [name for name in sources if get(data, name) is not None]
+    if len(present) > 1:
         rule = "each of these says how many particles there are; keep one of them"
-        reader.mistakes.append(clash(path, data, given, rule))
-    if not given:
+        reader.mistakes.append(clash(path, data, present, rule))
+    if not present:
         rule = f"says not how many particles there are: give one of {', '.join(sources)}"
         reader.mistakes.append(Problem(path, rule, code=Mistake.MISSING))
 
@@ -181,8 +181,8 @@ def _several(table: ReadDirts, plain: ReadDirts) -> ReadDirts:
     def read(reader: Reader, path: str, value: object) -> Dirts:
         if isinstance(value, list):
             items = {f"{path}.{i}": item for i, item in enumerate(value)}
-            found = reader.read_each(items, table)
-            return [each for some in found for each in some]
+            lists = reader.read_each(items, table)
+            return [dirt for some in lists for dirt in some]
         return plain(reader, path, value)
 
     return read
@@ -232,17 +232,17 @@ ARRIVALS = Key(
 
 # -------------------------------------------------------------------------- what they are
 def dirts_of(
-    given: Dirts | None,
+    dirts: Dirts | None,
     material: Material | None,
     *,
     ingress: bool,
     of: str = "life.oil",
 ) -> tuple[Any, ...] | None:
     """Particles of an oil, or that enter it, from what their tables say."""
-    if given is None:
+    if dirts is None:
         return None
     out = []
-    for path, entry in given:
+    for path, entry in dirts:
         values = dict(entry)
         kind = values.pop("material", material)
         if kind is None:

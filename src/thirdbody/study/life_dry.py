@@ -106,7 +106,7 @@ class AskedDry:
             if name in self.conditions
         ]
         bodies = bodies_of(self.contact)
-        bodies |= {f"arrivals {i}": each.material for i, each in enumerate(self.arrivals, 1)}
+        bodies |= {f"arrivals {i}": arrival.material for i, arrival in enumerate(self.arrivals, 1)}
         return Described({"": self.contact}, bodies, tuple(rows))
 
     @property
@@ -162,24 +162,26 @@ def _pressure(values: Mapping[str, Any], contact: Contact) -> float:
     return float(loads[0]) * (1.0 if name == "pressure" else contact.E_ss)
 
 
-def _uncertainty(reader: Reader, given: Mapping[str, object], debris: Debris | None) -> KnownOfLife:
+def _uncertainty(
+    reader: Reader, ranges: Mapping[str, object], debris: Debris | None
+) -> KnownOfLife:
     """What is known of the numbers of a dry contact, by their names as arguments."""
-    known = {f"dry.{name}": (name, about) for name, about in QUANTITIES.items()}
-    known |= {"arrivals": ("arrivals", FACTOR), "load.pressure": ("pressure", LOADS["pressure"])}
+    numbers = {f"dry.{name}": (name, about) for name, about in QUANTITIES.items()}
+    numbers |= {"arrivals": ("arrivals", FACTOR), "load.pressure": ("pressure", LOADS["pressure"])}
     if debris is not None:
-        known[BANDS_HARDNESS] = (BANDS_HARDNESS, HARDNESS)
-    some = ", ".join(f'"{name}"' for name in known)
+        numbers[BANDS_HARDNESS] = (BANDS_HARDNESS, HARDNESS)
+    some = ", ".join(f'"{name}"' for name in numbers)
 
     def about(label: str) -> tuple[str, Quantity | None]:
-        return known.get(label, (label, None))
+        return numbers.get(label, (label, None))
 
     names = f"is not a number of the dry contact; it has {some}"
-    return known_of_life(reader, given, about, names, contact=True)
+    return known_of_life(reader, ranges, about, names, contact=True)
 
 
 def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
     """The dry contact that a study asks for, from the objects that its tables stand for."""
-    given = values["life"]
+    life_table = values["life"]
     problems = [
         Problem(
             f"life.{name}",
@@ -187,11 +189,11 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
             code=Mistake.CLASH,
         )
         for name in ("oil", "filters", "contact", "design")
-        if name in given
+        if name in life_table
     ]
     if missing := [f"[{name}]" for name in NEEDED if name not in values]:
         problems.append(Problem("life.dry", f"needs {', '.join(missing)}", code=Mistake.MISSING))
-    if lost := [e for e in given.get("until", ()) if isinstance(e, CodeReached | FilterFull)]:
+    if lost := [e for e in life_table.get("until", ()) if isinstance(e, CodeReached | FilterFull)]:
         problems.append(
             Problem(
                 "life.until", f"waits for what only an oil has: {lost[0].name}", code=Mistake.CLASH
@@ -203,8 +205,8 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
     if "particles" not in parts:
         parts.pop("particle_law", None)
     contact = reader.make(Contact, "", parts)
-    need_debris(contact, given)
-    conditions = dict(given["dry"])
+    need_debris(contact, life_table)
+    conditions = dict(life_table["dry"])
     arrivals = dirts_of(
         conditions.pop("arrivals"), conditions.pop("material", None), ingress=True, of="life.dry"
     )
@@ -213,21 +215,23 @@ def dry_of(reader: Reader, values: dict[str, Any]) -> AskedDry:
         "pressure": _pressure(values, contact),
         "moving": 1 + SIDES.index(conditions["moving"]),
     }
-    if contact.populations and any(each.law is not None for each in contact.populations):
+    if contact.populations and any(
+        population.law is not None for population in contact.populations
+    ):
         reader.notes.append("a law in [particles] has no effect on [life]: it takes [particle_law]")
     if get(reader.whole, "film") is not None:
         reader.notes.append("[film] has no effect on [life.dry], which has no oil")
-    known = _uncertainty(reader, given.get("uncertainty", {}), given.get("debris"))
+    uncertainty = _uncertainty(reader, life_table.get("uncertainty", {}), life_table.get("debris"))
     return AskedDry(
         title=values.get("title", ""),
         contact=contact,
-        duration=given["duration"],
-        until=given.get("until", ()),
+        duration=life_table["duration"],
+        until=life_table.get("until", ()),
         conditions=conditions,
-        debris=given.get("debris"),
-        running_in=given.get("running_in"),
-        uncertainty=known.vary,
-        drawn=known,
+        debris=life_table.get("debris"),
+        running_in=life_table.get("running_in"),
+        uncertainty=uncertainty.vary,
+        drawn=uncertainty,
         notes=tuple(dict.fromkeys(reader.notes)),
         assumed=tuple(dict.fromkeys(reader.assumed)),
         stated=reader.stated_keys,

@@ -64,25 +64,25 @@ class KnownOfLife:
         except InvalidValue as error:
             raise InvalidValue(
                 *(
-                    each.changed(path=self.places[each.place], owner="")
-                    if each.place in self.places
-                    else each
-                    for each in error.problems
+                    problem.changed(path=self.places[problem.place], owner="")
+                    if problem.place in self.places
+                    else problem
+                    for problem in error.problems
                 )
             ) from None
 
 
 def place_of_beta(circuit: OilCircuit, name: str) -> tuple[int, int] | None:
     """Which β ratio of which filter "filters.0.beta.7 um" is; None for another name."""
-    head, found, size = name.partition(".beta.")
+    head, separator, size = name.partition(".beta.")
     which = head.removeprefix("filters.")
-    if not found or not which.isdecimal() or int(which) >= len(circuit.filters):
+    if not separator or not which.isdecimal() or int(which) >= len(circuit.filters):
         return None
     try:
         at = to_si(size.replace("(c)", "").strip(), "m")
     except InvalidValue:
         return None
-    near = [abs(each / at - 1) < 1e-9 for each in circuit.filters[int(which)].sizes]
+    near = [abs(filter_size / at - 1) < 1e-9 for filter_size in circuit.filters[int(which)].sizes]
     return (int(which), near.index(True)) if any(near) else None
 
 
@@ -119,14 +119,14 @@ def with_numbers(circuit: OilCircuit, values: Mapping[str, float]) -> OilCircuit
     factor = changes.pop(INGRESS_FACTOR, None)
     if factor is not None:
         scaled = [
-            each.replace(
+            ingress.replace(
                 **{
-                    name: factor * getattr(each, name)
+                    name: factor * getattr(ingress, name)
                     for name in ("rate", "steady")
-                    if getattr(each, name) is not None
+                    if getattr(ingress, name) is not None
                 }
             )
-            for each in circuit.ingress
+            for ingress in circuit.ingress
         ]
         circuit = circuit.replace(ingress=tuple(scaled))
     for name in list(changes):
@@ -146,14 +146,14 @@ def names_life(whole: Mapping[str, object]) -> bool:
 
 
 def known_of_life(
-    reader: Reader, given: Mapping[str, object], about: About, names: str, *, contact: bool
+    reader: Reader, ranges: Mapping[str, object], about: About, names: str, *, contact: bool
 ) -> KnownOfLife:
     """What is known of the numbers of a life.
 
     Parameters
     ----------
     reader : Reader
-    given : mapping
+    ranges : mapping
         The table [life.uncertainty].
     about : callable
         What the numbers of the life are.
@@ -177,10 +177,10 @@ def known_of_life(
     places: dict[str, str] = {}
 
     def all_of(pairs: Mapping[str, tuple[str, object]]) -> dict[str, Uncertain]:
-        found = reader.read_each(pairs, one)
+        numbers = reader.read_each(pairs, one)
         first: dict[str, str] = {}
         twice = []
-        for where, (name, _) in zip(pairs, found, strict=True):
+        for where, (name, _) in zip(pairs, numbers, strict=True):
             if (before := first.setdefault(name, where)) != where:
                 twice.append(
                     Problem(
@@ -192,7 +192,7 @@ def known_of_life(
         if twice:
             raise InvalidValue(*twice)
         places.update(first)
-        return dict(found)
+        return dict(numbers)
 
     def pairs_of(path: str, entries: Mapping[str, object]) -> dict[str, tuple[str, object]]:
         return {
@@ -200,7 +200,7 @@ def known_of_life(
             for label, entry in entries.items()
         }
 
-    pairs = pairs_of("life.uncertainty", given)
+    pairs = pairs_of("life.uncertainty", ranges)
     table = reader.whole.get("uncertainty")
     if not names_life({"uncertainty": table}):
         return KnownOfLife(vary=all_of(pairs), places=places)
@@ -221,7 +221,7 @@ def known_of_life(
 def _inputs_of_contact(reader: Reader) -> dict[str, tuple[str, Quantity]]:
     """Numbers of the contact by their names in the file; its particles are those of the oil."""
     return {
-        each.name: (each.field, each.quantity)
-        for each in inputs_of(reader.whole)
-        if each.quantity and not each.idle and not each.table.startswith("particle")
+        one_input.name: (one_input.field, one_input.quantity)
+        for one_input in inputs_of(reader.whole)
+        if one_input.quantity and not one_input.idle and not one_input.table.startswith("particle")
     }

@@ -95,7 +95,7 @@ def told_forces(forces: np.ndarray) -> np.ndarray:
     return forces if len(forces) <= MOST_INTEGRATED else forces[[0, -1]]
 
 
-def force_sentences(found: list[Pressed]) -> list[str]:
+def force_sentences(forces: list[Pressed]) -> list[str]:
     """Sentences of the forces; of many, those of the ends."""
-    some = found if len(found) <= MOST_INTEGRATED else [found[0], found[-1]]
-    return [each.sentence() for each in some]
+    some = forces if len(forces) <= MOST_INTEGRATED else [forces[0], forces[-1]]
+    return [force.sentence() for force in some]

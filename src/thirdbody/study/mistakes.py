@@ -45,15 +45,17 @@ class Known:
         """The mistakes with their sentences; what a misspelt key means is not missing."""
         out: list[Problem | Missing] = []
         guessed = set()
-        for each in mistakes:
-            if isinstance(each, Unknown):
-                problem, meant = self.unknown(*each)
+        for mistake in mistakes:
+            if isinstance(mistake, Unknown):
+                problem, meant = self.unknown(*mistake)
                 out.append(problem)
-                guessed.add((each.path, meant))
+                guessed.add((mistake.path, meant))
             else:
-                out.append(each)
-        left = [each for each in out if each not in guessed]
-        return [each if isinstance(each, Problem) else self.missing(*each) for each in left]
+                out.append(mistake)
+        left = [mistake for mistake in out if mistake not in guessed]
+        return [
+            mistake if isinstance(mistake, Problem) else self.missing(*mistake) for mistake in left
+        ]
 
     def missing(self, path: str, key: str) -> Problem:
         """A key that must stand and does not."""
@@ -64,13 +66,13 @@ class Known:
 
     def unknown(self, path: str, key: str, value: object) -> tuple[Problem, str | None]:
         """Problem of an unknown key, and the key that was probably meant."""
-        known = self.keys.get(path, {})
+        keys_here = self.keys.get(path, {})
         place, shown = _join(path, key), say(value)
         if why := self.refused.get(path, {}).get(key):
             return Problem(place, why, shown, code=Mistake.IDLE), None
         if not path and _is_table(value):
-            meant = nearest_option(key, known)
-            hint = guess(key, known, meant=meant, show="[{}]".format)
+            meant = nearest_option(key, keys_here)
+            hint = guess(key, keys_here, meant=meant, show="[{}]".format)
             return Problem(
                 f"[{key}]", "is not a known table", hint=hint, code=Mistake.UNKNOWN
             ), meant
@@ -84,11 +86,11 @@ class Known:
         homes = [
             say(name)
             for name, kind in variants.items()
-            if key in (each.name for each in declarations(kind))
+            if key in (field.name for field in declarations(kind))
         ]
         if homes:
             return not_known(f" here: it goes with {tag} = {' or '.join(homes)}"), None
-        meant = nearest_option(key, known)
+        meant = nearest_option(key, keys_here)
         homes = [table for table, keys in self.keys.items() if key in keys and table != path]
         numbered = [table for table in homes if re.fullmatch(rf"{re.escape(path)}\.\d+", table)]
         if numbered:
@@ -99,11 +101,11 @@ class Known:
             ), None
         if meant is None and len(key) > 2:
             word = key.lower().replace("_", " ")
-            meanings = {name: about.partition(", e.g.")[0] for name, about in known.items()}
+            meanings = {name: about.partition(", e.g.")[0] for name, about in keys_here.items()}
             meant = next((name for name, text in meanings.items() if word in text.lower()), None)
         if meant is None and homes:
             return not_known(" here", f"it belongs to {_heading(homes[0])}"), None
-        return not_known(hint=guess(key, known, meant=meant)), meant
+        return not_known(hint=guess(key, keys_here, meant=meant)), meant
 
 
 def clash(path: str, data: Mapping[str, object], keys: Sequence[str], rule: str) -> Problem:
@@ -117,14 +119,14 @@ def in_file(
 ) -> InvalidValue:
     """Problems of a value class at the keys of its table, each with its value."""
     out = []
-    for each in error.problems:
-        value, entry = each.value, values.get(each.path)
+    for problem in error.problems:
+        value, entry = problem.value, values.get(problem.path)
         items = entry if isinstance(entry, (list, tuple)) else (entry,)
-        said = value is not None or each.rule[:1] in ":="
+        said = value is not None or problem.rule[:1] in ":="
         if not said and all(isinstance(one, (str, float, int)) for one in items):
             value = say(entry)
-        owner = path if each.owner == kind.__name__ else each.owner
-        out.append(each.changed(owner=owner, value=value).worded(in_study))
+        owner = path if problem.owner == kind.__name__ else problem.owner
+        out.append(problem.changed(owner=owner, value=value).worded(in_study))
     return InvalidValue(*out)
 
 

@@ -69,9 +69,9 @@ def columns_of_oil(
 
 def _numbers(oil: DirtyOil) -> Iterator[tuple[str, str, str, float | None]]:
     """Name, unit, meaning and value of each number."""
-    for part in oil.populations:
+    for population in oil.populations:
         for name, (unit, meaning) in OF_POPULATION.items():
-            yield f"{part.name}: {name}", unit, meaning, _finite(getattr(part, name))
+            yield f"{population.name}: {name}", unit, meaning, _finite(getattr(population, name))
     if oil.life is not None:
         for name, (unit, meaning) in OF_LIFE.items():
             yield name, unit, meaning, _finite(getattr(oil.life, name))

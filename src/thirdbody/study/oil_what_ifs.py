@@ -53,7 +53,7 @@ class OilWhatIf(Record):
     @property
     def ratio(self) -> float:
         """The largest of the three, high over low."""
-        return max(_ratio(each) for each in (self.dents, self.depth, self.a_ISO))
+        return max(_ratio(pair) for pair in (self.dents, self.depth, self.a_ISO))
 
     @property
     def life_ratio(self) -> float:
@@ -61,14 +61,14 @@ class OilWhatIf(Record):
         return _ratio(self.a_ISO)
 
 
-def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
+def what_ifs_of_oil(study: Study, base_oil: DirtyOil) -> tuple[OilWhatIf, ...]:
     """What dents and life hang on, the most first: number and hardness of particles, viscosity.
 
     Parameters
     ----------
     study : Study
         With a table [film] and particles.
-    found : DirtyOil
+    base_oil : DirtyOil
         What `dirty_oil` says of it as it is.
 
     Returns
@@ -77,7 +77,7 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
         Empty with particles that break, where each takes seconds.
     """
     contact, film = study.contact, study.film
-    if film is None or any(each.strength is not None for each in contact.populations):
+    if film is None or any(population.strength is not None for population in contact.populations):
         return ()
     ends: list[tuple[str, str, str, str, tuple[Study, ...]]] = [
         (
@@ -95,11 +95,11 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
             (_with_viscosity(study, film, 1 / VISCOSITY), _with_viscosity(study, film, VISCOSITY)),
         ),
     ]
-    for i, part in enumerate(found.populations):
+    for i, population in enumerate(base_oil.populations):
         low, high = _hardness(contact, i)
         ends.append(
             (
-                f"the hardness of {part.name}",
+                f"the hardness of {population.name}",
                 f"{value_of(low, 'Pa', 3)} and {value_of(high, 'Pa', 3)}",
                 "find out what the particles are",
                 f"particles.{i}.material.H",
@@ -108,8 +108,8 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
         )
     out = []
     for what, between, action, code, pair in ends:
-        both = [dirty_oil(each) for each in pair]
-        if all(each is not None for each in both):
+        both = [dirty_oil(changed_study) for changed_study in pair]
+        if all(oil is not None for oil in both):
             out.append(
                 OilWhatIf(
                     what=what, between=between, action=action, code=code,
@@ -118,7 +118,7 @@ def what_ifs_of_oil(study: Study, found: DirtyOil) -> tuple[OilWhatIf, ...]:
                     a_ISO=_pair(both, lambda oil: oil.life.a_ISO if oil.life else math.nan),
                 )
             )  # fmt: skip
-    return tuple(sorted(out, key=lambda each: -each.ratio))
+    return tuple(sorted(out, key=lambda what_if: -what_if.ratio))
 
 
 def _deepest(oil: DirtyOil) -> float:
@@ -127,7 +127,7 @@ def _deepest(oil: DirtyOil) -> float:
 
 
 def _pair(both: list[DirtyOil | None], number: Callable[[DirtyOil], float]) -> tuple[float, float]:
-    return tuple(float(number(each)) for each in both)  # type: ignore[return-value, arg-type]
+    return tuple(float(number(oil)) for oil in both)  # type: ignore[return-value, arg-type]
 
 
 def _ratio(values: tuple[float, float]) -> float:
@@ -152,7 +152,11 @@ def _with_viscosity(study: Study, film: FilmConditions, factor: float) -> Study:
 def _with_number(study: Study, factor: float) -> Study:
     parts = study.contact.populations
     return _with_parts(
-        study, tuple(each.replace(areal_density=each.areal_density * factor) for each in parts)
+        study,
+        tuple(
+            population.replace(areal_density=population.areal_density * factor)
+            for population in parts
+        ),
     )
 
 
@@ -165,9 +169,9 @@ def _with_hardness(study: Study, i: int, H: float) -> Study:
 def _hardness(contact: Contact, i: int) -> tuple[float, float]:
     """Range of the library, or off by a factor."""
     material = contact.populations[i].material
-    known = materials.entries().get(material.name, {})
-    if known.get("H") == material.H and "H" in known.get("range", {}):
-        low, high = known["range"]["H"]
+    library_entry = materials.entries().get(material.name, {})
+    if library_entry.get("H") == material.H and "H" in library_entry.get("range", {}):
+        low, high = library_entry["range"]["H"]
         if low < high:
             return float(low), float(high)
     return material.H / HARDNESS, material.H * HARDNESS

@@ -74,9 +74,9 @@ def one_surface(study: Study, F_star: object, *, points: int = POINTS) -> OneSur
         A surface that cannot be made or pressed.
     """
     contact = study.contact.replace(outputs=())
-    asked = dict(study.explicit or {})
-    how = {name: asked[name] for name in OF_THE_DRAW if name in asked}
-    seats = asked.get("seats", "random")
+    options = dict(study.explicit or {})
+    how = {name: options[name] for name in OF_THE_DRAW if name in options}
+    seats = options.get("seats", "random")
     if isinstance(seats, GivenSeats):
         raise InvalidValue(
             "explicit.seats: positions belong to a whole map, not to a part of it",
@@ -88,23 +88,23 @@ def one_surface(study: Study, F_star: object, *, points: int = POINTS) -> OneSur
     if len(study.faces) == 1:
         surface, spacing, words = _window(study.faces[0], points)
     else:
-        surface, words = _synthetic(contact, asked, points, how.get("seed", 0))
+        surface, words = _synthetic(contact, options, points, how.get("seed", 0))
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, surface, spacing=spacing, F_star=loads, seats=seats, **how)
         heights = seats_on(contact, surface, spacing=spacing, seats=seats, seed=how.get("seed", 0))
-    told = tuple(dict.fromkeys(note_of(each.message) for each in heard))
+    notes = tuple(dict.fromkeys(note_of(warning.message) for warning in heard))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         model = statistical(counterpart(contact, heights), F_star=loads)
-    return OneSurface(state=state, model=model, words=words, warnings=told)
+    return OneSurface(state=state, model=model, words=words, warnings=notes)
 
 
 def _synthetic(
-    contact: Contact, asked: dict[str, Any], points: int, seed: int
+    contact: Contact, options: dict[str, Any], points: int, seed: int
 ) -> tuple[Topography, str]:
     """A surface with the σ, R and α of the study; twice as many points where those are needed."""
-    spacing = asked.get("spacing") or spacing_for(contact)
+    spacing = options.get("spacing") or spacing_for(contact)
     for size in (points, 2 * points):
         try:
             made = surface_of(contact, size=size, spacing=spacing, seed=seed)
@@ -158,9 +158,9 @@ def _window(face: Topography, points: int) -> tuple[np.ndarray, float, str]:
     )
 
 
-def _corner(known: np.ndarray, side: int) -> tuple[int, int] | None:
+def _corner(measured: np.ndarray, side: int) -> tuple[int, int] | None:
     """Corner of the window nearest the middle in which all heights are known."""
-    gaps = np.pad(np.cumsum(np.cumsum(~known, axis=0), axis=1), ((1, 0), (1, 0)))
+    gaps = np.pad(np.cumsum(np.cumsum(~measured, axis=0), axis=1), ((1, 0), (1, 0)))
     inside = gaps[side:, side:] - gaps[:-side, side:] - gaps[side:, :-side] + gaps[:-side, :-side]
     free = np.argwhere(inside == 0)
     if not len(free):

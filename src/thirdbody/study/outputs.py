@@ -41,27 +41,27 @@ def on_area(
         area = float(body.hertz(forces[0], contact.E_ss).area)
     out: list[AbstractOutput] = []
     notes: list[str] = []
-    each: Any
-    for each in contact.outputs:
-        unsaid = "A_n" in each.__dataclass_fields__ and get(get(data, each.name), "A_n") is None
-        closes = unsaid and each.A_n is None
+    output: Any
+    for output in contact.outputs:
+        unsaid = "A_n" in output.__dataclass_fields__ and get(get(data, output.name), "A_n") is None
+        closes = unsaid and output.A_n is None
         if unsaid and area is not None and not (closes and not isinstance(body, Flat)):
-            each = each.replace(A_n=area)
-        elif closes and (name := _closing_column(each)):
+            output = output.replace(A_n=area)
+        elif closes and (name := _closing_column(output)):
             of_body = "" if body is None else ", which is not Hertz's where bodies are rough"
             what = (
-                f"outputs.{each.name}: {name} is not known without A_n, the area of one contact"
-                f"{of_body}; give outputs.{each.name}.A_n"
+                f"outputs.{output.name}: {name} is not known without A_n, the area of one contact"
+                f"{of_body}; give outputs.{output.name}.A_n"
             )
-            notes.append(Note(what, code=f"{each.name}.area.closed"))
+            notes.append(Note(what, code=f"{output.name}.area.closed"))
         elif unsaid and not closes and body is not None and forces is not None:
             what = (
-                f"outputs.{each.name}: the largest is of A_n = {value_of(each.A_n, 'm^2')}, not of "
-                "the contact of the bodies, which differs among the forces; give "
-                f"outputs.{each.name}.A_n"
+                f"outputs.{output.name}: the largest is of A_n = {value_of(output.A_n, 'm^2')}, "
+                "not of the contact of the bodies, which differs among the forces; give "
+                f"outputs.{output.name}.A_n"
             )
-            notes.append(Note(what, code=f"{each.name}.area.largest"))
-        out.append(each)
+            notes.append(Note(what, code=f"{output.name}.area.largest"))
+        out.append(output)
     same = tuple(out) == contact.outputs
     return (contact if same else contact.replace(outputs=tuple(out))), notes
 

@@ -86,7 +86,9 @@ def load_file(path: str | os.PathLike[str]) -> None:
         sys.modules.pop(name, None)
         raise
     _loaded.add(str(file))
-    others = [part for part in os.environ.get(NAMED, "").split(os.pathsep) if part]
+    others = [
+        other_file for other_file in os.environ.get(NAMED, "").split(os.pathsep) if other_file
+    ]
     os.environ[NAMED] = os.pathsep.join(dict.fromkeys([*others, str(file)]))
 
 
@@ -116,13 +118,13 @@ def _looked_over(where: str, run: Callable[[], object], file: Path | None) -> li
     before = [(word, kind.registry, dict(kind.registry)) for kind, word in KINDS.items()]
     try:
         run()
-        found = [
-            (kind, name, law, known.get(name))
-            for kind, registry, known in before
+        new_classes = [
+            (kind, name, law, registered.get(name))
+            for kind, registry, registered in before
             for name, law in registry.items()
-            if law is not known.get(name)
+            if law is not registered.get(name)
         ]
-        for kind, name, law, taken in found:
+        for kind, name, law, taken in new_classes:
             if taken is not None:
                 other = f"{taken.__module__}.{taken.__name__}"
                 rule = f": there is a {kind} {name!r} already, {other}"
@@ -130,11 +132,11 @@ def _looked_over(where: str, run: Callable[[], object], file: Path | None) -> li
                     Problem(where, rule, hint="choose another name", code=Mistake.CLASH)
                 )
             _complete(where, kind, law)
-        return [law for _, _, law, _ in found]
+        return [law for _, _, law, _ in new_classes]
     except Exception as error:
-        for _, registry, known in before:
+        for _, registry, registered in before:
             registry.clear()
-            registry.update(known)
+            registry.update(registered)
         if isinstance(error, InvalidValue) and error.problems[0].place == where:
             raise
         raise InvalidValue(

@@ -125,15 +125,15 @@ def _of_material(reader: Reader, path: str, value: object) -> dict[str, object]:
 
 def _strength(reader: Reader, path: str, data: Any) -> WeibullStrength | dict[str, object]:
     """A strength with its numbers, or changes to that of the material."""
-    given = data if isinstance(data, dict) else {}
+    table = data if isinstance(data, dict) else {}
     keys = dict(keys_of(WeibullStrength))
     keys["at"] = keys["x_0"]._replace(required=False)
-    of_material = not any(key in given for key in OWN)
+    of_material = not any(key in table for key in OWN)
     if of_material:
         keys = {name: key._replace(required=False) for name, key in keys.items()}
-    elif "at" in given:
+    elif "at" in table:
         keys["x_0"] = keys["at"]
-        if "x_0" in given:
+        if "x_0" in table:
             rule = "both are the size of the test; keep one of them"
             reader.mistakes.append(clash(path, data, ("at", "x_0"), rule))
 
@@ -155,15 +155,15 @@ STRENGTH = Key(
 )
 
 
-def with_strength(particles: Particles, path: str, asked: object) -> Particles:
+def with_strength(particles: Particles, path: str, changes: object) -> Particles:
     """The particles, with the strength of their material where the file says so."""
-    if not isinstance(asked, dict):
+    if not isinstance(changes, dict):
         return particles
     try:
-        found = WeibullStrength.of(particles.material, **asked)
+        strength = WeibullStrength.of(particles.material, **changes)
     except InvalidValue as error:
         raise error.under(path) from None
-    return particles.replace(strength=found)
+    return particles.replace(strength=strength)
 
 
 # -------------------------------------------------------------------------- populations
@@ -171,16 +171,16 @@ def with_strength(particles: Particles, path: str, asked: object) -> Particles:
 
 def populations(whole: Mapping[str, object]) -> dict[str, object]:
     """The tables of all populations of a file by their paths, particles or particles.0, ..."""
-    given = whole.get("particles")
-    if isinstance(given, list) and given:
-        return {f"particles.{i}": table for i, table in enumerate(given)}
-    return {"particles": given} if "particles" in whole else {}
+    data = whole.get("particles")
+    if isinstance(data, list) and data:
+        return {f"particles.{i}": table for i, table in enumerate(data)}
+    return {"particles": data} if "particles" in whole else {}
 
 
 def gaps_of(whole: Mapping[str, object]) -> tuple[float | None, ...]:
     """Heights of the oil whose particles each population is [m]; None where a file has none."""
-    given = [get(table, "gap") or get(table, "film") for table in populations(whole).values()]
-    return tuple(None if gap is None else to_si(gap, "m") for gap in given)
+    gaps = [get(table, "gap") or get(table, "film") for table in populations(whole).values()]
+    return tuple(None if gap is None else to_si(gap, "m") for gap in gaps)
 
 
 def _particles(reader: Reader, path: str, data: object) -> object:
@@ -210,7 +210,7 @@ def _note_counts(reader: Reader, path: str, data: list[Any]) -> None:
             )
         )
         return
-    shares = [1.0 if (part := get(table, "share")) is None else part for table in counted]
+    shares = [1.0 if (share := get(table, "share")) is None else share for table in counted]
     if len(shares) > 1 and all(map(_is_number, shares)) and sum(shares) > 1 + 1e-9:
         reader.notes.append(
             Note(
@@ -228,16 +228,16 @@ def _is_number(value: object) -> bool:
 
 def _population(reader: Reader, path: str, data: object) -> object:
     """One population, whose sizes are a distribution or were counted."""
-    given = data if isinstance(data, dict) else {}
-    sources = [key for key in ("distribution", *COUNTED) if given.get(key) is not None]
+    table = data if isinstance(data, dict) else {}
+    sources = [key for key in ("distribution", *COUNTED) if table.get(key) is not None]
     kind = sources[0] if sources else "distribution"
-    by_volume = kind in CODES or given.get("concentration") is not None
-    keys = _keys_of_population(given, kind, by_volume)
+    by_volume = kind in CODES or table.get("concentration") is not None
+    keys = _keys_of_population(table, kind, by_volume)
     before = len(reader.mistakes)
     if len(sources) > 1:
         rule = "each of these gives the sizes; keep one of them"
-        reader.mistakes.append(clash(path, given, sources, rule))
-    reader.mistakes += _problems_of_amount(path, given, kind, by_volume)
+        reader.mistakes.append(clash(path, table, sources, rule))
+    reader.mistakes += _problems_of_amount(path, table, kind, by_volume)
     refused = len(reader.mistakes) > before
 
     def build(values: dict[str, Any]) -> Particles:
@@ -247,22 +247,22 @@ def _population(reader: Reader, path: str, data: object) -> object:
         if isinstance(strength, dict):
             del values["strength"]
         if kind == "distribution":
-            own = {key: values.pop(key) for key in keys if key in values}
-            if OF_SIZES in own:
-                values["shape"] = own.pop(OF_SIZES)
+            of_particles = {key: values.pop(key) for key in keys if key in values}
+            if OF_SIZES in of_particles:
+                values["shape"] = of_particles.pop(OF_SIZES)
             diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
-            found = _particles_of_sizes(reader, path, own, diameter)
+            particles = _particles_of_sizes(reader, path, of_particles, diameter)
         else:
-            found = _counted_particles(reader, path, kind, values)
-        return with_strength(found, f"{path}.strength", strength)
+            particles = _counted_particles(reader, path, kind, values)
+        return with_strength(particles, f"{path}.strength", strength)
 
     if kind == "distribution":
         return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, keys)
-    return reader.table(path, data, keys | _keys_of_count(given, kind), build)
+    return reader.table(path, data, keys | _keys_of_count(table, kind), build)
 
 
 # -------------------------------------------------------------------------- keys
-def _keys_of_population(given: Mapping[str, object], kind: str, by_volume: bool) -> dict[str, Key]:
+def _keys_of_population(table: Mapping[str, object], kind: str, by_volume: bool) -> dict[str, Key]:
     """Every key but those of the sizes."""
     keys = dict(keys_of(Particles))
     keys["material"] = keys["material"]._replace(
@@ -277,9 +277,9 @@ def _keys_of_population(given: Mapping[str, object], kind: str, by_volume: bool)
     keys["conducts"] = keys["conducts"]._replace(
         about="whether they conduct a current; without it their material says so"
     )
-    sizes = DISTRIBUTIONS.get(str(given.get("distribution")))
+    sizes = DISTRIBUTIONS.get(str(table.get("distribution")))
     of_sizes = getattr(sizes, "__dataclass_fields__", {}).get("shape")
-    if of_sizes is None or isinstance(given.get("shape"), dict):
+    if of_sizes is None or isinstance(table.get("shape"), dict):
         keys["shape"] = SHAPE
         if of_sizes is not None:
             keys[OF_SIZES] = number(of_sizes.metadata["quantity"])._replace(
@@ -310,30 +310,30 @@ def _names_of_amount(kind: str) -> tuple[str, ...]:
 
 
 def _problems_of_amount(
-    path: str, given: Mapping[str, object], kind: str, by_volume: bool
+    path: str, table: Mapping[str, object], kind: str, by_volume: bool
 ) -> list[Problem]:
     """Problems of the keys for the number of particles."""
     if kind == SETTLED:
         rule = "the class and the time say how many there are; remove areal_density"
-        twice = "areal_density" in given
-        return [clash(path, given, [kind, "areal_density"], rule)] if twice else []
+        twice = "areal_density" in table
+        return [clash(path, table, [kind, "areal_density"], rule)] if twice else []
     what = kind if kind in CODES else "concentration"
     out = [
-        clash(path, given, pair, "only one of these can be given; remove the other")
+        clash(path, table, pair, "only one of these can be given; remove the other")
         for pair in ((what, "areal_density"), ("gap", "film"))
-        if given.keys() >= set(pair)
+        if table.keys() >= set(pair)
     ]
-    if by_volume and given.keys().isdisjoint(("gap", "film")):
+    if by_volume and table.keys().isdisjoint(("gap", "film")):
         rule = 'is missing: the height of the fluid whose particles are trapped, e.g. gap = "1 um"'
         out.append(
             Problem(
                 f"{path}.gap", rule, hint=f"{what} counts them per volume", code=Mistake.MISSING
             )
         )
-    idle = [] if by_volume else [name for name in _names_of_amount(kind) if name in given]
+    idle = [] if by_volume else [name for name in _names_of_amount(kind) if name in table]
     if idle:
         rule = f"has no effect without {path}.concentration"
-        out.append(Problem(f"{path}.{idle[0]}", rule, say(given[idle[0]]), code=Mistake.IDLE))
+        out.append(Problem(f"{path}.{idle[0]}", rule, say(table[idle[0]]), code=Mistake.IDLE))
     return out
 
 
@@ -344,21 +344,23 @@ def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concent
         raise InvalidValue(Problem(path, f"= {error}", code=error.code)) from None
 
 
-def _keys_of_count(given: Mapping[str, object], kind: str) -> dict[str, Key]:
+def _keys_of_count(table: Mapping[str, object], kind: str) -> dict[str, Key]:
     """Keys of a count of particles: what was counted, and its options."""
     keys = {
         name: word(WORDS[name]) if name in WORDS else KEYS_OF_AMOUNT[name] for name in COUNTED[kind]
     }
     if kind == SETTLED:
         keys["exposure"] = keys["exposure"]._replace(required=True)
-    weighting = given.get("weighting")
+    weighting = table.get("weighting")
 
     def read(reader: Reader, path: str, value: object) -> object:
         try:
             if kind != "sizes":
                 return _checked_code(reader, path, kind, value)
-            known = weighting if isinstance(weighting, str) and weighting in WEIGHTINGS else ""
-            return _sizes_of_file(reader, value, known or "number")
+            weighting_word = (
+                weighting if isinstance(weighting, str) and weighting in WEIGHTINGS else ""
+            )
+            return _sizes_of_file(reader, value, weighting_word or "number")
         except InvalidValue as error:
             raise InvalidValue(Problem(path, f": {error}", code=error.code)) from None
 
@@ -405,11 +407,11 @@ def _particles_of_sizes(
     """Particles with these sizes, and the density or the concentration of the file."""
     if "concentration" not in values:
         return reader.make(Particles, path, values | {"diameter": diameter})
-    found = values.pop("concentration")
+    amount = values.pop("concentration")
     gap = values.pop("gap", values.pop("film", None))
     try:
         return Particles.from_concentration(
-            found.amount, by=found.by, gap=gap, diameter=diameter, **values
+            amount.amount, by=amount.by, gap=gap, diameter=diameter, **values
         )
     except InvalidValue as error:
         raise error.under(path) from None
@@ -417,28 +419,32 @@ def _particles_of_sizes(
 
 def _counted_particles(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Particles:
     """Particles from a code, a test dust or a measured histogram."""
-    found = values.pop(kind)
+    count = values.pop(kind)
     options = {name: values.pop(name) for name in COUNTED[kind] if name in values}
     try:
         if kind == "sizes":
-            if isinstance(found, Histogram):
-                found = MeasuredSizes(sizes=found, weighting=options.get("weighting", "number"))
-            source = found.fit(options["fit"]) if "fit" in options else found
+            if isinstance(count, Histogram):
+                count = MeasuredSizes(sizes=count, weighting=options.get("weighting", "number"))
+            source = count.fit(options["fit"]) if "fit" in options else count
             return _particles_of_sizes(
                 reader, path, values, source.by_number(options.get("smallest"))
             )
         if kind == SETTLED:
-            return _settled_particles(reader, path, found, options, values)
+            return _settled_particles(reader, path, count, options, values)
         gap = values.pop("gap", values.pop("film", None))
-        if part := options.pop("share", None):
-            gap *= part
+        if share := options.pop("share", None):
+            gap *= share
         if kind == "iso4406":
-            return Particles.from_iso4406(found, gap=gap, **options, **values)
+            return Particles.from_iso4406(count, gap=gap, **options, **values)
         if kind == "test_dust":
-            if given := values.pop("concentration", None):
-                values |= {"concentration": given.amount, "by": given.by, "gap": gap}
-            return Particles.test_dust(found, **options, **values)
-        return Particles.from_cleanliness_class(kind, found, gap=gap, **options, **values)
+            if concentration := values.pop("concentration", None):
+                values |= {
+                    "concentration": concentration.amount,
+                    "by": concentration.by,
+                    "gap": gap,
+                }
+            return Particles.test_dust(count, **options, **values)
+        return Particles.from_cleanliness_class(kind, count, gap=gap, **options, **values)
     except InvalidValue as error:
         raise error.under(path) from None
 

@@ -62,8 +62,8 @@ def _plate(reader: Reader, path: str, data: object) -> dict[str, object]:
 
 def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
     """The plate, from the objects that the tables of its study stand for."""
-    given = dict(values["plate"])
-    grains = np.sort(given.pop("grain", np.empty(0)))
+    keywords = dict(values["plate"])
+    grains = np.sort(keywords.pop("grain", np.empty(0)))
     dust = populations_of(values)
     if not dust:
         raise InvalidValue(
@@ -73,7 +73,7 @@ def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
             code=Mistake.BEYOND,
         )
     law = values.get("particle_law", Series())
-    whole = given | {"surfaces": values["surfaces"], "particles": dust, "law": law}
+    whole = keywords | {"surfaces": values["surfaces"], "particles": dust, "law": law}
     made = reader.make(Chuck, "plate", whole)
     return AskedPlate(
         title=values.get("title", ""),

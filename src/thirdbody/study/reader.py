@@ -192,7 +192,7 @@ class Reader:
         """What numbers were taken for what a drawing says."""
         self.faces: list[Topography] = []
         """The measured surfaces that stand in [roughness]."""
-        self.known = Known()
+        self.known_keys = Known()
 
     @property
     def stated_keys(self) -> frozenset[str]:
@@ -235,7 +235,7 @@ class Reader:
                 self.mistakes.append(Missing(path, name))
         self.mistakes += [Unknown(path, name, data[name]) for name in data if name not in keys]
         if len(self.mistakes) > before:
-            self.known.keys[path] = {name: key.about for name, key in keys.items()}
+            self.known_keys.keys[path] = {name: key.about for name, key in keys.items()}
             raise InvalidValue
         # in the order of the file, which decides what each sampled input is given
         return build({name: values[name] for name in data})
@@ -274,28 +274,28 @@ class Reader:
         When the word is missing or misspelt, the rest of the table is checked all the same:
         against the nearest kind, or against what any kind would take.
         """
-        asked = get(data, tag)
+        kind_word = get(data, tag)
         chosen = (
-            asked
-            if isinstance(asked, str) and asked in kinds
-            else nearest_option(str(asked), kinds)
+            kind_word
+            if isinstance(kind_word, str) and kind_word in kinds
+            else nearest_option(str(kind_word), kinds)
         )
         keys = {tag: tag_key(tuple(kinds))}
         for name in kinds if chosen is None else (chosen,):
             for field, key in keys_of(kinds[name]).items():
                 required = key.required and chosen is not None
                 keys.setdefault(field, key._replace(required=required))
-        self.known.variants[path] = tag, kinds
+        self.known_keys.variants[path] = tag, kinds
         made = build or (lambda values: self.make(kinds[values.pop(tag)], path, values))
         return self.table(path, data, keys | dict(common or {}), made)
 
     def only_one(self, path: str, data: Any, group: str = "") -> list[str]:
         """Tell of keys that say the same thing twice; the ones to leave out."""
-        given = [key for key in ONE_OF[group or path] if get(data, key) is not None]
-        if len(given) > 1:
+        present = [key for key in ONE_OF[group or path] if get(data, key) is not None]
+        if len(present) > 1:
             rule = "only one of these can be given; remove the other"
-            self.mistakes.append(clash(path, data, given, rule))
-        return given[1:]
+            self.mistakes.append(clash(path, data, present, rule))
+        return present[1:]
 
     def make(self, kind: type[Made], path: str, values: Mapping[str, object]) -> Made:
         """The object, its own complaints told with the keys of the file."""
@@ -327,21 +327,21 @@ def keys_of(kind: type) -> dict[str, Key]:
     and so is not a known key.
     """
     out = {}
-    for each in declarations(kind):
-        if each.quantity is not None:
-            key = quantity_key(each.name, each.quantity)
-        elif each.kind == "word":
-            key = word(each.options, each.meaning)
-        elif each.kind == "list":
-            key = numbers(each.unit, usual=math.inf if each.any_unit else None)
-        elif each.kind in PLAIN:
-            key = PLAIN[each.kind]._replace(about=each.meaning)
-        elif each.declared in FIELDS:
-            key = FIELDS[each.declared]
+    for field in declarations(kind):
+        if field.quantity is not None:
+            key = quantity_key(field.name, field.quantity)
+        elif field.kind == "word":
+            key = word(field.options, field.meaning)
+        elif field.kind == "list":
+            key = numbers(field.unit, usual=math.inf if field.any_unit else None)
+        elif field.kind in PLAIN:
+            key = PLAIN[field.kind]._replace(about=field.meaning)
+        elif field.declared in FIELDS:
+            key = FIELDS[field.declared]
         else:
             continue
-        default = each.default if isinstance(each.default, bool | float | int | str) else None
-        out[each.name] = key._replace(required=each.needed, default=default)
+        default = field.default if isinstance(field.default, bool | float | int | str) else None
+        out[field.name] = key._replace(required=field.needed, default=default)
     return out
 
 
@@ -407,21 +407,21 @@ def number(about: Quantity) -> Key:
 def read_number(about: Quantity, reader: Notes, path: str, value: object) -> float:
     """The number in SI that a value of a file stands for."""
     try:
-        found = quantity_to_si(value, about)
+        si_value = quantity_to_si(value, about)
     except InvalidValue as error:
         elsewhere = "; a load in Pa goes under the key pressure"
         cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
         raise InvalidValue(Problem(path, f"= {error}{cause}", code=error.code)) from None
-    if not math.isfinite(found):
+    if not math.isfinite(si_value):
         allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value, code=Mistake.RANGE)
-    if why := problem_with(about, found):
-        meant = "" if hint_on(about, found) else f"; it is the {about['meaning']}"
+    if why := problem_with(about, si_value):
+        meant = "" if hint_on(about, si_value) else f"; it is the {about['meaning']}"
         raise wrong(path, in_study(why) + meant, value, code=why.code)
     load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
-    if likely := unit_meant(about, found, load=load):
-        _refuse_slip(reader, path, value, f"{found:g} {about['unit']}", f"{found:g} {likely}")
-    return found
+    if likely := unit_meant(about, si_value, load=load):
+        _refuse_slip(reader, path, value, f"{si_value:g} {about['unit']}", f"{si_value:g} {likely}")
+    return si_value
 
 
 def _refuse_slip(reader: Notes, path: str, value: object, taken: str, meant: str) -> None:

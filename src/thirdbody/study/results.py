@@ -79,14 +79,14 @@ class _Result(MappedRecord):
         """What the particles of each population are: do they conduct, dent, break?"""
         return natures(self.study.contact)
 
-    def _plain_data(self, inputs: dict[str, object], **found: object) -> dict[str, object]:
+    def _plain_data(self, inputs: dict[str, object], **values: object) -> dict[str, object]:
         """Plain data with what every study says: title, version, inputs, warnings, citations."""
         return {
             "title": self.study.title,
             "version": __version__,
             "inputs": self.study.contact.to_dict() | inputs,
-            **plain_data(found),
-            "natures": [each.to_dict() for each in self.natures],
+            **plain_data(values),
+            "natures": [nature.to_dict() for nature in self.natures],
             "warnings": list(self.warnings),
             "citations": self.citations,
         }
@@ -124,8 +124,8 @@ class StudyResult(_Result):
         """Number of the state that stands for all: of forces the first, else the middle load."""
         if self.forces:
             return self.solved_states[0]
-        known = sorted(self.solved_states, key=lambda i: float(self.states.pressure[i]))
-        return known[(len(known) - 1) // 2]
+        by_pressure = sorted(self.solved_states, key=lambda i: float(self.states.pressure[i]))
+        return by_pressure[(len(by_pressure) - 1) // 2]
 
     @cached_property
     def what_ifs(self) -> tuple[WhatIf, ...]:
@@ -157,8 +157,8 @@ class StudyResult(_Result):
         """Particles that the contact of a state holds on average; infinite where nobody knows."""
         held = self.particles_held  # of a film that has bodies of its own
         if self.forces:
-            each = len(self.states.status) // len(self.forces)
-            held = self.forces[i // each].particles_held
+            states_per_force = len(self.states.status) // len(self.forces)
+            held = self.forces[i // states_per_force].particles_held
         return math.inf if held is None else float(held)
 
     def body_sentence(self) -> str:
@@ -166,17 +166,17 @@ class StudyResult(_Result):
 
         States are of a surface under one pressure, which shares its load among all its particles.
         """
-        each = [force for force in self.forces if force.particle_load_share is not None]
-        if not each:
+        forces = [force for force in self.forces if force.particle_load_share is not None]
+        if not forces:
             return ""
-        rare = any(0 < (force.particles_held or 0.0) < 1 for force in each)
-        if not (rare or any(force.method == "rough body" for force in each)):
+        rare = any(0 < (force.particles_held or 0.0) < 1 for force in forces)
+        if not (rare or any(force.method == "rough body" for force in forces)):
             return ""
         loads = ", ".join(
             f"{percent(force.particle_load_share)} under {value_of(force.force, 'N')}"
-            for force in each
+            for force in forces
         )
-        pressures = "" if each[0].kind == "flat" else "under the pressures of smooth bodies, "
+        pressures = "" if forces[0].kind == "flat" else "under the pressures of smooth bodies, "
         means = ", on average over contacts with and without one," if rare else ""
         return (
             f"That is of a wide surface {pressures}whose particles all share the load; of the load "
@@ -186,10 +186,10 @@ class StudyResult(_Result):
     def table(self) -> tuple[Columns, dict[str, str]]:
         """Columns of the states, then those of each of several populations, and their units."""
         columns, units = self._states(), {name: about(name).unit for name in self.states.columns()}
-        for part in self.states.populations:
-            for name, values in part.columns().items():
-                columns[f"{part.name}: {name}"] = plain_data(values)
-                units[f"{part.name}: {name}"] = part.about(name).unit
+        for population in self.states.populations:
+            for name, values in population.columns().items():
+                columns[f"{population.name}: {name}"] = plain_data(values)
+                units[f"{population.name}: {name}"] = population.about(name).unit
         return columns, units
 
     def _states(self) -> Columns:
@@ -216,7 +216,7 @@ class StudyResult(_Result):
             populations=self.states.populations,
             engine=self.states.engine,
             transitions=self.transitions,
-            what_ifs=[each.to_dict() for each in self.what_ifs],
+            what_ifs=[what_if.to_dict() for what_if in self.what_ifs],
         )
         if self.forces:
             body: dict[str, object] = {} if self.study.body is None else self.study.body.to_dict()
@@ -288,14 +288,14 @@ class FilmResult(_Result):
         columns: Columns = plain_data(self.states)
         units = {name: COLUMNS[name].unit if name in COLUMNS else "1" for name in columns}
         units |= {"regime": "", "status": ""}
-        for part in self.passing:
-            columns[f"{part.name}: passing"] = plain_data(part.share)
-            units[f"{part.name}: passing"] = "1"
+        for passing in self.passing:
+            columns[f"{passing.name}: passing"] = plain_data(passing.share)
+            units[f"{passing.name}: passing"] = "1"
         if brought := self.entrainment:
             columns["largest"], units["largest"] = plain_data(brought.largest), "m"
-            for part, density in zip(self.passing, brought.areal_density, strict=True):
-                columns[f"{part.name}: areal_density"] = plain_data(density)
-                units[f"{part.name}: areal_density"] = "1/m^2"
+            for passing, density in zip(self.passing, brought.areal_density, strict=True):
+                columns[f"{passing.name}: areal_density"] = plain_data(density)
+                units[f"{passing.name}: areal_density"] = "1/m^2"
         return columns, units
 
     def to_dict(self) -> dict[str, Any]:

@@ -89,16 +89,16 @@ def _read_drawing(reader: Reader, path: str, data: dict[str, object]) -> object:
     def build(values: dict[str, Any]) -> Roughness:
         common = values.pop("process", None)
         sizes = {name: values.pop(name) for name in STATED if name in values}
-        given = {f"{path}.{face}": values.pop(face) for face in SIDES if face in values}
+        by_face = {f"{path}.{face}": values.pop(face) for face in SIDES if face in values}
         faces = reader.read_each(
             {
-                where: ({"process": common} if common else {}) | each
-                for where, each in (given or {path: sizes}).items()
+                where: ({"process": common} if common else {}) | face_values
+                for where, face_values in (by_face or {path: sizes}).items()
             },
-            lambda reader, where, each: reader.make(Finish, where, each),
+            lambda reader, where, face_values: reader.make(Finish, where, face_values),
         )
         try:
-            found = Roughness.from_drawing(*faces, **values)
+            roughness = Roughness.from_drawing(*faces, **values)
         except InvalidValue as error:
             if "R" in values:
                 raise
@@ -108,9 +108,9 @@ def _read_drawing(reader: Reader, path: str, data: dict[str, object]) -> object:
                     for text in error.problems
                 )
             ) from None
-        used = {name: getattr(found, name) for name in KNOWN_BETTER}
+        used = {name: getattr(roughness, name) for name in KNOWN_BETTER}
         reader.assumed.append(f"{path}: {assumption_sentence(faces, used)}")
-        return found
+        return roughness
 
     return reader.table(path, data, keys, build)
 

@@ -50,7 +50,7 @@ def run_study(study: Study) -> StudyResult:
         critical = _transitions(study.contact)
         forces = [] if study.body is None else press_forces(study.body, study.forces, study.contact)  # type: ignore[arg-type]
     sentences = [*states.warnings, *(note_of(item.message) for item in heard)]
-    sentences += [sentence for each in forces for sentence in each.warnings]
+    sentences += [sentence for force in forces for sentence in force.warnings]
     return StudyResult(
         study=study,
         states=states,
@@ -82,8 +82,8 @@ def run_film(study: Study) -> FilmResult:
     """
     film, contact = study.film, study.contact
     if film is None:
-        asked = {"probability": study.connector, "plate": study.plate, "life": study.life}
-        others = [name for name, table in asked.items() if table is not None]
+        questions = {"probability": study.connector, "plate": study.plate, "life": study.life}
+        others = [name for name, table in questions.items() if table is not None]
         more = "".join(f"; thirdbody {name} answers this study" for name in others)
         raise InvalidValue(
             "the study has no table [film]: it says what is lubricated, e.g. [film] "
@@ -98,8 +98,8 @@ def run_film(study: Study) -> FilmResult:
     dirt, R, brought = film.entrainment, film.conjunction.R, None
     if dirt is not None:
         entered = [
-            [dirt.areal_density(each.diameter, h=float(h), R=R) for h in states["h_T"]]
-            for each in contact.populations
+            [dirt.areal_density(population.diameter, h=float(h), R=R) for h in states["h_T"]]
+            for population in contact.populations
         ]
         brought = Entrained(np.asarray(dirt.largest(states["h_T"], R=R)), entered)
     sentences = [note_of(item.message) for item in heard]
@@ -109,10 +109,10 @@ def run_film(study: Study) -> FilmResult:
         regime_speeds=changes,
         passing=tuple(
             Passing(
-                each.name or each.material.name or f"particles {number + 1}",
-                np.asarray(each.diameter.partial_moment(0, 0.0, states["h"])),
+                population.name or population.material.name or f"particles {number + 1}",
+                np.asarray(population.diameter.partial_moment(0, 0.0, states["h"])),
             )
-            for number, each in enumerate(contact.populations)
+            for number, population in enumerate(contact.populations)
         ),
         entrainment=brought,
         run_warnings=_new_sentences(study, sentences),
@@ -147,7 +147,7 @@ def run_film_curve(study: Study) -> tuple[FilmResult, int]:
 
 def _new_sentences(study: Study, sentences: Iterable[str]) -> tuple[str, ...]:
     """Sentences, each once, that the notes of the study do not hold."""
-    return tuple(dict.fromkeys(each for each in sentences if each not in study.notes))
+    return tuple(dict.fromkeys(sentence for sentence in sentences if sentence not in study.notes))
 
 
 def _transitions(contact: Contact) -> Transitions:

@@ -89,10 +89,10 @@ class ConnectorResult(AskedResult):
 
     def curve(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Forces around those of the study, and how often one contact and all of them stay open."""
-        plug, asked = self.asked.connector, self.asked.forces
-        forces = np.geomspace(asked[0] / REACH, asked[-1] * REACH, POINTS)
+        plug, study_forces = self.asked.connector, self.asked.forces
+        forces = np.geomspace(study_forces[0] / REACH, study_forces[-1] * REACH, POINTS)
         one = plug.failures(forces)
-        every = np.array([plug.of_all(float(each)) for each in one])
+        every = np.array([plug.of_all(float(failure)) for failure in one])
         return forces, one**plug.parallel, every
 
     def numbers(self) -> dict[str, object]:
@@ -100,14 +100,14 @@ class ConnectorResult(AskedResult):
         return {"in_the_way": self.in_the_way, "threshold": self.threshold}
 
 
-def run_connector(asked: AskedConnector) -> ConnectorResult:
+def run_connector(request: AskedConnector) -> ConnectorResult:
     """How often a connector stays open, under the forces of its study.
 
     One force is told with others about it.
 
     Parameters
     ----------
-    asked : AskedConnector
+    request : AskedConnector
         As `load_connector` reads it.
 
     Examples
@@ -124,26 +124,26 @@ def run_connector(asked: AskedConnector) -> ConnectorResult:
     >>> [f"{each:.4f}" for each in found.failure_of_all]
     ['0.0653', '0.0231', '0.0047', '0.0005', '0.0000']
     """
-    plug, forces = asked.connector, asked.forces
+    plug, forces = request.connector, request.forces
     one = len(forces) == 1
     shown = forces[0] * np.array(AROUND) if one else forces
     bounds = np.array([plug.bounds(float(force)) for force in shown])
     middle = bounds.mean(axis=1)
-    found = ConnectorResult(
-        asked=asked,
+    result = ConnectorResult(
+        asked=request,
         places=(AROUND.index(1.0),) if one else tuple(range(len(forces))),
         force=shown,
         failure=middle,
         failure_low=bounds[:, 0],
         failure_high=bounds[:, 1],
-        failure_of_all=np.array([plug.of_all(each) for each in middle]),
+        failure_of_all=np.array([plug.of_all(failure) for failure in middle]),
         in_the_way=plug.in_the_way,
         threshold=plug.threshold,
     )
-    at = found.places[0]
-    notes = [*_bounds_note(found, at), *_breaking_note(plug)]
+    at = result.places[0]
+    notes = [*_bounds_note(result, at), *_breaking_note(plug)]
     what_ifs = _what_ifs(plug, float(shown[at]))
-    return replace(found, what_ifs=what_ifs, run_warnings=tuple(notes))
+    return replace(result, what_ifs=what_ifs, run_warnings=tuple(notes))
 
 
 def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
@@ -205,14 +205,14 @@ def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
     out = []
     for words, plugs in ends:
         with contextlib.suppress(InvalidValue):  # twice the dust may be more than there is room for
-            values = tuple(each().failure_of_all(force) for each in plugs)
+            values = tuple(make_plug().failure_of_all(force) for make_plug in plugs)
             out.append(WhatIf(**words, values=values))
-    return tuple(sorted(out, key=lambda each: -each.ratio))
+    return tuple(sorted(out, key=lambda what_if: -what_if.ratio))
 
 
-def _bounds_note(found: ConnectorResult, at: int) -> list[Note]:
+def _bounds_note(result: ConnectorResult, at: int) -> list[Note]:
     """Note where rounding blurs the answer."""
-    low, high = found.failure_low[at], found.failure_high[at]
+    low, high = result.failure_low[at], result.failure_high[at]
     if not high > 0 or (high - low) < VAGUE * high:
         return []
     return [

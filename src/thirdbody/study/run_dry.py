@@ -84,93 +84,95 @@ class DryResult(QuestionResult):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        asked, history = self.asked, self.history
+        request, history = self.asked, self.history
         conditions = {
-            name: [each.to_dict() for each in value] if name == "arrivals" else plain_data(value)
-            for name, value in asked.conditions.items()
+            name: [arrival.to_dict() for arrival in value]
+            if name == "arrivals"
+            else plain_data(value)
+            for name, value in request.conditions.items()
         }
         return self.whole(
             inputs={
-                "contact": asked.contact.to_dict(),
+                "contact": request.contact.to_dict(),
                 "conditions": conditions,
-                "duration": asked.duration,
-                "until": [each.to_dict() for each in asked.until],
+                "duration": request.duration,
+                "until": [event.to_dict() for event in request.until],
             },
             **{name: v for name, v in history.to_dict().items() if name != "warnings"},
-            steady=[plain_data(each._asdict()) for each in history.steady()],
+            steady=[plain_data(steady._asdict()) for steady in history.steady()],
             flows=[{"from": start, "to": end, "kg": mass} for start, end, mass in history.flows()],
             bands=None if self.bands is None else self.bands.to_dict(),
         )
 
 
-def _arguments(asked: AskedDry) -> dict[str, Any]:
+def _arguments(request: AskedDry) -> dict[str, Any]:
     """Arguments of `thirdbody.life` beside contact, duration and events."""
-    return {**asked.conditions, "debris": asked.debris, "running_in": asked.running_in}
+    return {**request.conditions, "debris": request.debris, "running_in": request.running_in}
 
 
-def life_of_asked(asked: AskedLife | AskedDry, **arguments: Any) -> LifeHistory | DryHistory:
+def life_of_asked(request: AskedLife | AskedDry, **arguments: Any) -> LifeHistory | DryHistory:
     """The history that a study asks for; its warnings stand in it, and are not told twice."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         try:
-            return life(duration=asked.duration, until=asked.until, **arguments)
+            return life(duration=request.duration, until=request.until, **arguments)
         except InvalidValue as error:
             raise InvalidValue(
                 *(
-                    each.under("life") if each.place == "duration" else each
-                    for each in error.problems
+                    problem.under("life") if problem.place == "duration" else problem
+                    for problem in error.problems
                 )
             ) from None
 
 
-def drawn_of(asked: AskedLife | AskedDry) -> dict[str, Any]:
+def drawn_of(request: AskedLife | AskedDry) -> dict[str, Any]:
     """Arguments that say what is drawn of a study, and over which time."""
     return {
-        "vary": asked.uncertainty,
-        "duration": asked.duration,
-        "until": asked.until,
-        "samples": asked.drawn.samples,
-        "seed": asked.drawn.seed,
+        "vary": request.uncertainty,
+        "duration": request.duration,
+        "until": request.until,
+        "samples": request.drawn.samples,
+        "seed": request.drawn.seed,
     }
 
 
 def bands_of_dry(
-    asked: AskedDry, *, progress: bool = False, keep: Path | None = None
+    request: AskedDry, *, progress: bool = False, keep: Path | None = None
 ) -> LifeBands | None:
     """Bands of a dry contact; None where the study says nothing of what is known.
 
     Parameters
     ----------
-    asked : AskedDry
+    request : AskedDry
     progress, keep
         As in `thirdbody.study.life_bands.propagate_life`.
     """
-    if not asked.uncertainty:
+    if not request.uncertainty:
         return None
-    with asked.drawn.in_file():
+    with request.drawn.in_file():
         return propagate_dry(
-            asked.contact, **drawn_of(asked), conditions=_arguments(asked), progress=progress,
+            request.contact, **drawn_of(request), conditions=_arguments(request), progress=progress,
             keep=keep,
         )  # fmt: skip
 
 
-def run_dry(asked: AskedDry, *, progress: bool = False, keep: Path | None = None) -> DryResult:
+def run_dry(request: AskedDry, *, progress: bool = False, keep: Path | None = None) -> DryResult:
     """The history of a dry contact, as its study asks.
 
     Parameters
     ----------
-    asked : AskedDry
+    request : AskedDry
         As `thirdbody.study.run_life.load_life` reads it.
     progress : bool, optional
         As in `thirdbody.study.life_bands.propagate_dry`.
     keep : Path, optional
         As in `thirdbody.study.run_life.run_life`.
     """
-    if asked.uncertainty:
-        with asked.drawn.in_file():
-            check_dry(asked.contact, vary=asked.uncertainty, conditions=_arguments(asked))
-    one: dict[str, Any] = {} if keep is None or asked.uncertainty else {"keep": keep}
-    history = life_of_asked(asked, contact=asked.contact, **_arguments(asked), **one)
+    if request.uncertainty:
+        with request.drawn.in_file():
+            check_dry(request.contact, vary=request.uncertainty, conditions=_arguments(request))
+    one: dict[str, Any] = {} if keep is None or request.uncertainty else {"keep": keep}
+    history = life_of_asked(request, contact=request.contact, **_arguments(request), **one)
     assert isinstance(history, DryHistory)
-    bands = bands_of_dry(asked, progress=progress, keep=keep)
-    return DryResult(asked=asked, history=history, bands=bands)
+    bands = bands_of_dry(request, progress=progress, keep=keep)
+    return DryResult(asked=request, history=history, bands=bands)

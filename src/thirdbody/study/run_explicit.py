@@ -116,14 +116,14 @@ def run_explicit(
         )
     contact = study.contact.replace(outputs=())
     loads = np.sort(study.values) / (contact.E_ss if study.load == "pressure" else 1.0)
-    asked = dict(study.explicit or {})
-    size = asked.pop("size", SIZE)
-    count, spacing = asked.pop("surfaces", SURFACES), asked.pop("spacing", None)
+    options = dict(study.explicit or {})
+    size = options.pop("size", SIZE)
+    count, spacing = options.pop("surfaces", SURFACES), options.pop("spacing", None)
     notes = list(study.notes)
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         if len(study.faces) == 1:
-            made = _run_measured(study, contact, loads, asked, maps, workers)
+            made = _run_measured(study, contact, loads, options, maps, workers)
         else:
             if study.faces:
                 notes.append(
@@ -131,18 +131,22 @@ def run_explicit(
                     "meets which of the other: random surfaces with their moments are pressed"
                 )
             spacing = spacing_for(contact) if spacing is None else spacing
-            found = ensemble(
+            results = ensemble(
                 contact, surfaces=count, F_star=loads, size=size, spacing=spacing,
-                folder=folder, workers=workers, scheduler=scheduler, progress=progress, **asked,
+                folder=folder, workers=workers, scheduler=scheduler, progress=progress, **options,
             )  # fmt: skip
-            first = surface_of(contact, size=size, spacing=spacing, seed=asked.get("seed", 0))
-            state = solve(contact, first, F_star=loads, maps=maps, **asked)
-            made = _of_ensemble(found, state)
-    about = [each for each in heard if issubclass(each.category, RangeWarning)]
-    for each in heard:
-        if each not in about:  # about the folder, not the answer
-            tell_of_range(each.message, each.category)
-    sentences = [*notes, *made.data.pop("warnings"), *(note_of(each.message) for each in about)]
+            first = surface_of(contact, size=size, spacing=spacing, seed=options.get("seed", 0))
+            state = solve(contact, first, F_star=loads, maps=maps, **options)
+            made = _of_ensemble(results, state)
+    about = [warning for warning in heard if issubclass(warning.category, RangeWarning)]
+    for warning in heard:
+        if warning not in about:  # about the folder, not the answer
+            tell_of_range(warning.message, warning.category)
+    sentences = [
+        *notes,
+        *made.data.pop("warnings"),
+        *(note_of(warning.message) for warning in about),
+    ]
     data = {
         "title": study.title,
         "version": __version__,
@@ -182,51 +186,57 @@ def claim_results(out: str | os.PathLike[str], study: Study, *, maps: str = "las
         It holds another study or anything else, or cannot be made.
     """
     contact = study.contact.replace(outputs=())
-    asked = dict(study.explicit or {})
+    options = dict(study.explicit or {})
     loads = np.sort(study.values)
-    told = {
+    description = {
         "command": "explicit",
         "version": __version__,
         "inputs": contact.to_dict(),
         "load": study.load,
         "F_star": (loads / (contact.E_ss if study.load == "pressure" else 1.0)).tolist(),
-        "surfaces": asked.pop("surfaces", SURFACES) if len(study.faces) != 1 else 1,
-        "explicit": plain_data(dict(sorted(asked.items()))),
+        "surfaces": options.pop("surfaces", SURFACES) if len(study.faces) != 1 else 1,
+        "explicit": plain_data(dict(sorted(options.items()))),
         "maps": maps,
         "topography": [
             hashlib.sha256(np.ascontiguousarray(face.heights).tobytes()).hexdigest()
             for face in study.faces
         ],
     }
-    return claim_folder(out, told, files=FILES, unmarked=_unmarked_study, growing=("surfaces",))
+    return claim_folder(
+        out, description, files=FILES, unmarked=_unmarked_study, growing=("surfaces",)
+    )
 
 
 def _unmarked_study(folder: Path) -> dict[str, object] | None:
     """Study whose results lie in a folder without a mark, as read from these."""
-    found = read_json(folder / "explicit.json")
-    if found is not None and {"version", "inputs", "table"} <= set(found):
-        told = {name: found.get(name) for name in ("version", "inputs", "surfaces")}
-        return told | {"F_star": found["table"].get("F_star")}
+    results = read_json(folder / "explicit.json")
+    if results is not None and {"version", "inputs", "table"} <= set(results):
+        description = {name: results.get(name) for name in ("version", "inputs", "surfaces")}
+        return description | {"F_star": results["table"].get("F_star")}
     # surfaces say themselves what they were made for
-    names = [each.name for each in folder.iterdir() if each.name != MARK]
+    names = [file.name for file in folder.iterdir() if file.name != MARK]
     kept = folder / "surfaces"
-    own = names == [kept.name] and kept.is_dir()
-    return {} if own and all(SURFACE.fullmatch(each.name) for each in kept.iterdir()) else None
+    only_surfaces = names == [kept.name] and kept.is_dir()
+    return (
+        {}
+        if only_surfaces and all(SURFACE.fullmatch(file.name) for file in kept.iterdir())
+        else None
+    )
 
 
 def _run_measured(
     study: Study,
     contact: Contact,
     loads: np.ndarray,
-    asked: dict[str, Any],
+    options: dict[str, Any],
     maps: Maps,
     workers: int,
 ) -> ExplicitResult:
     """Results of one measured map, beside the model with the seats of this map."""
     (face,) = study.faces
     how: dict[str, Any] = {"maps": maps, "workers": workers, "blocks": BLOCKS}
-    state = solve(contact, face, F_star=loads, **how, **asked)
-    rule = {name: asked[name] for name in ("seats", "seed") if name in asked}
+    state = solve(contact, face, F_star=loads, **how, **options)
+    rule = {name: options[name] for name in ("seats", "seed") if name in options}
     seats = seats_on(contact, face, **rule)
     if not math.isfinite(seats.mean):  # places that are told
         seats = state.seats
@@ -252,18 +262,18 @@ def _run_measured(
     )  # fmt: skip
 
 
-def _of_ensemble(found: Ensemble, state: ExplicitState) -> ExplicitResult:
-    told = found.to_dict()
+def _of_ensemble(results: Ensemble, state: ExplicitState) -> ExplicitResult:
+    plain = results.to_dict()
     data = {
-        name: told[name]
+        name: plain[name]
         for name in ("surfaces", "left_out", "seats", "table", "at_h", "summary", "warnings")
     }
     data["source"] = "synthetic"
     return ExplicitResult(
-        data=data, columns=found.states, units=_units(), state=state,
-        converged=found.left_out == 0 and bool(np.all(state.converged)),
+        data=data, columns=results.states, units=_units(), state=state,
+        converged=results.left_out == 0 and bool(np.all(state.converged)),
     )  # fmt: skip
 
 
 def _units() -> dict[str, str]:
-    return {"surface": ""} | {name: told.unit for name, told in COLUMNS.items()}
+    return {"surface": ""} | {name: column.unit for name, column in COLUMNS.items()}

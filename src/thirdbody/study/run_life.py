@@ -88,9 +88,9 @@ def load_circuit(path: str | os.PathLike[str], overrides: Iterable[str] = ()) ->
         Every mistake of the file.
     """
     data = override(read(Path(path)), list(overrides))
-    given = data.get("life")
-    if isinstance(given, dict) and isinstance(given.get("oil"), dict):
-        given["oil"]["ingress"] = CLEAN
+    life_table = data.get("life")
+    if isinstance(life_table, dict) and isinstance(life_table.get("oil"), dict):
+        life_table["oil"]["ingress"] = CLEAN
     return read_tables(data, Path(path).parent, oil_of, lambda t: t.name in NEEDED)
 
 
@@ -123,9 +123,9 @@ class ReportsResult(QuestionResult):
 
     def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row a size, and their units."""
-        found = self.reports
-        columns = {name: getattr(found, name) for name in ("rate", "low", "high")}
-        data = {"size": plain_data(found.sizes)} | {k: plain_data(v) for k, v in columns.items()}
+        reported = self.reports
+        columns = {name: getattr(reported, name) for name in ("rate", "low", "high")}
+        data = {"size": plain_data(reported.sizes)} | {k: plain_data(v) for k, v in columns.items()}
         return data, {"size": "m"} | dict.fromkeys(columns, "1/s")
 
     def to_dict(self) -> dict[str, Any]:
@@ -137,19 +137,19 @@ class ReportsResult(QuestionResult):
         )
 
 
-def reports_of(asked: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
+def reports_of(request: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
     """What reports of an oil say of the dirt that enters the circuit of a study.
 
     Parameters
     ----------
-    asked : AskedLife
+    request : AskedLife
         As `load_circuit` reads it.
     file : path-like
         As `thirdbody.systems.life.reports.read_reports` reads it.
     """
     times, reports, sizes = read_reports(Path(file), fewest=2)
-    found = oil_reports(times, reports=reports, sizes=sizes, circuit=asked.circuit)
-    return ReportsResult(asked=asked, reports=found)
+    reported = oil_reports(times, reports=reports, sizes=sizes, circuit=request.circuit)
+    return ReportsResult(asked=request, reports=reported)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -220,7 +220,7 @@ class LifeResult(QuestionResult):
             inputs={
                 "oil": self.asked.circuit.to_dict(),
                 "duration": self.asked.duration,
-                "until": [each.to_dict() for each in self.asked.until],
+                "until": [event.to_dict() for event in self.asked.until],
             },
             **{name: v for name, v in self.history.to_dict().items() if name != "warnings"},
             flows=[
@@ -231,88 +231,92 @@ class LifeResult(QuestionResult):
         )
 
 
-def history_of(asked: AskedLife, *, keep: Path | None = None) -> LifeHistory:
+def history_of(request: AskedLife, *, keep: Path | None = None) -> LifeHistory:
     """The history of the oil, with the contacts that it goes through where there are some.
 
     Parameters
     ----------
-    asked : AskedLife
+    request : AskedLife
     keep : Path, optional
         As of `thirdbody.life`.
     """
     more: dict[str, Any] = {} if keep is None else {"keep": keep}
-    found = life_of_asked(asked, oil=asked.circuit, **(_arguments(asked) or {}), **more)
-    assert isinstance(found, LifeHistory)
-    return found
+    history = life_of_asked(request, oil=request.circuit, **(_arguments(request) or {}), **more)
+    assert isinstance(history, LifeHistory)
+    return history
 
 
-def _arguments(asked: AskedLife) -> dict[str, Any] | None:
+def _arguments(request: AskedLife) -> dict[str, Any] | None:
     """Arguments of `thirdbody.life` for the contacts; None where there are none."""
-    if (of := asked.contact) is None:
+    if (of := request.contact) is None:
         return None
     parts = {"contact": of.contact, "debris": of.debris, "running_in": of.running_in}
     return {**parts, **of.conditions}
 
 
 def bands_of(
-    asked: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
+    request: AskedLife | AskedDry, *, progress: bool = False, keep: Path | None = None
 ) -> LifeBands | None:
     """Bands of an oil or of a dry contact; None where the study says nothing of what is known.
 
     Parameters
     ----------
-    asked : AskedLife or AskedDry
+    request : AskedLife or AskedDry
         As `load_life` reads it.
     progress : bool, optional
         Shows on standard error how many histories are done.
     keep : Path, optional
         A file that keeps the end of every history; the same call goes on with it.
     """
-    if isinstance(asked, AskedDry):
-        return bands_of_dry(asked, progress=progress, keep=keep)
-    if not asked.uncertainty:
+    if isinstance(request, AskedDry):
+        return bands_of_dry(request, progress=progress, keep=keep)
+    if not request.uncertainty:
         return None
-    with asked.drawn.in_file():
+    with request.drawn.in_file():
         return propagate_life(
-            asked.circuit, **drawn_of(asked), contact=_arguments(asked), progress=progress,
+            request.circuit, **drawn_of(request), contact=_arguments(request), progress=progress,
             keep=keep,
         )  # fmt: skip
 
 
-def need_bands(asked: AskedLife) -> None:
+def need_bands(request: AskedLife) -> None:
     """Refuse what is said to be uncertain and cannot be so, before anything is computed.
 
     Parameters
     ----------
-    asked : AskedLife
+    request : AskedLife
 
     Raises
     ------
     InvalidValue
     """
-    if not asked.uncertainty:
+    if not request.uncertainty:
         return
-    with asked.drawn.in_file():
+    with request.drawn.in_file():
         check_oil(
-            asked.circuit,
-            vary=asked.uncertainty,
-            duration=asked.duration,
-            contact=_arguments(asked),
-            samples=asked.drawn.samples,
-            seed=asked.drawn.seed,
+            request.circuit,
+            vary=request.uncertainty,
+            duration=request.duration,
+            contact=_arguments(request),
+            samples=request.drawn.samples,
+            seed=request.drawn.seed,
         )
 
 
 @overload
 def run_life(
-    asked: AskedLife, *, progress: bool = ..., keep: Path | None = ..., filter: Filter | None = ...
+    request: AskedLife,
+    *,
+    progress: bool = ...,
+    keep: Path | None = ...,
+    filter: Filter | None = ...,
 ) -> LifeResult: ...
 @overload
 def run_life(
-    asked: AskedDry, *, progress: bool = ..., keep: Path | None = ..., filter: Filter | None = ...
+    request: AskedDry, *, progress: bool = ..., keep: Path | None = ..., filter: Filter | None = ...
 ) -> DryResult: ...
 def run_life(
-    asked: AskedLife | AskedDry,
+    request: AskedLife | AskedDry,
     *,
     progress: bool = False,
     keep: Path | None = None,
@@ -322,7 +326,7 @@ def run_life(
 
     Parameters
     ----------
-    asked : AskedLife or AskedDry
+    request : AskedLife or AskedDry
         As `load_life` reads it.
     progress : bool, optional
         As in `bands_of`.
@@ -340,13 +344,13 @@ def run_life(
     >>> found.history.codes[0], found.history.ledger.residual < 1e-9
     ('20/18/15', True)
     """
-    if isinstance(asked, AskedDry):
-        return run_dry(asked, progress=progress, keep=keep)
-    need_bands(asked)
-    history = history_of(asked, keep=None if asked.uncertainty else keep)
+    if isinstance(request, AskedDry):
+        return run_dry(request, progress=progress, keep=keep)
+    need_bands(request)
+    history = history_of(request, keep=None if request.uncertainty else keep)
     return LifeResult(
-        asked=asked,
+        asked=request,
         history=history,
-        bands=bands_of(asked, progress=progress, keep=keep),
-        dents=dents_of_life(asked, history, filter=filter, contact=_arguments(asked)),
+        bands=bands_of(request, progress=progress, keep=keep),
+        dents=dents_of_life(request, history, filter=filter, contact=_arguments(request)),
     )

@@ -98,7 +98,7 @@ class LifeDesign(QuestionResult):
         """Everything, ready for JSON."""
         design = self.asked.design
         assert design is not None
-        until = [each.to_dict() for each in self.asked.until]
+        until = [event.to_dict() for event in self.asked.until]
         return self.whole(
             inputs={"oil": self.asked.circuit.to_dict(), "code": design.code, "until": until},
             best=self.best or None,
@@ -106,25 +106,25 @@ class LifeDesign(QuestionResult):
         )
 
 
-def design_life(asked: AskedLife) -> LifeDesign:
+def design_life(request: AskedLife) -> LifeDesign:
     """The filter or the circuit that [life.design] asks for.
 
     Parameters
     ----------
-    asked : AskedLife
+    request : AskedLife
         As `thirdbody.study.run_life.load_life` reads it, with a design.
     """
-    design = asked.design
+    design = request.design
     assert design is not None
-    return _for_code(asked, design) if design.code else _longest(asked, design)
+    return _for_code(request, design) if design.code else _longest(request, design)
 
 
-def _for_code(asked: AskedLife, design: AskedDesign) -> LifeDesign:
+def _for_code(request: AskedLife, design: AskedDesign) -> LifeDesign:
     """The first filter with which the oil comes to the code."""
-    circuit = asked.circuit
-    own = circuit.filters[0]
+    circuit = request.circuit
+    first = circuit.filters[0]
     tried = [
-        f if f.flow is not None else f.replace(flow=own.flow) for f in design.filters or (own,)
+        f if f.flow is not None else f.replace(flow=first.flow) for f in design.filters or (first,)
     ]
     names = tuple(f.name or f"filter {i}" for i, f in enumerate(tried, 1))
     with_each = [circuit.replace(filters=(f, *circuit.filters[1:])) for f in tried]
@@ -132,34 +132,34 @@ def _for_code(asked: AskedLife, design: AskedDesign) -> LifeDesign:
     flows = [math.nan if f.line else least_flow(c, code=design.code)
              for f, c in zip(tried, with_each, strict=True)]  # fmt: skip
     return LifeDesign(
-        asked=asked,
+        asked=request,
         names=names,
         best="" if best is None else names[tried.index(best)],
-        codes=tuple(each.steady_code() for each in with_each),
+        codes=tuple(circuit.steady_code() for circuit in with_each),
         flows=np.array(flows),
         times=np.empty(0),
     )
 
 
-def _longest(asked: AskedLife, design: AskedDesign) -> LifeDesign:
+def _longest(request: AskedLife, design: AskedDesign) -> LifeDesign:
     """The choice with which the event comes last."""
-    (event,) = asked.until
-    if asked.contact is None and not isinstance(event, ContactUntil):
-        found = longest_time(design.circuits, until=event, duration=asked.duration)
-        best, times = found.name, found.times
+    (event,) = request.until
+    if request.contact is None and not isinstance(event, ContactUntil):
+        longest = longest_time(design.circuits, until=event, duration=request.duration)
+        best, times = longest.name, longest.times
     else:
-        times = {name: _time(asked, circuit) for name, circuit in design.circuits.items()}
+        times = {name: _time(request, circuit) for name, circuit in design.circuits.items()}
         best = max(times, key=lambda name: times[name])
     return LifeDesign(
-        asked=asked, names=tuple(times), best=best, flows=np.empty(0),
+        asked=request, names=tuple(times), best=best, flows=np.empty(0),
         times=np.array(list(times.values())),
     )  # fmt: skip
 
 
-def _time(asked: AskedLife, circuit: OilCircuit) -> float:
+def _time(request: AskedLife, circuit: OilCircuit) -> float:
     """When the event comes in the contacts of an oil [s]; infinite where it does not."""
-    (event,) = asked.until
+    (event,) = request.until
     until = (event.replace(stops=True),)
-    history = history_of(replace(asked, circuit=circuit, until=until))
-    came = [each.time for each in history.events if each.name == event.name]
+    history = history_of(replace(request, circuit=circuit, until=until))
+    came = [past_event.time for past_event in history.events if past_event.name == event.name]
     return came[0] if came else math.inf

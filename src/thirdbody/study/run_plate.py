@@ -105,12 +105,12 @@ class PlateResult(AskedResult):
         return {"bumps": self.bumps, "none": self.none, "lifting": list(self.lifting)}
 
 
-def run_plate(asked: AskedPlate) -> PlateResult:
+def run_plate(request: AskedPlate) -> PlateResult:
     """Heights of a plate over particles of its study, and how often they exceed the limit.
 
     Parameters
     ----------
-    asked : AskedPlate
+    request : AskedPlate
         As `load_plate` reads it.
 
     Examples
@@ -126,40 +126,40 @@ def run_plate(asked: AskedPlate) -> PlateResult:
     >>> f"{found.height[0] * 1e9:.1f} nm high, {found.width[0] * 1e3:.1f} mm wide"
     '57.6 nm high, 8.3 mm wide'
     """
-    chuck = asked.chuck
+    chuck = request.chuck
     wanted = [
         (dust, name_of(dust, i), float(x))
         for i, dust in enumerate(chuck.particles)
-        for x in (asked.grains if len(asked.grains) else dust.diameter.ppf(np.array(QUANTILES)))
+        for x in (request.grains if len(request.grains) else dust.diameter.ppf(np.array(QUANTILES)))
     ]
     # of one size there is one quantile
-    wanted = [each for i, each in enumerate(wanted) if each not in wanted[:i]]
-    found = [chuck.over(x, dust) for dust, _, x in wanted]
-    at = int(np.argmax([bump.height for bump in found]))
+    wanted = [grain for i, grain in enumerate(wanted) if grain not in wanted[:i]]
+    bump_shapes = [chuck.over(x, dust) for dust, _, x in wanted]
+    at = int(np.argmax([bump.height for bump in bump_shapes]))
     whole = chuck.limit is not None and chuck.diameter is not None
     bumps = chuck.bumps_above(chuck.limit) if whole and chuck.limit is not None else None
     lifting = () if chuck.limit is None else tuple(
         chuck.lifting(chuck.limit, dust) for dust in chuck.particles
     )  # fmt: skip
     breaking = tuple(
-        _breaks_from(chuck, dust, [x for own, _, x in wanted if own is dust])
+        _breaks_from(chuck, dust, [x for other, _, x in wanted if other is dust])
         for dust in chuck.particles
     )
     return PlateResult(
-        asked=asked,
+        asked=request,
         at=at,
         grain=np.array([x for _, _, x in wanted]),
         particles=[name for _, name, _ in wanted],
-        height=np.array([bump.height for bump in found]),
-        width=np.array([2 * bump.radius for bump in found]),
-        force=np.array([bump.force for bump in found]),
-        thin=np.array([bump.thin for bump in found]),
+        height=np.array([bump.height for bump in bump_shapes]),
+        width=np.array([2 * bump.radius for bump in bump_shapes]),
+        force=np.array([bump.force for bump in bump_shapes]),
+        thin=np.array([bump.thin for bump in bump_shapes]),
         breaking=breaking,
         bumps=bumps,
         none=None if bumps is None else math.exp(-bumps),
         lifting=lifting,
         what_ifs=_what_ifs(chuck, wanted[at][0], wanted[at][2], counted=bumps is not None),
-        run_warnings=(*_warnings(chuck, found), *_breaking(chuck, breaking)),
+        run_warnings=(*_warnings(chuck, bump_shapes), *_breaking(chuck, breaking)),
     )
 
 
@@ -168,12 +168,16 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
 
     def heights(*chucks: Chuck, sizes: tuple[float, ...] = (1.0,)) -> tuple[float, ...]:
         if counted:
-            return tuple(each.bumps_above(each.limit or 0.0) for each in chucks)
-        return tuple(each.over(size * grain, dust).height for each in chucks for size in sizes)
+            return tuple(changed.bumps_above(changed.limit or 0.0) for changed in chucks)
+        return tuple(
+            changed.over(size * grain, dust).height for changed in chucks for size in sizes
+        )
 
     def with_hardness(factor: float) -> Chuck:
         pair = chuck.surfaces
-        first, second = (each.replace(H=each.H * factor) for each in (pair.first, pair.second))
+        first, second = (
+            surface.replace(H=surface.H * factor) for surface in (pair.first, pair.second)
+        )
         return chuck.replace(surfaces=pair.replace(first=first, second=second))
 
     def vary_heights(change: Callable[[float], Chuck], factor: float) -> tuple[float, ...]:
@@ -191,7 +195,7 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
             between=f"{percent(THICKNESS - 1)} more and as much less",
             action="give plate.thickness as measured",
             values=vary_heights(
-                lambda part: chuck.replace(thickness=chuck.thickness * part), THICKNESS
+                lambda factor: chuck.replace(thickness=chuck.thickness * factor), THICKNESS
             ),
         ),
     ]
@@ -218,14 +222,14 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
                 values=heights(chuck, sizes=(0.8, 1.25)),
             )
         )
-    return tuple(sorted(out, key=lambda each: -each.ratio))
+    return tuple(sorted(out, key=lambda what_if: -what_if.ratio))
 
 
-def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
+def _warnings(chuck: Chuck, bump_shapes: list[Bump]) -> list[Note]:
     """Notes where the theory of thin plates ends."""
     out = []
     t = chuck.thickness
-    if stiff := [bump.height for bump in found if not bump.thin]:
+    if stiff := [bump.height for bump in bump_shapes if not bump.thin]:
         out.append(
             Note(
                 f"heights up to {value_of(max(ATOM, *stiff), 'm', 3)} are of bumps narrower than "
@@ -234,7 +238,7 @@ def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
                 action="take these as orders of magnitude; larger particles (plate.grain) decide",
             )
         )
-    if steep := [bump.height for bump in found if bump.height > t / 2]:
+    if steep := [bump.height for bump in bump_shapes if bump.height > t / 2]:
         out.append(
             Note(
                 f"{value_of(max(steep), 'm', 3)} is more than half the thickness: a plate so bent "
@@ -243,7 +247,7 @@ def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
                 action="take it as an upper end, or look at smaller particles (plate.grain)",
             )
         )
-    if chuck.diameter is not None and any(2 * bump.radius > chuck.diameter for bump in found):
+    if chuck.diameter is not None and any(2 * bump.radius > chuck.diameter for bump in bump_shapes):
         out.append(
             Note(
                 "a bump is wider than the plate: it tilts on the particle instead of lying flat "

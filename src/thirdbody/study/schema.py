@@ -54,13 +54,13 @@ def study_schema() -> dict[str, Any]:
 class Describer(Reader):
     """Walker through the tables of a file, as a `Reader`, that says what each may hold.
 
-    ``table`` gives JSON Schema in the place of a value, and keeps the keys in ``known``.
+    ``table`` gives JSON Schema in the place of a value, and keeps the keys in ``known_keys``.
     """
 
     def known_of(self, tables: Iterable[Table]) -> Known:
         """The keys of these tables, for the data of the file."""
         self.table("", self.whole, {table.name: table.key for table in tables})
-        return self.known
+        return self.known_keys
 
     def table(
         self,
@@ -72,7 +72,7 @@ class Describer(Reader):
         """The schema of a table with these keys and no others."""
         if path.count(".") >= DEEPEST:
             return {}
-        self.known.keys[path] = {name: key.about for name, key in keys.items()}
+        self.known_keys.keys[path] = {name: key.about for name, key in keys.items()}
         properties = {}
         for name, key in keys.items():
             where = f"{path}.{name}" if path else name
@@ -118,13 +118,13 @@ class Describer(Reader):
         outermost = "." not in path and not isinstance(data, list)
         alone = self.every_way or key.read is None or outermost
         if key.table is not None and (alone or isinstance(data, dict)):
-            ways: Iterator[Any] = (key.table(self, path, each) for each in among)
+            ways: Iterator[Any] = (key.table(self, path, entry) for entry in among)
             yield from ways
         if key.items is not None and (self.every_way or isinstance(data, list)):
             form = "{}.{}" if "." not in path else "{}[{}]"
             items = among if self.every_way else data
             yield self.read_each(
-                {form.format(path, i): each for i, each in enumerate(items)}, key.items
+                {form.format(path, i): entry for i, entry in enumerate(items)}, key.items
             )
 
 
@@ -163,12 +163,12 @@ def _merge_tables(tables: list[dict[str, Any]]) -> dict[str, object]:
             ways.setdefault(name, []).append(schema)
     properties = {}
     for name, several in ways.items():
-        about = next((each["description"] for each in several if "description" in each), None)
+        about = next((schema["description"] for schema in several if "description" in schema), None)
         described: dict[str, object] = {} if about is None else {"description": about}
-        defaults = [each.get("default") for each in several]
-        if defaults[0] is not None and all(each == defaults[0] for each in defaults):
+        defaults = [schema.get("default") for schema in several]
+        if defaults[0] is not None and all(schema == defaults[0] for schema in defaults):
             described["default"] = defaults[0]
-        bare = ({k: v for k, v in each.items() if k not in REMARKS} for each in several)
+        bare = ({k: v for k, v in schema.items() if k not in REMARKS} for schema in several)
         properties[name] = described | _any_of(bare)
     first, *others = (table.get("required", []) for table in tables)
     needed = [name for name in first if all(name in other for other in others)]

@@ -42,16 +42,16 @@ BOTH = 'a table [surfaces] with the two materials, e.g. first = "S45C", second =
 # -------------------------------------------------------------------------- materials
 def _from_library(reader: Reader, path: str, value: object) -> Material:
     """The material of a name."""
-    known = reader.library
-    if known is None:
+    library = reader.library
+    if library is None:
         return materials["S45C"]  # no name can be judged, and the study is refused anyway
     if isinstance(value, str):
         with suppress(KeyError):
-            return known[value]
-    near = known.near(str(value))
-    some = ", ".join(list(known)[:3])
+            return library[value]
+    near = library.near(str(value))
+    some = ", ".join(list(library)[:3])
     rule = (
-        f"is not a material of the library ({some} and {len(known) - 3} more: thirdbody "
+        f"is not a material of the library ({some} and {len(library) - 3} more: thirdbody "
         "materials)" + (f"; did you mean {say(near)}?" if near else "")
     )
     raise wrong(path, rule, value, hint=OTHER, code=Mistake.UNKNOWN)
@@ -68,16 +68,16 @@ def _surfaces(reader: Reader, path: str, data: object) -> object:
     return reader.table(path, data, SIDES, partial(reader.make, MaterialPair, path))
 
 
-def _own_materials(reader: Reader, path: str, given: object) -> object:
+def _own_materials(reader: Reader, path: str, value: object) -> object:
     """Name of a file of materials; tables read after this one may use its names."""
-    name = read_text(reader, path, given)
+    name = read_text(reader, path, value)
     try:
         reader.library = materials.load(reader.folder / name)
     except InvalidValue as error:
         reader.library = None
         raise InvalidValue(
             *(
-                Problem(path, f": {problem}", say(given), code=problem.code)
+                Problem(path, f": {problem}", say(value), code=problem.code)
                 for problem in error.problems
             )
         ) from None

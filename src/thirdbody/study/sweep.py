@@ -58,8 +58,8 @@ def _vary(sampled: bool, reader: Reader, path: str, data: object) -> object:
     if reader.every_way:
         return {"type": "object"}  # the inputs of whatever study it is
     tables: dict[str, list[Input]] = {}
-    for each in inputs_of(reader.whole):
-        tables.setdefault(each.table, []).append(each)
+    for one_input in inputs_of(reader.whole):
+        tables.setdefault(one_input.table, []).append(one_input)
     return _inputs_that_vary(sampled, tables, "", reader, path, data)
 
 
@@ -74,14 +74,14 @@ def _inputs_that_vary(
     """Inputs of the table of this name and of the tables in it."""
     keys: dict[str, Key] = {}
     refused: dict[str, str] = {}
-    for each in tables.get(prefix, []):
-        if each.idle:
-            refused[each.key] = each.idle
-        elif each.quantity:
-            keys[each.key] = amounts(each.key, each.quantity, sampled=sampled)
-        elif each.choice:
-            keys[each.key] = words(each.choice["options"], each.choice["meaning"])
-    reader.known.refused[path] = refused
+    for one_input in tables.get(prefix, []):
+        if one_input.idle:
+            refused[one_input.key] = one_input.idle
+        elif one_input.quantity:
+            keys[one_input.key] = amounts(one_input.key, one_input.quantity, sampled=sampled)
+        elif one_input.choice:
+            keys[one_input.key] = words(one_input.choice["options"], one_input.choice["meaning"])
+    reader.known_keys.refused[path] = refused
     start = f"{prefix}." if prefix else ""
     below = [other.removeprefix(start) for other in tables if other.startswith(start)]
     for name in dict.fromkeys(other.partition(".")[0] for other in below if other):
@@ -118,43 +118,46 @@ def _reductions(reader: Reader, path: str, data: object) -> object:
 
 
 def plan(
-    reader: Reader, contact: Contact, load: str, loads: np.ndarray, asked: dict[str, Any]
+    reader: Reader, contact: Contact, load: str, loads: np.ndarray, table: dict[str, Any]
 ) -> Plan:
     """The states of the table [sweep]."""
-    given = dict(asked)
-    found = [name for name in LOADS if name in given]
-    name = found[0] if found else load
-    given["d" if name == "separation" else name] = given.pop(name, loads)
-    names = _dotted_names(given.pop("vary", {}))
-    given["vary"] = {inner: value for inner, value in names.values()}
+    options = dict(table)
+    swept_loads = [name for name in LOADS if name in options]
+    name = swept_loads[0] if swept_loads else load
+    options["d" if name == "separation" else name] = options.pop(name, loads)
+    names = _dotted_names(options.pop("vary", {}))
+    options["vary"] = {inner: value for inner, value in names.values()}
     translated = {outer: inner for outer, (inner, _) in names.items()} | {"separation": "d"}
-    if "over" in given.get("reduce", {}):
-        over = [translated.get(word, word) for word in given["reduce"]["over"]]
-        given["reduce"] = given["reduce"] | {"over": over}
-    samples = given.get("samples", 0)
-    if given.get("design") == "sobol" and samples & (samples - 1):
+    if "over" in options.get("reduce", {}):
+        over = [translated.get(word, word) for word in options["reduce"]["over"]]
+        options["reduce"] = options["reduce"] | {"over": over}
+    samples = options.get("samples", 0)
+    if options.get("design") == "sobol" and samples & (samples - 1):
         above = 1 << samples.bit_length()
         reader.notes.append(
             f"sweep.samples = {samples} is not a power of two, in which Sobol points are "
             f"balanced best; {above // 2} and {above} are"
         )
     try:
-        return make_plan(contact, **given)
+        return make_plan(contact, **options)
     except InvalidValue as error:
         places = {f"vary[{inner!r}]": f"sweep.vary.{name}" for name, inner in translated.items()}
         places |= {f"reduce[{key!r}]": f"sweep.reduce.{key}" for key in KEYS}
         places |= {key: f"sweep.{key}" for key in ("design", "samples", "seed", "chunk", "reduce")}
         raise InvalidValue(
-            *(each.changed(path=places.get(each.path, each.path)) for each in error.problems)
+            *(
+                problem.changed(path=places.get(problem.path, problem.path))
+                for problem in error.problems
+            )
         ) from None
 
 
-def ends(asked: dict[str, Any]) -> tuple[str, np.ndarray] | None:
+def ends(table: dict[str, Any]) -> tuple[str, np.ndarray] | None:
     """The loads of the table [sweep], for commands that do not sweep."""
-    name = next((name for name in LOADS if name in asked), None)
+    name = next((name for name in LOADS if name in table), None)
     if name is None:
         return None
-    values = asked[name]
+    values = table[name]
     return name, np.array([values["low"], values["high"]]) if is_span(values) else values
 
 

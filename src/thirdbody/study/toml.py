@@ -79,7 +79,7 @@ def _syntax(path: Path, text: str, message: str) -> str:
     line = lines[min(number, len(lines)) - 1].split("#")[0].strip()
     what = message[: where.start()] if where else message
     out = f"{path}, line {number}: {what[:1].lower()}{what[1:]}, in: {line}"
-    key, equals, value = (part.strip() for part in line.partition("="))
+    key, equals, value = (piece.strip() for piece in line.partition("="))
     if "overwrite" in what:
         return f"{out}; {key} is given twice"
     if equals and re.fullmatch(r"[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*[^\d\s,.\]}].*", value):
@@ -110,7 +110,8 @@ def override(data: dict[str, object], overrides: Iterable[str]) -> dict[str, obj
             _set(data, keys, value_of(value))
         except InvalidValue as error:
             problems += [
-                Problem("", f"--set {text}: {each}", code=each.code) for each in error.problems
+                Problem("", f"--set {text}: {problem}", code=problem.code)
+                for problem in error.problems
             ]
     if problems:
         raise InvalidValue(*problems)
@@ -125,8 +126,8 @@ def setting_in_words(text: str) -> str:
     """
     key, _, value = text.partition("=")
     parsed = value_of(value)
-    told = parsed if isinstance(parsed, str) else value.strip()
-    return " ".join(f"{key.strip()} = {told}".split())
+    shown = parsed if isinstance(parsed, str) else value.strip()
+    return " ".join(f"{key.strip()} = {shown}".split())
 
 
 def heading_of(title: str, settings: Iterable[str]) -> str:
@@ -135,8 +136,8 @@ def heading_of(title: str, settings: Iterable[str]) -> str:
     >>> heading_of("Bearing under 1 kN", ["load.force = 2 kN"])
     'Bearing under 1 kN, with load.force = 2 kN'
     """
-    told = join_words(list(settings))
-    return f"{title}, with {told}" if told else title
+    changes = join_words(list(settings))
+    return f"{title}, with {changes}" if changes else title
 
 
 def _set(data: dict[str, object], keys: list[str], value: object) -> None:

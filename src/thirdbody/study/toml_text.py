@@ -42,10 +42,10 @@ def _table(table: dict[str, object], path: tuple[str, ...], lines: list[str]) ->
             lines.append(f"{_key(key)} = {toml_value(value)}")
     for key, value in inner.items():
         name = ".".join(map(_key, (*path, key)))
-        for part in value if isinstance(value, list) else [value]:
+        for inner_table in value if isinstance(value, list) else [value]:
             lines += ["", f"[[{name}]]" if isinstance(value, list) else f"[{name}]"]
-            assert isinstance(part, dict)
-            _table(part, (*path, key), lines)
+            assert isinstance(inner_table, dict)
+            _table(inner_table, (*path, key), lines)
 
 
 def _deep(path: tuple[str, ...], key: str) -> bool:
@@ -125,7 +125,7 @@ def _lines_of(lines: list[str], table: list[str]) -> tuple[int | None, int]:
     """The first line of a table below its head, and that after its last; None without a head."""
     number = int(table[-1]) if table and table[-1].isdecimal() else None
     name = ".".join(table if number is None else table[:-1])
-    heads = [(i, found[2]) for i, line in enumerate(lines) if (found := HEAD.match(line))]
+    heads = [(i, match[2]) for i, line in enumerate(lines) if (match := HEAD.match(line))]
     starts = [(-1, ""), *heads]
     same = [place for place, (_, head) in enumerate(starts) if head == name]
     if (number or 0) >= len(same):

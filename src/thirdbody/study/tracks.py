@@ -78,8 +78,8 @@ class Track:
 
 def speed_of(body: Body | None, film: FilmConditions) -> float:
     """Rolling speed of a body, else the middle one of the film [m/s]."""
-    own = None if body is None else body.rolling_speed
-    return own if own is not None else film.speed[len(film.speed) // 2]
+    speed = None if body is None else body.rolling_speed
+    return speed if speed is not None else film.speed[len(film.speed) // 2]
 
 
 def track_areas(
@@ -121,12 +121,12 @@ def tracks_of(
     parts: Sequence[tuple[Body | None, FilmConditions]] = [(body, film)]
     if isinstance(body, RadialBearing) and film.conjunction == body.conjunction:
         rings = [body.replace(ring=ring) for ring in RINGS]
-        parts = [(each, film.replace(conjunction=each.conjunction)) for each in rings]
+        parts = [(ring, film.replace(conjunction=ring.conjunction)) for ring in rings]
     out = []
-    for each, of in parts:
-        speed = speed_of(each, of)
+    for one_body, of in parts:
+        speed = speed_of(one_body, of)
         h = float(of.at(clean, speed=speed).h_T)
-        rate, area, name = track_areas(each, force, of, E_star=contact.E_ss, speed=speed)
+        rate, area, name = track_areas(one_body, force, of, E_star=contact.E_ss, speed=speed)
         if math.isfinite(h):
             out.append(
                 Track(name=name, surfaces=contact.surfaces, film=h, rate=rate, area=area,

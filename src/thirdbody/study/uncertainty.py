@@ -19,18 +19,18 @@ LIFE = "life."
 """How names of numbers of a life begin: `thirdbody.study.life_uncertainty` reads these."""
 
 
-def _inputs(reader: Reader, path: str, given: object) -> dict[str, Uncertain]:
+def _inputs(reader: Reader, path: str, data: object) -> dict[str, Uncertain]:
     """Distributions of the inputs, by names as in the file."""
-    if not isinstance(given, dict) or not given:
+    if not isinstance(data, dict) or not data:
         rule = "must be a table of inputs, e.g. "
         raise wrong(
             path,
             f'{rule}{{ "roughness.sigma" = {{ low = "80 nm", high = "120 nm" }} }}',
-            given,
+            data,
             code=Mistake.KIND,
         )
     inputs = inputs_of(reader.whole)
-    entries = ranges_of(given)
+    entries = ranges_of(data)
     if any(label.startswith(LIFE) for label in entries) and "life" not in reader.whole:
         raise InvalidValue(
             Problem(
@@ -38,11 +38,11 @@ def _inputs(reader: Reader, path: str, given: object) -> dict[str, Uncertain]:
             )
         )
 
-    def one(reader: Reader, where: str, told: tuple[str, object]) -> tuple[str, Uncertain]:
-        label, entry = told
-        found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
-        return "+".join(name for name, _ in found), read_uncertain(
-            reader, where, found[0][1], entry
+    def one(reader: Reader, where: str, pair: tuple[str, object]) -> tuple[str, Uncertain]:
+        label, entry = pair
+        fields = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
+        return "+".join(name for name, _ in fields), read_uncertain(
+            reader, where, fields[0][1], entry
         )
 
     pairs = {
@@ -83,19 +83,21 @@ def field_of_input(
                 Problem(where, f": {name} is not the load that [load] gives", code=Mistake.UNKNOWN)
             )
         return {"separation": "d"}.get(last, last), LOADS[last]
-    known = {
-        each.name: (each.field, each.quantity) for each in inputs if each.quantity and not each.idle
+    numbers = {
+        one_input.name: (one_input.field, one_input.quantity)
+        for one_input in inputs
+        if one_input.quantity and not one_input.idle
     }
-    listed = list(known)  # as files call them, which Python may call otherwise
-    known |= {field: (field, about) for field, about in known.values()}
-    if name in known:
-        return known[name]
-    if why := next((each.idle for each in inputs if each.name == name), ""):
+    listed = list(numbers)  # as files call them, which Python may call otherwise
+    numbers |= {field: (field, about) for field, about in numbers.values()}
+    if name in numbers:
+        return numbers[name]
+    if why := next((one_input.idle for one_input in inputs if one_input.name == name), ""):
         raise InvalidValue(Problem(where, f": {name} {why}", code=Mistake.IDLE))
     if table == "particles" and "particles" not in whole:
         rule = f": there is no [particles] table, so {name} is no input"
         raise InvalidValue(Problem(where, rule, code=Mistake.BEYOND))
-    meant = near_path(name, known)
+    meant = near_path(name, numbers)
     hint = guess("", listed, meant=meant, otherwise="it has ")
     raise InvalidValue(
         Problem(where, f": {name} is not a number of this study", hint=hint, code=Mistake.UNKNOWN)
@@ -104,10 +106,10 @@ def field_of_input(
 
 def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -> Uncertain:
     """One distribution; its keys decide which."""
-    given = dict(entry) if isinstance(entry, dict) else {}
-    spacing = given.pop("spacing", None)
-    kind = next((kind for kind, names in KINDS.items() if set(names) == set(given)), None)
-    if kind is None or (spacing is not None and "low" not in given):
+    table = dict(entry) if isinstance(entry, dict) else {}
+    spacing = table.pop("spacing", None)
+    kind = next((kind for kind, names in KINDS.items() if set(names) == set(table)), None)
+    if kind is None or (spacing is not None and "low" not in table):
         ways = '{ low, high }, with spacing = "log" for a range of decades, '
         raise wrong(
             where,
@@ -123,7 +125,7 @@ def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -
     meant: dict[str, Quantity] = {"std": spread, "gsd": {**spread, "unit": "1"}}
 
     def number(reader: Reader, path: str, name: str) -> float:
-        return read_number(meant.get(name, about), reader, path, given[name])
+        return read_number(meant.get(name, about), reader, path, table[name])
 
     first, second = reader.read_each({f"{where}.{name}": name for name in KINDS[kind]}, number)
     try:
@@ -139,7 +141,7 @@ def ranges_of(tree: Mapping[str, Any], path: str = "") -> dict[str, object]:
     out: dict[str, object] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
-        inner = isinstance(value, dict) and any(isinstance(part, dict) for part in value.values())
+        inner = isinstance(value, dict) and any(isinstance(entry, dict) for entry in value.values())
         out |= ranges_of(value, where) if inner else {where: value}
     return out
 

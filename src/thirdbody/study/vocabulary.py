@@ -41,5 +41,5 @@ ALSO_CALLED = {
 def nearest_option(word: str, options: Iterable[str]) -> str | None:
     """The option that was probably meant."""
     options = list(options)
-    known = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in options)
-    return nearest.nearest_word(next(known, word), options)
+    meant = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in options)
+    return nearest.nearest_word(next(meant, word), options)

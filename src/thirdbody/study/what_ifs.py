@@ -102,8 +102,8 @@ def what_ifs_of_states(study: Study, states: Equilibrium, at: int) -> tuple[What
         studies of a connector or a plate, which have commands of their own.
     """
     contact = study.contact.replace(outputs=())
-    own = study.connector is not None or study.plate is not None
-    if own or any(each.strength is not None for each in contact.populations):
+    other_command = study.connector is not None or study.plate is not None
+    if other_command or any(population.strength is not None for population in contact.populations):
         return ()
     pressure = float(np.ravel(states.pressure)[at])
     if not pressure > 0:
@@ -111,48 +111,49 @@ def what_ifs_of_states(study: Study, states: Equilibrium, at: int) -> tuple[What
     share = float(np.ravel(states.particle_load_share)[at])
     of = "A_t" if contact.two_body or share > SATED else "particle_load_share"
     ends = list(_ends(contact, study.uncertainty.inputs if study.uncertainty else {}))
-    found = _at_ends(contact, pressure, ends, of)
+    values_at_ends = _at_ends(contact, pressure, ends, of)
     out = [
         WhatIf(
-            what=each.what,
-            between=each.between,
-            action=each.action,
-            code=each.code,
+            what=varied.what,
+            between=varied.between,
+            action=varied.action,
+            code=varied.code,
             values=values,
             of=of,
         )
-        for each, values in zip(ends, found, strict=True)
+        for varied, values in zip(ends, values_at_ends, strict=True)
         if np.isfinite(values).all()
     ]
-    return tuple(sorted(out, key=lambda each: -each.ratio))
+    return tuple(sorted(out, key=lambda what_if: -what_if.ratio))
 
 
 def _ends(contact: Contact, stated: dict[str, Any]) -> Iterator[_Ends]:
     """Every input that is varied."""
-    known = {
-        name: (each.quantile(0.0), each.quantile(1.0))
-        for name, each in stated_ranges(contact).items()
+    ranges = {
+        name: (uncertain.quantile(0.0), uncertain.quantile(1.0))
+        for name, uncertain in stated_ranges(contact).items()
     }
-    known |= {
-        name: (each.quantile(ENDS[0]), each.quantile(ENDS[1])) for name, each in stated.items()
+    ranges |= {
+        name: (uncertain.quantile(ENDS[0]), uncertain.quantile(ENDS[1]))
+        for name, uncertain in stated.items()
     }
     bodies = ("surfaces.first", "surfaces.second")
     alike = contact.surfaces.alike
     hardness = ["+".join(f"{name}.H" for name in bodies)] if alike else [f"{n}.H" for n in bodies]
-    for label in [*hardness, *(name for name in known if name.endswith(".material.H"))]:
-        yield _range(contact, label, known.get(label, HARDNESS), "measure the hardness")
+    for label in [*hardness, *(name for name in ranges if name.endswith(".material.H"))]:
+        yield _range(contact, label, ranges.get(label, HARDNESS), "measure the hardness")
     for name in ("R", "alpha", "eta_R_sigma"):
-        if (label := f"roughness.{name}") in known:
+        if (label := f"roughness.{name}") in ranges:
             action = f"measure the surface and give roughness.topography, or roughness.{name}"
-            yield _range(contact, label, known[label], action, " of the process")
-    if not contact.roughness.finish and "roughness.R" not in known:
+            yield _range(contact, label, ranges[label], action, " of the process")
+    if not contact.roughness.finish and "roughness.R" not in ranges:
         action = "measure the surface and give roughness.topography"
         yield _range(contact, "roughness.R", TWICE, action)
     taken = set(hardness) | {f"roughness.{name}" for name in ("R", "alpha", "eta_R_sigma")}
     every = inputs(contact)
     for label in stated:
         if label not in taken and all(name.strip() in every for name in label.split("+")):
-            yield _range(contact, label, known[label], "measure it")
+            yield _range(contact, label, ranges[label], "measure it")
     yield from _of_particles(contact)
 
 
@@ -162,7 +163,7 @@ def _of_particles(contact: Contact) -> Iterator[_Ends]:
         return
     several = isinstance(contact.particles, tuple)
     places = [f"particles.{i}" if several else "particles" for i in range(len(contact.populations))]
-    numbers = [each.areal_density for each in contact.populations]
+    numbers = [population.areal_density for population in contact.populations]
     yield _Ends(
         tuple(f"{place}.areal_density" for place in places),
         tuple((number / TWICE, number * TWICE) for number in numbers),
@@ -208,13 +209,13 @@ def _at_ends(
 ) -> list[tuple[float, float]]:
     """A column at both ends of every input, solved side by side; NaN where there is no state."""
     ends = list(ends)
-    known = inputs(contact)
-    names = list(dict.fromkeys(name for each in ends for name in each.names))
-    vary = {name: np.full(2 * len(ends), known[name]) for name in names}
-    for i, each in enumerate(ends):
-        for name, values in zip(each.names, each.values, strict=True):
+    current = inputs(contact)
+    names = list(dict.fromkeys(name for varied in ends for name in varied.names))
+    vary = {name: np.full(2 * len(ends), current[name]) for name in names}
+    for i, varied in enumerate(ends):
+        for name, values in zip(varied.names, varied.values, strict=True):
             vary[name][2 * i : 2 * i + 2] = values
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        found = columns_at(contact, "pressure", pressure, vary, 2 * len(ends), outputs=False)[of]
-    return [(float(found[2 * i]), float(found[2 * i + 1])) for i in range(len(ends))]
+        column = columns_at(contact, "pressure", pressure, vary, 2 * len(ends), outputs=False)[of]
+    return [(float(column[2 * i]), float(column[2 * i + 1])) for i in range(len(ends))]

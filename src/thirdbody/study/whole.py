@@ -126,8 +126,8 @@ class Study:
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
-        given: dict[str, Any] = {"d" if self.load == "separation" else self.load: self.values}
-        return solve(self.contact, **given)
+        loads: dict[str, Any] = {"d" if self.load == "separation" else self.load: self.values}
+        return solve(self.contact, **loads)
 
 
 @names_arguments
@@ -171,15 +171,18 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     >>> study.contact.roughness.sigma, study.values.tolist()
     (2e-07, [5000000.0])
     """
-    told = list(overrides)
-    study = check(override(read(Path(path)), told), folder=Path(path).parent)
-    return replace(study, settings=tuple(map(setting_in_words, told)))
+    settings = list(overrides)
+    study = check(override(read(Path(path)), settings), folder=Path(path).parent)
+    return replace(study, settings=tuple(map(setting_in_words, settings)))
 
 
 def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> list[Path]:
     """Files from which a study is read: its own, and those that it names."""
-    own = Path(path)
-    out, waiting = [own], [override(read(own), list(overrides))] if own.is_file() else []
+    study_file = Path(path)
+    out, waiting = (
+        [study_file],
+        [override(read(study_file), list(overrides))] if study_file.is_file() else [],
+    )
     while waiting:
         value: object = waiting.pop()
         if isinstance(value, dict):
@@ -188,7 +191,7 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
             waiting += value
         elif isinstance(value, str):
             with suppress(OSError, ValueError):  # no name that a file can have
-                out += [file for file in (own.parent / value, Path(value)) if file.is_file()]
+                out += [file for file in (study_file.parent / value, Path(value)) if file.is_file()]
     return out
 
 
@@ -225,9 +228,9 @@ def read_tables(
             return reader.table("", data, keys, lambda values: build(reader, values))
         except InvalidValue as error:
             # to say where a misplaced key belongs, every table must be known
-            known = Describer(folder, data).known_of(TABLES)
-            known.keys |= reader.known.keys
-            raise InvalidValue(*known.problems([*reader.mistakes, *error.problems])) from None
+            all_keys = Describer(folder, data).known_of(TABLES)
+            all_keys.keys |= reader.known_keys.keys
+            raise InvalidValue(*all_keys.problems([*reader.mistakes, *error.problems])) from None
 
 
 def _study(reader: Reader, values: dict[str, object]) -> Study:
@@ -236,29 +239,29 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
     def tables_of(role: str) -> dict[str, Any]:
         return {t.name: values[t.name] for t in TABLES if t.role == role and t.name in values}
 
-    parts, own = tables_of("contact"), tables_of("study")
+    parts, of_study = tables_of("contact"), tables_of("study")
     if "particles" not in parts and parts.pop("particle_law", None) is not None:
         what = "[particle_law] has no effect, because there is no [particles] table"
         reader.notes.append(Note(what, code="idle.particle_law"))
-    given = parts.get("particles", ())
-    several = given if isinstance(given, tuple) else (given,)
-    if "particle_law" in parts and all(each.law is not None for each in several):
+    particles = parts.get("particles", ())
+    several = particles if isinstance(particles, tuple) else (particles,)
+    if "particle_law" in parts and all(population.law is not None for population in several):
         what = "[particle_law] has no effect: all particles have laws of their own"
         reader.notes.append(Note(what, code="idle.particle_law"))
-    asked: Any = own.get("sweep")
-    film: Any = own.get("film")
+    sweep: Any = of_study.get("sweep")
+    film: Any = of_study.get("film")
     contact = reader.make(Contact, "", parts)
-    loaded = own.get("load") or ends(asked or {})
-    bodies: Any = own.get("body")
+    loaded = of_study.get("load") or ends(sweep or {})
+    bodies: Any = of_study.get("body")
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
     if contact.outputs:
         contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
         reader.notes += notes
     if film is not None:
         film = on_body(reader, film, bodies, given_forces, contact.E_ss)
-    connector = connector_of(reader, values) if "connector" in own else None
-    plate = plate_of(reader, values) if "plate" in own else None
-    life = life_of(reader, values) if "life" in own else None
+    connector = connector_of(reader, values) if "connector" in of_study else None
+    plate = plate_of(reader, values) if "plate" in of_study else None
+    life = life_of(reader, values) if "life" in of_study else None
     load, loads = loaded or ("pressure", np.array([_own_pressure(film, connector, plate, contact)]))
     forces = None
     if load == "force":
@@ -266,7 +269,7 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
     elif bodies is not None:
         what = "[body] has no effect, because [load] gives no force"
         reader.notes.append(Note(what, code="idle.body"))
-    if load == "separation" and asked is None and np.any(deep := loads < deepest(contact)):
+    if load == "separation" and sweep is None and np.any(deep := loads < deepest(contact)):
         raise InvalidValue(
             *(
                 Problem(
@@ -278,9 +281,9 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
                 for d in loads[deep][:5]
             )
         )
-    states = None if asked is None else plan(reader, contact, load, loads, asked)
+    states = None if sweep is None else plan(reader, contact, load, loads, sweep)
     return Study(
-        title=own.get("title", ""),
+        title=of_study.get("title", ""),
         contact=contact,
         load=load,
         values=loads,
@@ -290,13 +293,13 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
         filter=filter_of(reader.whole),
         stated=reader.stated_keys,
         sweep=states,
-        uncertainty=own.get("uncertainty"),
-        design=own.get("design"),
+        uncertainty=of_study.get("uncertainty"),
+        design=of_study.get("design"),
         film=film,
         connector=connector,
         plate=plate,
         life=life,
-        explicit=own.get("explicit"),
+        explicit=of_study.get("explicit"),
         faces=tuple(reader.faces),
         own_load=loaded is not None,
         body=bodies if forces is not None else None,

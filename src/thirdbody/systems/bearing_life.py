@@ -184,16 +184,16 @@ def _row(place: str, state: str, D: float) -> tuple[float, float]:
         )
     if place == "grease":
         if state not in GREASES:
-            known = ", ".join(map(say, GREASES))
+            greases = ", ".join(map(say, GREASES))
             raise InvalidValue(
-                f"grease state = {say(state)} must be one of {known}", code=Mistake.OPTION
+                f"grease state = {say(state)} must be one of {greases}", code=Mistake.OPTION
             )
         c, b = GREASES[state]
         return (c, LARGE[1]) if state == "slight contamination" and D >= LARGE[0] else (c, b)
     counted = [number or 0 for number in read_iso4406(state)[1:]]
-    for code, found in OILS[place].items():
+    for code, row in OILS[place].items():
         if all(n <= (m or 0) for n, m in zip(counted, read_iso4406(code)[1:], strict=True)):
-            return found
+            return row
     raise InvalidValue(
         f"ISO 4406 code {say(state)} is dirtier than the last one with a factor here, "
         f"{say(list(OILS[place])[-1])} for place = {say(place)}",

@@ -102,14 +102,14 @@ class BearingSize(NamedTuple):
     @names_arguments
     def bearing(self, **others: Any) -> BallBearing:
         """The bearing, with the least clearance of its class unless one is given."""
-        given = {
+        dimensions = {
             "bore": self.bore,
             "outer_diameter": self.outer_diameter,
             "ball_diameter": self.ball_diameter,
             "balls": float(self.balls),
             "clearance": self.clearance[0],
         }
-        return BallBearing(**(given | others))
+        return BallBearing(**(dimensions | others))
 
 
 @names_arguments
@@ -148,11 +148,11 @@ def bearing_size(which: str) -> BearingSize:
         )
     text = which.strip().upper().replace("×", "X")
     if sides := re.fullmatch(r"([\d.]+)\s*X\s*([\d.]+)\s*X\s*([\d.]+)\s*(?:MM)?(.*)", text):
-        bore, outer, width = (float(each) for each in sides.groups()[:3])
+        bore, outer, width = (float(length) for length in sides.groups()[:3])
         return _of_dimensions(which, bore, outer, width, sides[4])
-    known = _table()["size"]
-    found = re.match(r"(\d{4,5})(?!\d)(.*)", text)
-    if found is None or found[1] not in known:
+    sizes = _table()["size"]
+    match = re.match(r"(\d{4,5})(?!\d)(.*)", text)
+    if match is None or match[1] not in sizes:
         if other := _other_bearing(text):
             raise InvalidValue(
                 Problem(
@@ -163,7 +163,7 @@ def bearing_size(which: str) -> BearingSize:
                     code=Mistake.KIND,
                 )
             )
-        hint = guess(found[1] if found else text, known, otherwise=None) if text else None
+        hint = guess(match[1] if match else text, sizes, otherwise=None) if text else None
         raise InvalidValue(
             Problem(
                 "",
@@ -173,10 +173,10 @@ def bearing_size(which: str) -> BearingSize:
                 code=Mistake.KIND,
             )
         )
-    bore, outer, width, balls, ball = known[found[1]]
-    name, limits = _clearance(bore, found[2])
+    bore, outer, width, balls, ball = sizes[match[1]]
+    name, limits = _clearance(bore, match[2])
     d, D, B = _mm(bore), _mm(outer), _mm(width)
-    return BearingSize(found[1], d, D, B, balls, _mm(ball), limits, name, False)
+    return BearingSize(match[1], d, D, B, balls, _mm(ball), limits, name, False)
 
 
 def _other_bearing(text: str) -> tuple[str, str] | None:
@@ -214,11 +214,11 @@ def _of_dimensions(which: str, bore: float, outer: float, width: float, suffix: 
 
 def _clearance(bore: float, suffix: str) -> tuple[str, tuple[float, float]]:
     """Name and limits [m] of the class of clearance, normal unless the suffix names another."""
-    told = _table()["clearance"]
-    asked = re.search(r"(?<![A-Z0-9])(C[N234])(?![0-9])", suffix)
-    name = asked[1] if asked else "CN"
-    row = next(i for i, top in enumerate(told["bores"]) if bore <= top)
-    least, most = told[name][row]
+    table = _table()["clearance"]
+    match = re.search(r"(?<![A-Z0-9])(C[N234])(?![0-9])", suffix)
+    name = match[1] if match else "CN"
+    row = next(i for i, top in enumerate(table["bores"]) if bore <= top)
+    least, most = table[name][row]
     return name, (round(1e-6 * least, 9), round(1e-6 * most, 9))
 
 

@@ -179,15 +179,15 @@ class Pressed(Record):
         rare = meets(self.particles_held or 0.0)
         if not rare:
             return ""
-        told = f" {rare[0].upper()}{rare[1:]}, and the others are as without particles"
+        sentence = f" {rare[0].upper()}{rare[1:]}, and the others are as without particles"
         some, none = self.with_particles, self.without_particles
         if some is None or none is None:
-            return f"{told}."
+            return f"{sentence}."
         load = some["particle_load_share"]
-        areas = [f"{number((each['real_area'] or math.nan) * 1e6)} mm²" for each in (some, none)]
+        areas = [f"{number((case['real_area'] or math.nan) * 1e6)} mm²" for case in (some, none)]
         return (
-            f"{told}. Where one is, particles carry {percent(load)} of the load and the real area "
-            f"is {areas[0]}; where none is, asperities carry the whole load on {areas[1]}."
+            f"{sentence}. Where one is, particles carry {percent(load)} of the load and the real "
+            f"area is {areas[0]}; where none is, asperities carry the whole load on {areas[1]}."
         )
 
 
@@ -221,10 +221,10 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
     if not (math.isfinite(force) and force > 0):
         raise InvalidValue(Problem("force", "must be > 0 [N]", repr(force), code=Mistake.RANGE))
     hertz = body.hertz(force, contact.E_ss)
-    kind = next(name for name, each in BODIES.items() if type(body) is each)
+    kind = next(name for name, body_class in BODIES.items() if type(body) is body_class)
     H = contact.surfaces.H
     every = sum(dust.areal_density for dust in contact.populations)
-    given: dict[str, Any] = {
+    values: dict[str, Any] = {
         "kind": kind,
         "force": float(force),
         "bodies": body.bodies,
@@ -236,15 +236,17 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
     }
     one = float(body.load_on_one(force, contact.E_ss))
     if abs(one * body.bodies / force - 1) > 1e-9:
-        given["heaviest"] = one
+        values["heaviest"] = one
     if not integrate:
-        return Pressed(**given)
-    found = _integrals(contact, body, force, hertz)
-    if not contact.two_body and found.get("method") == "rough body":
-        given["particles_held"] *= max(float(hertz.maximum) / found["peak_pressure"], 1.0)
-    if 0 < (given["particles_held"] or 0.0) < 1 and "method" in found:
-        found |= _with_and_without(contact, body, force, hertz, given["particles_held"], found)
-    return Pressed(**given, **found)
+        return Pressed(**values)
+    integrals = _integrals(contact, body, force, hertz)
+    if not contact.two_body and integrals.get("method") == "rough body":
+        values["particles_held"] *= max(float(hertz.maximum) / integrals["peak_pressure"], 1.0)
+    if 0 < (values["particles_held"] or 0.0) < 1 and "method" in integrals:
+        integrals |= _with_and_without(
+            contact, body, force, hertz, values["particles_held"], integrals
+        )
+    return Pressed(**values, **integrals)
 
 
 def _with_and_without(
@@ -259,8 +261,8 @@ def _with_and_without(
     try:
         dusty = contact.replace(
             particles=tuple(
-                each.replace(areal_density=each.areal_density / -math.expm1(-held))
-                for each in contact.populations
+                population.replace(areal_density=population.areal_density / -math.expm1(-held))
+                for population in contact.populations
             )
         )
         some = _integrals(dusty, body, force, hertz)
@@ -279,9 +281,9 @@ def _with_and_without(
     }
 
 
-def _integrals_of(share: float, found: dict[str, Any]) -> dict[str, float | None]:
+def _integrals_of(share: float, integrals: dict[str, Any]) -> dict[str, float | None]:
     names = ("real_area", "particle_load_share", "peak_pressure")
-    return {"share": share} | {name: found[name] for name in names}
+    return {"share": share} | {name: integrals[name] for name in names}
 
 
 def _integrals(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict[str, Any]:
@@ -295,18 +297,18 @@ def _integrals(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict
             return _values(contact, ball, 1.0)
     except (NoEquilibrium, InvalidValue) as error:
         why = str(error).splitlines()[0]
-    found = _over_pressure(contact, shape, hertz)
-    return found | ({"note": why} if why and not found.get("note") else {})
+    integrals = _over_pressure(contact, shape, hertz)
+    return integrals | ({"note": why} if why and not integrals.get("note") else {})
 
 
-def _values(contact: Contact, found: Any, length: float) -> dict[str, object]:
-    share = None if contact.two_body else found.particle_load_share
+def _values(contact: Contact, rough_body: Any, length: float) -> dict[str, object]:
+    share = None if contact.two_body else rough_body.particle_load_share
     return {
         "method": "rough body",
-        "real_area": length * found.real_area,
+        "real_area": length * rough_body.real_area,
         "particle_load_share": share,
-        "peak_pressure": found.peak_pressure,
-        **_crowd(found.crowded_share, found.status),
+        "peak_pressure": rough_body.peak_pressure,
+        **_crowd(rough_body.crowded_share, rough_body.status),
     }
 
 
@@ -316,9 +318,9 @@ def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         state = solve(contact, pressure=pressure)
-    known = np.isfinite(np.atleast_1d(state.A_t))
-    if not known.all():
-        return {"note": np.atleast_1d(state.status)[~known].tolist()[0]}
+    is_solved = np.isfinite(np.atleast_1d(state.A_t))
+    if not is_solved.all():
+        return {"note": np.atleast_1d(state.status)[~is_solved].tolist()[0]}
     load = weights @ pressure
     crowd = crowded_places(contact, np.atleast_1d(state.A_t), weights * pressure)
     share = None

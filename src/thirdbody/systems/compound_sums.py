@@ -89,8 +89,8 @@ def tabulate_squeezes(eps: Array, load: Array) -> Array:
     rate = np.append((arrives[1:] - leaves[:-1]) / np.diff(load), 0.0)
     rest = leaves - rate * load
     log = np.log(np.where(load > 0, load, 1.0))
-    part = rest[:-1] * np.diff(log) + arrives[1:] - leaves[:-1]
-    sums = np.cumsum(np.append(0.0, np.where(load[:-1] > 0, part, 0.0)))
+    integrals = rest[:-1] * np.diff(log) + arrives[1:] - leaves[:-1]
+    sums = np.cumsum(np.append(0.0, np.where(load[:-1] > 0, integrals, 0.0)))
     return np.ascontiguousarray(np.transpose([load, log, rate, rest, sums]))
 
 
@@ -160,14 +160,14 @@ def fill_squeezes(
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def add_numbers_below(
-    loads: Array, logs: Array, low: Array, high: Array, each: Array, reach: Array, table: Array,
-    out: Array,
+    loads: Array, logs: Array, low: Array, high: Array, in_the_way: Array, reach: Array,
+    table: Array, out: Array,
 ) -> None:  # fmt: skip
     """Add to out how many particles carry at most these loads [N], which rise.
 
     Particles of class i have sizes from ``low[i]`` to ``high[i]``, are squeezed as
-    `fill_squeezes` says, and ``each[i]`` of them lie in the way per unit of ``reach[i]``, which
-    is ε at the middle.
+    `fill_squeezes` says, and ``in_the_way[i]`` of them lie in the way per unit of
+    ``reach[i]``, which is ε at the middle.
     """
     squeezes = np.empty(len(loads))
     for i in range(len(low)):
@@ -175,4 +175,4 @@ def add_numbers_below(
             continue
         fill_squeezes(loads, logs, low[i], high[i], table, squeezes)
         for j in range(len(loads)):
-            out[j] += each[i] * min(squeezes[j], reach[i])
+            out[j] += in_the_way[i] * min(squeezes[j], reach[i])

@@ -132,7 +132,7 @@ class Connector(Value):
     >>> import thirdbody as tb
     >>> bronze = tb.materials["CuSn8"]
     >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e6,
-    ...                     diameter=tb.Monodisperse(mean=10e-6))
+    ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))
     >>> plug = Connector(radius=2e-3, surfaces=tb.MaterialPair(bronze, bronze), particles=dust,
     ...                  contacts=20)
     >>> f"{plug.failure(0.0):.4f} of one, {plug.failure_of_all(0.0):.2f} of 20, without force"
@@ -158,8 +158,8 @@ class Connector(Value):
     def __post_init__(self) -> None:
         several = (self.particles,) if isinstance(self.particles, Particles) else self.particles
         object.__setattr__(self, "particles", items_of(several))
-        given = (self.conducting,) if isinstance(self.conducting, str) else self.conducting
-        object.__setattr__(self, "conducting", tuple(given))
+        names = (self.conducting,) if isinstance(self.conducting, str) else self.conducting
+        object.__setattr__(self, "conducting", tuple(names))
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
@@ -177,11 +177,11 @@ class Connector(Value):
         names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
         for name in self.conducting:
             if name not in (*names, BY_MATERIAL):
-                known = ", ".join(map(say, names))
+                allowed_names = ", ".join(map(say, names))
                 out.append(
                     Problem(
                         "conducting",
-                        f"must name particles, here {known}",
+                        f"must name particles, here {allowed_names}",
                         say(name),
                         code=Mistake.KIND,
                     )
@@ -218,15 +218,15 @@ class Connector(Value):
     def threshold(self) -> float:
         """Load of the mean particle in the way, squeezed to its diameter [N]."""
         kinds = self._kinds()
-        weight = sum(float(kind.each.sum()) for kind in kinds)
-        return sum(float(kind.each @ (kind.most * kind.x**2)) for kind in kinds) / weight
+        weight = sum(float(kind.in_the_way.sum()) for kind in kinds)
+        return sum(float(kind.in_the_way @ (kind.most * kind.x**2)) for kind in kinds) / weight
 
     @property
     def reach(self) -> float:
         """Radius of the disc in which the mean particle in the way lies [m]."""
         kinds = self._kinds()
-        weight = sum(float(kind.each.sum()) for kind in kinds)
-        mean = sum(float(kind.each @ kind.x) for kind in kinds) / weight
+        weight = sum(float(kind.in_the_way.sum()) for kind in kinds)
+        mean = sum(float(kind.in_the_way @ kind.x) for kind in kinds) / weight
         return math.sqrt(2 * self.radius * mean)
 
     def breaking(self) -> list[str]:
@@ -352,7 +352,7 @@ class _Kind:
         law: Any = (dust.law or plug.law).of_shape(dust.shape)  # type: ignore[attr-defined]
         self.one, self.table = _loads_of_one(law, plug.surfaces, dust.material)
         self.x, self.low, self.high, weight = _classes(dust.diameter)
-        self.each = 2 * math.pi * plug.radius * dust.areal_density * weight
+        self.in_the_way = 2 * math.pi * plug.radius * dust.areal_density * weight
         """In the way before the wipe, at touch."""
         self.k = plug.wipe / np.sqrt(2 * plug.radius * self.x)
         """Wipe over the radius of the disc."""
@@ -361,7 +361,7 @@ class _Kind:
     @property
     def mean(self) -> float:
         """Diameter of the mean particle in the way [m]."""
-        return float(self.each @ self.x / self.each.sum())
+        return float(self.in_the_way @ self.x / self.in_the_way.sum())
 
     @property
     def most(self) -> float:
@@ -377,9 +377,9 @@ class _Kind:
         """Particles of each class, or of one, nearer than u = r²/(2 R_s x)."""
         inside = np.maximum(u, 0.0)
         if not self.aside:
-            return self.each[of] * inside
+            return self.in_the_way[of] * inside
         shared = overlap(inside, self.k[of])
-        return self.each[of] * ((1 - self.aside) * inside + self.aside * shared)
+        return self.in_the_way[of] * ((1 - self.aside) * inside + self.aside * shared)
 
     def number(self, height: float) -> float:
         """Particles in the way while the contacts stand at this height [m]."""
@@ -394,7 +394,7 @@ class _Kind:
         logs = np.log(np.where(sure > 0, sure, 1.0))
         out = np.zeros(len(loads))
         if not self.aside:
-            classes = self.low, self.high, self.each, reach
+            classes = self.low, self.high, self.in_the_way, reach
             add_numbers_below(sure, logs, *classes, self.table, out)
             return out
         squeeze = np.empty(len(loads))
@@ -420,19 +420,19 @@ def _loads_of_one(law: Any, surfaces: MaterialPair, material: Material) -> tuple
 def _classes(diameter: Any) -> tuple[Array, Array, Array, Array]:
     """Mean sizes of classes, between which sizes each is spread [m], and its part of the mean."""
     parts = []
-    for share, each in diameter.components:
-        if isinstance(each, Monodisperse):
-            size = np.array([each.mean])
+    for share, component in diameter.components:
+        if isinstance(component, Monodisperse):
+            size = np.array([component.mean])
             parts.append((size, size, size, share * size))
             continue
-        low, high = each.support
-        low = max(low, float(each.ppf(1e-9)), 1e-4 * high)
-        roughly = _edges(each, low, high, ROUGHLY)
-        amount = each.partial_moment(1, roughly[:-1], roughly[1:])
+        low, high = component.support
+        low = max(low, float(component.ppf(1e-9)), 1e-4 * high)
+        roughly = _edges(component, low, high, ROUGHLY)
+        amount = component.partial_moment(1, roughly[:-1], roughly[1:])
         some = np.flatnonzero(amount > NONE * amount.sum())
         low, high = max(low, roughly[some[0]]), roughly[some[-1] + 1]
-        edges = _edges(each, low, high, max(FEWEST, math.ceil(math.log(high / low) / STEP)))
-        first, second = (each.partial_moment(n, edges[:-1], edges[1:]) for n in (1, 2))
+        edges = _edges(component, low, high, max(FEWEST, math.ceil(math.log(high / low) / STEP)))
+        first, second = (component.partial_moment(n, edges[:-1], edges[1:]) for n in (1, 2))
         some = first > NONE * first.sum()
         x = second[some] / first[some]
         wide = (edges[1:] / np.maximum(edges[:-1], 1e-300))[some]
@@ -487,12 +487,14 @@ def _certain(kinds: list[_Kind], loads: Array, height: float) -> tuple[Yes, Yes]
 
     with the load of each particle rounded to the safe side.
     """
-    known = [kind for kind in kinds if kind.number(height) > 0]
-    if not known:
+    in_the_way = [kind for kind in kinds if kind.number(height) > 0]
+    if not in_the_way:
         return loads < 0, loads >= 0
-    most = max(kind.heaviest for kind in known)
+    most = max(kind.heaviest for kind in in_the_way)
     ends = most * np.geomspace(1e-5, 1, ENDS)
-    count = np.diff(np.sum([kind.number_below(ends, height) for kind in known], axis=0), prepend=0)
+    count = np.diff(
+        np.sum([kind.number_below(ends, height) for kind in in_the_way], axis=0), prepend=0
+    )
     low = np.geomspace(1e-3, 1e8, TILTS) / most
     high = np.geomspace(1e-3, 500, TILTS) / most
     begins = np.array([0.0, *ends[:-1]])

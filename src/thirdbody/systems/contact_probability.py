@@ -99,7 +99,7 @@ class ContactProbability(Value):
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
     >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e9,
-    ...                     diameter=tb.Monodisperse(mean=10e-6))
+    ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))
     >>> relay = ContactProbability(radius=5e-3, surfaces=tb.MaterialPair(steel, steel),
     ...                            particles=dust.replace(areal_density=3e6))
     >>> round(relay.in_the_way, 3)
@@ -201,17 +201,19 @@ class ContactProbability(Value):
         most = loads.ravel() * (1 + SURE)
         sizes = self.particles.diameter
         out = np.zeros_like(most)
-        for share, each in sizes.components:
-            if isinstance(each, Monodisperse):
+        for share, component in sizes.components:
+            if isinstance(component, Monodisperse):
                 eps = self._edges(FINE)
-                part = np.interp(most / each.mean**2, self._per_size(eps), eps, right=1.0)
+                share_below = np.interp(
+                    most / component.mean**2, self._per_size(eps), eps, right=1.0
+                )
             else:
                 # of size x there are x φ(x): the wider a particle, the more it is in the way
                 eps, weight = panel_rule(self._edges(PANELS), NODES)
                 largest = np.sqrt(most[:, None] / np.maximum(self._per_size(eps), 1e-300))
-                part = each.partial_moment(1, np.zeros_like(largest), largest) @ weight
-                part = part / each.moment(1)
-            out += share * each.moment(1) * part
+                share_below = component.partial_moment(1, np.zeros_like(largest), largest) @ weight
+                share_below = share_below / component.moment(1)
+            out += share * component.moment(1) * share_below
         return (out / sizes.moment(1)).reshape(loads.shape)
 
     def _edges(self, count: int) -> Array:
@@ -237,7 +239,7 @@ class ContactProbability(Value):
         up = np.diff(self.of_one(step * places), prepend=0.0)
         down = np.diff(self.of_one(step * (places + 1) * (1 - 2 * SURE)), prepend=0.0)
         place = np.floor(loads / step * (1 + SURE)).astype(int)
-        return np.array([compound(self.in_the_way, each)[place] for each in (up, down)])
+        return np.array([compound(self.in_the_way, masses)[place] for masses in (up, down)])
 
 
 def compound(N: float, mass: Array) -> Array:
@@ -245,10 +247,10 @@ def compound(N: float, mass: Array) -> Array:
     from .compound_sums import expand_sum
 
     weight = N * np.arange(len(mass)) * mass
-    known = np.flatnonzero(weight)
+    filled_places = np.flatnonzero(weight)
     g = np.zeros(len(mass))  # probability of each place, over exp(log_scale)
     g[0] = 1.0
-    scaled = expand_sum(weight, int(known[-1]) if len(known) else 0, LARGE, g)
+    scaled = expand_sum(weight, int(filled_places[-1]) if len(filled_places) else 0, LARGE, g)
     log_scale = scaled * math.log(LARGE) - N * (1 - mass[0])
     with np.errstate(divide="ignore"):
         return np.minimum(np.exp(np.minimum(np.log(np.cumsum(g)) + log_scale, 0.0)), 1.0)
@@ -265,5 +267,5 @@ def boulders_among(diameter: Distribution, radius: float) -> str:
         return ""
     if diameter.support[0] >= radius:
         return "100 %"
-    part = float(diameter.partial_moment(1, radius, last)) / diameter.moment(1)
-    return percent(part) if part > RARE else ""
+    share = float(diameter.partial_moment(1, radius, last)) / diameter.moment(1)
+    return percent(share) if share > RARE else ""

@@ -116,7 +116,7 @@ class Coupled(Record):
     @property
     def stable(self) -> CoupledState | None:
         """The coldest stable state; None where there is none."""
-        return next((each for each in self.states if each.stable), None)
+        return next((state for state in self.states if state.stable), None)
 
 
 # ------------------------------------------------------------------ one turn of the loop
@@ -151,14 +151,16 @@ class _Loop:
                 tau, growth = shear_of(friction, min(H))
                 sheared = friction.replace(tau_ss=tau, m_ss=None)
                 outputs[outputs.index(friction)] = sheared
-                H = [law.hardness(each, tau=tau, growth=growth) for each in H]
+                H = [law.hardness(hardness, tau=tau, growth=growth) for hardness in H]
         if not np.all(np.isfinite([*H, shares["particles"]])):
             return None
         if self.flash:
             outputs.append(FlashTemperature(v=v, A_n=1e-6))
         particles = tuple(
-            each.replace(material=each.material.replace(H=each.material.H * shares["particles"]))
-            for each in self.contact.populations
+            population.replace(
+                material=population.material.replace(H=population.material.H * shares["particles"])
+            )
+            for population in self.contact.populations
         )
         surfaces = pair.replace(
             first=pair.first.replace(H=H[0]), second=pair.second.replace(H=H[1])
@@ -168,7 +170,7 @@ class _Loop:
         )
 
     def solve_state(
-        self, T: float, T_particles: float, v: float, p: float, *, told: bool = False
+        self, T: float, T_particles: float, v: float, p: float, *, warns: bool = False
     ) -> Equilibrium | MixedFilm | None:
         """The contact at temperatures, sliding speed and load; None where it has no state."""
         contact = self.warm_contact(T, T_particles, v)
@@ -176,20 +178,22 @@ class _Loop:
             return None
         try:
             if self.film is None:
-                if told:
+                if warns:
                     return solve(contact, pressure=p)
                 return solve_untold(contact, "pressure", np.array([p]))
             oil = self.film.oil
             for law in self.laws:
                 if isinstance(law, Thinning):
                     oil = oil.replace(eta=oil.eta * law.share(T))
-            asked = self.film.arguments() | {"oil": oil, "load": self.load_of(p)}
+            film_arguments = self.film.arguments() | {"oil": oil, "load": self.load_of(p)}
             slide_roll = self.film.slide_roll
             assert slide_roll is not None
             with warnings.catch_warnings():
-                if not told:
+                if not warns:
                     warnings.simplefilter("ignore", RangeWarning)
-                return mixed_film(contact, speed=v / slide_roll, slide_roll=slide_roll, **asked)
+                return mixed_film(
+                    contact, speed=v / slide_roll, slide_roll=slide_roll, **film_arguments
+                )
         except (NoEquilibrium, InvalidValue):
             return None
 
@@ -432,15 +436,15 @@ def _operating_problems(
 ) -> list[str]:
     """Why load and speed are not known."""
     if film is None:
-        asked = {"pressure": pressure, "sliding_speed": sliding_speed}
+        operating_values = {"pressure": pressure, "sliding_speed": sliding_speed}
         out: list[str] = [
             Problem(name, "is missing", code=Mistake.MISSING)
-            for name, value in asked.items()
+            for name, value in operating_values.items()
             if value is None
         ]
         return out + [
             Problem(name, "must be a number > 0", f"{value:g}", code=Mistake.KIND)
-            for name, value in asked.items()
+            for name, value in operating_values.items()
             if value is not None and not (math.isfinite(value) and value > 0)
         ]
     out = []
@@ -506,15 +510,15 @@ def _state(loop: _Loop, x: Array, v: float, p: float) -> CoupledState:
     contact = loop.warm_contact(T, T_particles, v)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        state = loop.solve_state(T, T_particles, v, p, told=True)
+        state = loop.solve_state(T, T_particles, v, p, warns=True)
     if contact is None or state is None:
         raise NoEquilibrium("the contact has no state at this speed and load")
-    known = loop.cooling is not None
-    gain = loop.gain(x, v, p) if known else 0.0
+    has_cooling = loop.cooling is not None
+    gain = loop.gain(x, v, p) if has_cooling else 0.0
     return CoupledState(
-        T=T if known else math.nan,
-        T_particles=T_particles if known else math.nan,
-        T_bulk=loop.bulk(mu, v, p) if known else math.nan,
+        T=T if has_cooling else math.nan,
+        T_particles=T_particles if has_cooling else math.nan,
+        T_bulk=loop.bulk(mu, v, p) if has_cooling else math.nan,
         mu=mu,
         heat=mu * p * v,
         H_1=contact.surfaces.first.H,
@@ -527,8 +531,8 @@ def _state(loop: _Loop, x: Array, v: float, p: float) -> CoupledState:
 
 def _warn(states: tuple[CoupledState, ...], notes: list[Note]) -> tuple[str, ...]:
     """Warn of what is a guess, and of what `solve` says of the stable state."""
-    stable = next((each for each in states if each.stable), None)
+    stable = next((state for state in states if state.stable), None)
     every = [*notes, *(stable.state.warnings if stable else ())]
-    for each in every:
-        tell_of_range(each)
+    for note in every:
+        tell_of_range(note)
     return tuple(every)

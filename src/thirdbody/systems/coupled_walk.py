@@ -122,8 +122,8 @@ class Walk:
         self, jump: float, end: Array, place: float
     ) -> tuple[Array, float, bool] | None:
         """The first state behind a jump, and whether the branch goes on to higher speed or load."""
-        found = [self.state_with_rise(jump + far, end, place) for far in (BESIDE, 1e2 * BESIDE)]
-        (x, here), (_, there) = found
+        states = [self.state_with_rise(jump + far, end, place) for far in (BESIDE, 1e2 * BESIDE)]
+        (x, here), (_, there) = states
         if not (math.isfinite(here) and math.isfinite(there)):
             return None
         return x, here, there > here
@@ -170,8 +170,8 @@ class Walk:
     def states(self) -> list[Array]:
         """Unknowns at the speed and load that were asked for, the coldest first."""
         self.low, self.high = -math.inf, math.inf
-        found = [x for piece in self.pieces for x in piece.solutions(self.residual, 0.0)]
-        return sorted(found, key=lambda x: float(x[0]))
+        unknowns = [x for piece in self.pieces for x in piece.solutions(self.residual, 0.0)]
+        return sorted(unknowns, key=lambda x: float(x[0]))
 
     def end(self) -> tuple[float, str]:
         """Speed or load at which the stable state ends, NaN where it does not, and a sentence."""
@@ -187,7 +187,7 @@ class Walk:
         T = self.loop.temperatures(last.x[-1])[0]
         value = self._value(float(last.parameter[-1]))
         if ends and max(ends)[0] >= value:
-            ends.sort(key=lambda each: each[1])
+            ends.sort(key=lambda end: end[1])
             most, hottest = max(ends)
             words = f"the stable state ends at {value_of(most, unit)}, {number(hottest)} K"
             if ends[0][0] < most:
@@ -212,7 +212,7 @@ class Walk:
     def notes(self) -> list[Note]:
         """Where friction jumps."""
         unit = "m/s" if self.name == "speed" else "Pa"
-        asked = self.v if self.name == "speed" else self.p
+        operating_value = self.v if self.name == "speed" else self.p
         out = []
         for jump in self.jumps:
             low, high = sorted((jump.before, jump.behind))
@@ -220,7 +220,7 @@ class Walk:
                 f"friction jumps at {number(jump.T)} K, where one surface becomes harder than the "
                 f"other by hardness_ratio, between {value_of(low, unit)} and {value_of(high, unit)}"
             )
-            if low <= asked <= high and jump.before < jump.behind:
+            if low <= operating_value <= high and jump.before < jump.behind:
                 what += "; at what was asked for the contact stays at this temperature"
             out.append(Note(what, code="coupled.jump", action="vary hardness_ratio of Friction"))
         return out
@@ -229,13 +229,16 @@ class Walk:
         """The branch as columns."""
         places = np.concatenate([piece.parameter for piece in self.pieces])
         unknowns = np.concatenate([piece.x for piece in self.pieces])
-        both = np.array([self.speed_and_load(float(each)) for each in places])
+        both = np.array([self.speed_and_load(float(place)) for place in places])
         index, label = (0, "speed") if self.name == "speed" else (1, "pressure")
-        numbers = [self.loop.numbers(x, *each) for x, each in zip(unknowns, both, strict=True)]
+        numbers = [
+            self.loop.numbers(x, *speed_and_load)
+            for x, speed_and_load in zip(unknowns, both, strict=True)
+        ]
         return {
             label: both[:, index],
             "T": self.loop.cold + self.loop.span * unknowns[:, 0],
-            "mu": np.array([each[0] for each in numbers]),
+            "mu": np.array([row[0] for row in numbers]),
         }
 
 

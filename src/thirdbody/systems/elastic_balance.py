@@ -54,7 +54,7 @@ class Skin:
     """
 
     def __init__(self, source: Contact | Callable[..., Array], E_star: float | None):
-        self.bound = None
+        self.solids = None
         self.floor = -math.inf
         self.origin, self.step = 0.0, None
         self.warnings: tuple[str, ...] = ()
@@ -64,14 +64,14 @@ class Skin:
                     "E_star follows from the contact; give it only with a callable",
                     code=Mistake.BEYOND,
                 )
-            self.bound = interface(source)
+            self.solids = interface(source)
             self.E_star = source.E_ss
-            skin = self.bound.asperities
-            self.floor = self.origin = self.bound.lowest
+            skin = self.solids.asperities
+            self.floor = self.origin = self.solids.lowest
             self.step = skin.sigma_s
-            bottom = self.bound.load(np.array([self.floor]))[0]
+            bottom = self.solids.load(np.array([self.floor]))[0]
             self.lowest = (float(bottom[0]), float(bottom[1]))
-            if not load_scan(self.bound).monotone:
+            if not load_scan(self.solids).monotone:
                 self.warnings = (
                     "the load of this contact does not fall everywhere with the gap: the "
                     "solution found need not be the only one",
@@ -92,10 +92,10 @@ class Skin:
 
     def __call__(self, gap: Array) -> tuple[Array, Array]:
         """Pressure [Pa] and its slope [Pa/m]."""
-        if self.bound is None:
+        if self.solids is None:
             p, slope = self.law(gap)
             return np.asarray(p, dtype=float), np.asarray(slope, dtype=float)
-        p, slope, _ = self.bound.load(np.maximum(gap, self.floor)).T
+        p, slope, _ = self.solids.load(np.maximum(gap, self.floor)).T
         if np.any(deep := gap < self.floor):
             value, tangent = self.lowest
             p = np.where(deep, value + tangent * (gap - self.floor), p)
@@ -104,8 +104,8 @@ class Skin:
 
     def crowded_places(self, A_t: Array, load: Array) -> tuple[float, str]:
         """The share of the load [1] at places that are crowded, and the status of the whole."""
-        assert self.bound is not None
-        return crowded_places(self.bound.contact, A_t, load)
+        assert self.solids is not None
+        return crowded_places(self.solids.contact, A_t, load)
 
     def one(self, gap: float) -> tuple[float, float]:
         p, slope = self(np.array([gap]))
@@ -301,14 +301,14 @@ def _newton(skin: Skin, grid: Grid, d: float, sunk: Array) -> tuple[Array, Array
         step = np.linalg.solve(eye - grid.compliance * slope, -error)
         scale = np.max(np.abs(p)) / max(np.max(np.abs(slope)), 1e-300)
         close += bool(np.max(np.abs(step)) < 1e-7 * scale)
-        part, size = 1.0, np.max(np.abs(error))
+        damping, size = 1.0, np.max(np.abs(error))
         while True:
-            trial = gap + part * step
+            trial = gap + damping * step
             p, slope = skin(trial)
             error = trial - base - grid.compliance @ p
-            if close or np.max(np.abs(error)) < size or part < 1e-4:
+            if close or np.max(np.abs(error)) < size or damping < 1e-4:
                 break
-            part *= 0.5
+            damping *= 0.5
         gap = trial
         if close == 2 or size == 0:
             return gap, p, slope, float(np.max(np.abs(error)))
@@ -344,14 +344,14 @@ def balance_at(
         first += 1
     sinking = np.linalg.solve(np.eye(n) - grid.compliance * slope, np.ones(n))
     load, rate = float(grid.weights @ p), float(grid.weights @ (slope * sinking))
-    found = Balance(d, grid, gap, p, load, rate, tail, residual, extent, series)
-    return _deep_enough(skin, found) if tolerance == TAIL else found
+    state = Balance(d, grid, gap, p, load, rate, tail, residual, extent, series)
+    return _deep_enough(skin, state) if tolerance == TAIL else state
 
 
-def _deep_enough(skin: Skin, found: Balance) -> Balance:
+def _deep_enough(skin: Skin, state: Balance) -> Balance:
     """The balance, unless it lies where the law of the skin ends."""
-    refuse_deep(skin, found.gap)
-    return found
+    refuse_deep(skin, state.gap)
+    return state
 
 
 def refuse_deep(skin: Skin, gap: Array) -> None:
@@ -362,10 +362,10 @@ def refuse_deep(skin: Skin, gap: Array) -> None:
     NoEquilibrium
         The lowest gap, and the lowest that the law has.
     """
-    if skin.bound is not None and np.min(gap) < skin.floor:
+    if skin.solids is not None and np.min(gap) < skin.floor:
         raise NoEquilibrium(
             f"the local gap falls to {value_of(np.min(gap), 'm')}, below the "
-            f"{value_of(skin.floor, 'm')} of {skin.bound.why_lowest}",
+            f"{value_of(skin.floor, 'm')} of {skin.solids.why_lowest}",
             Status.TOO_DEEP,
         )
 
@@ -387,16 +387,16 @@ def balance(
         raise InvalidValue(
             "give exactly one of the separation d and the load", code=Mistake.MISSING
         )
-    given = d if load is None else load
-    if given is None or not math.isfinite(given) or (load is not None and load <= 0):
-        raise InvalidValue(f"{given!r} must be finite, a load > 0", code=Mistake.RANGE)
+    target = d if load is None else load
+    if target is None or not math.isfinite(target) or (load is not None and load <= 0):
+        raise InvalidValue(f"{target!r} must be finite, a load > 0", code=Mistake.RANGE)
     if load is None:
-        return balance_at(skin, shape, given)
-    d = _rigid(skin, shape, given) if guess is None else guess
-    coarse = _seek(skin, shape, given, d, None, COARSE, 1e-5)
+        return balance_at(skin, shape, target)
+    d = _rigid(skin, shape, target) if guess is None else guess
+    coarse = _seek(skin, shape, target, d, None, COARSE, 1e-5)
     if quick:
         return _deep_enough(skin, coarse)
-    return _seek(skin, shape, given, coarse.d, coarse, TAIL, 1e-14)
+    return _seek(skin, shape, target, coarse.d, coarse, TAIL, 1e-14)
 
 
 def _seek(

@@ -1,4 +1,4 @@
-"""What friction and heat change of the contact that makes them: laws for `thirdbody.coupled`."""
+"""What friction and heat change of the contact that makes them: laws for `equilibria.coupled`."""
 
 from __future__ import annotations
 
@@ -161,8 +161,8 @@ class Softening(Value):
 
     def share(self, T: float) -> float:
         """Hardness over H_0 at a temperature T [1]; NaN from T_melt on."""
-        part = (T - self.T_0) / (self.T_melt - self.T_0)
-        return math.nan if part >= 1 else 1.0 - max(part, 0.0) ** self.exponent
+        rise = (T - self.T_0) / (self.T_melt - self.T_0)
+        return math.nan if rise >= 1 else 1.0 - max(rise, 0.0) ** self.exponent
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -356,7 +356,7 @@ class BoundHalfSpaces:
 
 def friction_of(contact: Contact) -> Friction | None:
     """The friction output of a contact."""
-    return next((each for each in contact.outputs if isinstance(each, Friction)), None)
+    return next((output for output in contact.outputs if isinstance(output, Friction)), None)
 
 
 def shear_of(friction: Friction, H: float) -> tuple[float, float]:

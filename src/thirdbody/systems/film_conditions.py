@@ -249,8 +249,8 @@ class FilmConditions(Value):
 
     def stribeck_columns(self, contact: Contact) -> dict[str, Any]:
         """The columns of `stribeck`, as arrays."""
-        asked = {"speed": self.speed, "slide_roll": self.slide_roll} | self.arguments()
-        return stribeck_columns(contact, **asked)[0]
+        arguments = {"speed": self.speed, "slide_roll": self.slide_roll} | self.arguments()
+        return stribeck_columns(contact, **arguments)[0]
 
     def regime_speeds(self, contact: Contact) -> RegimeSpeeds:
         """`regime_speeds` of this load."""

@@ -306,19 +306,19 @@ class ParticleFilm:
     def _single(self, x: Array, delta: Array) -> Array:
         """Load [N], area on surface 1 and larger area [m²] of single particles: (..., 3)."""
         one, two = self.sides
-        part = np.full_like(delta, 0.5)
+        share = np.full_like(delta, 0.5)
         pressed = delta > 0
         if one != two and np.any(pressed):
             from scipy.optimize.elementwise import find_root
 
-            part[pressed] = find_root(
+            share[pressed] = find_root(
                 lambda t, d, x: self._side(one, x, t * d)[0] - self._side(two, x, (1 - t) * d)[0],
                 (np.zeros(pressed.sum()), np.ones(pressed.sum())),
                 args=(delta[pressed], x[pressed]),
                 tolerances={"xatol": 0.0, "xrtol": 1e-12, "fatol": 0.0, "frtol": 0.0},
             ).x
-        force, area = self._side(one, x, part * delta)
-        _, other = self._side(two, x, (1 - part) * delta)
+        force, area = self._side(one, x, share * delta)
+        _, other = self._side(two, x, (1 - share) * delta)
         return np.stack([force, area, np.maximum(area, other)], axis=-1)
 
     def _side(
@@ -483,13 +483,15 @@ class GhaedniaMultiscale(Value):
                 )
             )
         for name in ("E_star", "H"):
-            own, given = getattr(self.surface, name), getattr(self.surfaces, name)
-            if own is not None and not math.isclose(own, given, rel_tol=1e-6):
+            surface_value, pair_value = getattr(self.surface, name), getattr(self.surfaces, name)
+            if surface_value is not None and not math.isclose(
+                surface_value, pair_value, rel_tol=1e-6
+            ):
                 out.append(
                     Problem(
                         f"surface.{name}",
-                        f"Pa differs from that of the surfaces, {value_of(given, 'Pa')}",
-                        f"{own:g}",
+                        f"Pa differs from that of the surfaces, {value_of(pair_value, 'Pa')}",
+                        f"{surface_value:g}",
                         code=Mistake.BEYOND,
                     )
                 )
@@ -518,8 +520,8 @@ class GhaedniaMultiscale(Value):
         """The state under a nominal pressure [Pa], a number or an array."""
         from scipy.optimize.elementwise import find_root
 
-        given = np.asarray(pressure, dtype=float)
-        p = np.atleast_1d(given).ravel()
+        pressures = np.asarray(pressure, dtype=float)
+        p = np.atleast_1d(pressures).ravel()
         if not np.all(p > 0):
             raise InvalidValue("pressure must be > 0 [Pa]", code=Mistake.RANGE)
         A_0 = self.surface.fraction(p)
@@ -544,7 +546,7 @@ class GhaedniaMultiscale(Value):
         asperities = np.where(touch, A_0 * (1 - footprint), 0.0)
 
         def in_shape(values: Array) -> Array:
-            return values.reshape(given.shape) if given.ndim else values[0].item()
+            return values.reshape(pressures.shape) if pressures.ndim else values[0].item()
 
         return MultiscaleState(
             pressure=in_shape(p),

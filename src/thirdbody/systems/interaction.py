@@ -173,13 +173,13 @@ def mean_interaction(
         if not (math.isfinite(value) and value > 0):
             raise InvalidValue(Problem(name, "must be > 0", repr(value), code=Mistake.RANGE))
     _check_sum(contact)
-    bound = interface(contact)
+    solids = interface(contact)
     compliance = kappa * math.sqrt(nominal_area) / contact.E_ss
     if d_0 is None:
         state = solve(contact, pressure=pressure, F_star=F_star)
     else:
         _, start, scalar = given_load(contact, pressure, F_star, d_0)
-        if not load_scan(bound).monotone:
+        if not load_scan(solids).monotone:
             raise InvalidValue(
                 "the load of this contact does not fall everywhere with d, so one d_0 may belong "
                 "to several states; give the load instead of d_0",
@@ -187,12 +187,12 @@ def mean_interaction(
             )
 
         def gap(d: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
-            p, slope, bend = bound.load(d).T
+            p, slope, bend = solids.load(d).T
             return start[which] + compliance * p - d, compliance * slope - 1, compliance * bend
 
-        skin = bound.asperities
+        skin = solids.asperities
         lowest = np.maximum(start, skin.centre + DEEPEST * skin.sigma_s)
-        highest = start + compliance * bound.load(lowest)[:, 0]
+        highest = start + compliance * solids.load(lowest)[:, 0]
         if np.any(deep := highest < lowest):
             raise NoEquilibrium(
                 f"at d_0 = {value_of(start[deep][0], 'm')} the asperities stand below {DEEPEST:g} "
@@ -201,9 +201,9 @@ def mean_interaction(
             )
         d, *_ = halley_root(gap, lowest, highest, lowest)
         state = solve(contact, d=float(d[0]) if scalar else d)
-    known = np.isfinite(np.atleast_1d(state.d))
-    slope = np.full(known.shape, np.nan)
-    slope[known] = -bound.load(np.atleast_1d(state.d)[known])[:, 1]
+    is_solved = np.isfinite(np.atleast_1d(state.d))
+    slope = np.full(is_solved.shape, np.nan)
+    slope[is_solved] = -solids.load(np.atleast_1d(state.d)[is_solved])[:, 1]
     summit: Number = slope if np.ndim(state.d) else float(slope[0])
     U = compliance * state.pressure
     return MeanInteraction(

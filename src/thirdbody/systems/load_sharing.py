@@ -219,8 +219,8 @@ def share_radial_load(
 
     def total_load(pressed: float) -> float:
         eps = zone(pressed)
-        found = radial_integral(eps, exponent=exponent) if eps < WIDEST else 0.0
-        return bodies * stiffness * pressed**exponent * found
+        integral = radial_integral(eps, exponent=exponent) if eps < WIDEST else 0.0
+        return bodies * stiffness * pressed**exponent * integral
 
     # J_r is at most 0.25 or so, and 1/2 for a single body: start where it surely is too little
     low = max(-half, (force / (bodies * stiffness)) ** (1 / exponent))

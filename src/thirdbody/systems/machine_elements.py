@@ -118,8 +118,10 @@ class RadialBearing(Body):
     def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on the most loaded rolling body, of a radial load [N]."""
         forces = np.asarray(force, float)
-        found = [self.share_load(float(each), E_star).largest for each in forces.ravel()]
-        return np.reshape(found, forces.shape)[()]
+        largest = [
+            self.share_load(float(radial_load), E_star).largest for radial_load in forces.ravel()
+        ]
+        return np.reshape(largest, forces.shape)[()]
 
     def hertz_of(self, load: object, ring: Ring, E_star: float) -> Hertz:
         """The smooth dry contact of a rolling body under its own load [N] on one of the rings."""
@@ -430,10 +432,10 @@ def _misfits(
         )
     if abs(bearing.clearance) > 0.1 * size:
         rule = f"must be within a tenth of the {what}, {0.1 * size:g} [m]"
-        told = f"{bearing.clearance:g}"
+        value = f"{bearing.clearance:g}"
         out.append(
             Problem(
-                "clearance", rule, told, hint="10 um are 10e-6", owner=kind, code=Mistake.BEYOND
+                "clearance", rule, value, hint="10 um are 10e-6", owner=kind, code=Mistake.BEYOND
             )
         )
     return out
@@ -606,7 +608,7 @@ class BallScrew(Body):
     def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on a ball of the nut that carries more, of an axial force [N]."""
         forces = np.asarray(force, float)
-        more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
+        more = [preloaded_load(float(axial_load), self.preload) for axial_load in forces.ravel()]
         share = self.balls * math.sin(self.contact_angle) * math.cos(self.lead_angle)
         return np.reshape(more, forces.shape)[()] / share
 
@@ -692,7 +694,9 @@ class LinearGuide(Body):
     def load_on_one(self, force: object, E_star: float) -> Number:
         """Load on a ball of the pressed rows, of a force on the carriage [N]."""
         forces = np.asarray(force, float)
-        more = [preloaded_load(float(each), self.preload) for each in forces.ravel()]
+        more = [
+            preloaded_load(float(carriage_load), self.preload) for carriage_load in forces.ravel()
+        ]
         return np.reshape(more, forces.shape)[()] / (self.bodies * math.sin(self.contact_angle))
 
     @property

@@ -353,8 +353,10 @@ def mixed_film(
     notes += _ranges(bodies, u, h_T / sigma)
 
     film_share = np.exp(-x)
-    ss, sa = (np.asarray(part) * contact.E_ss / p for part in (state.F_ss_star, state.F_sa_star))
-    sizes = [each.diameter.mean_diameter for each in contact.populations]
+    ss, sa = (
+        np.asarray(F_star) * contact.E_ss / p for F_star in (state.F_ss_star, state.F_sa_star)
+    )
+    sizes = [population.diameter.mean_diameter for population in contact.populations]
     columns: dict[str, Any] = {
         "speed": u,
         "load": w,
@@ -429,8 +431,8 @@ class Lubricated:
 
     def solid_share(self, h: Array) -> Array:
         """Load of asperities and particles at h above the mean plane [m], over the load."""
-        bound = interface(self.contact)
-        return bound.load(np.maximum(h - bound.mean_plane, self.floor))[:, 0] / self.p
+        solids = interface(self.contact)
+        return solids.load(np.maximum(h - solids.mean_plane, self.floor))[:, 0] / self.p
 
 
 def _refuse_deep(contact: Contact, speed: float) -> None:
@@ -467,7 +469,7 @@ def _solve_heard(contact: Contact, d: float | Array) -> tuple[Equilibrium, list[
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, d=d)
     return state, [
-        note_of(each.message) for each in heard if issubclass(each.category, RangeWarning)
+        note_of(warning.message) for warning in heard if issubclass(warning.category, RangeWarning)
     ]
 
 

@@ -81,14 +81,16 @@ def natures(contact: Contact) -> tuple[Nature, ...]:
     >>> import thirdbody as tb
     >>> steel = tb.materials["100Cr6"]
     >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e6,
-    ...                     diameter=tb.Monodisperse(mean=10e-6))
+    ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=dust,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> (found,) = natures(contact)
     >>> found.conducts, found.pressed, found.breaks
     (False, 'dents and is squashed', 'would break')
     """
-    return tuple(_nature(contact, each, i) for i, each in enumerate(contact.populations))
+    return tuple(
+        _nature(contact, population, i) for i, population in enumerate(contact.populations)
+    )
 
 
 def _nature(contact: Contact, dust: Particles, i: int) -> Nature:
@@ -123,7 +125,7 @@ def _by_sink(sinks: float) -> Pressed:
 
 def _by_hardness(contact: Contact, dust: Particles) -> Pressed:
     pair = contact.surfaces
-    harder = [dust.material.H > each.H for each in (pair.first, pair.second)]
+    harder = [dust.material.H > body.H for body in (pair.first, pair.second)]
     return "dents" if all(harder) else "dents the softer surface" if any(harder) else "is squashed"
 
 

@@ -172,19 +172,19 @@ class Filter(Value):
 
     def _line(self) -> tuple[Array, Array]:
         """ln x and ln β in service of the line, two points at least."""
-        known, logs = np.log(self.sizes), self.service * np.log(self.betas)
-        if len(known) > 1:
-            return known, logs
-        return np.array([known[0] + math.log(FINEST), known[0]]), np.array([0.0, logs[0]])
+        log_sizes, logs = np.log(self.sizes), self.service * np.log(self.betas)
+        if len(log_sizes) > 1:
+            return log_sizes, logs
+        return np.array([log_sizes[0] + math.log(FINEST), log_sizes[0]]), np.array([0.0, logs[0]])
 
     @property
     def _finest(self) -> float:
         """The size from which it holds something [m]."""
-        known, logs = self._line()
+        log_sizes, logs = self._line()
         rise = logs[1] - logs[0]
         if rise == 0:
             return 0.0
-        return math.exp(known[0] - logs[0] * (known[1] - known[0]) / rise)
+        return math.exp(log_sizes[0] - logs[0] * (log_sizes[1] - log_sizes[0]) / rise)
 
     def beta(self, x: ArrayLike) -> Array:
         """β ratios in service at sizes x [m].
@@ -194,18 +194,18 @@ class Filter(Value):
         x : float or array
             Sizes [m].
         """
-        at, (known, logs) = np.log(np.asarray(x, float)), self._line()
-        slope = (logs[1] - logs[0]) / (known[1] - known[0])
-        below = np.maximum(logs[0] + slope * (at - known[0]), 0.0)
+        at, (log_sizes, logs) = np.log(np.asarray(x, float)), self._line()
+        slope = (logs[1] - logs[0]) / (log_sizes[1] - log_sizes[0])
+        below = np.maximum(logs[0] + slope * (at - log_sizes[0]), 0.0)
         between = self.service * self._logs_between(at)[0]
         return np.exp(np.where(at < math.log(self.sizes[0]), below, between))
 
     def _logs_between(self, at: Array) -> tuple[Array, Array]:
         """ln β and its slope over ln x at logarithms of sizes, from the first size on."""
-        known, betas = np.log(self.sizes), np.array(self.betas)
+        log_sizes, betas = np.log(self.sizes), np.array(self.betas)
         at = np.asarray(at, float)
         values, slopes = np.full(at.shape, math.log(betas[-1])), np.zeros(at.shape)
-        for i, (a, b) in enumerate(pairwise(known)):
+        for i, (a, b) in enumerate(pairwise(log_sizes)):
             one, two = betas[i : i + 2]
             inside = (at >= a) & (at < b)
             if one > 1:
@@ -222,8 +222,8 @@ class Filter(Value):
         """P(x), above 1 too [1]."""
         at = np.log(np.asarray(x, float))
         values, slopes = self._logs_between(at)
-        found = np.exp(-self.service * values) * (1 + self.service * slopes / self.dust_slope)
-        return np.where(np.asarray(x) < self.sizes[0], 1.0, found)
+        penetration = np.exp(-self.service * values) * (1 + self.service * slopes / self.dust_slope)
+        return np.where(np.asarray(x) < self.sizes[0], 1.0, penetration)
 
     def penetration(self, x: ArrayLike) -> Array:
         r"""Part of the particles of sizes x that passes once P [1].
@@ -295,8 +295,8 @@ class Filter(Value):
         held = 0.5 * (high - low) * weights * (at / e[-1]) ** -3.0
         home = np.searchsorted(e, x[:-1], side="right") - 1
         sums = [
-            np.bincount(home, weights=np.sum(each, axis=1), minlength=len(e) - 1)
-            for each in (held * self.penetration(at), held)
+            np.bincount(home, weights=np.sum(amount, axis=1), minlength=len(e) - 1)
+            for amount in (held * self.penetration(at), held)
         ]
         return sums[0] / sums[1]
 
@@ -326,8 +326,8 @@ class Filter(Value):
                 "above it",
                 code=Mistake.BEYOND,
             )
-        own = [x for x in (*self.sizes, self._finest, *diameter.kinks) if low < x < high]
-        edges = np.unique([*np.geomspace(low, high, CLASSES + 1), *own])
+        kinks = [x for x in (*self.sizes, self._finest, *diameter.kinks) if low < x < high]
+        edges = np.unique([*np.geomspace(low, high, CLASSES + 1), *kinks])
         above = number * np.array([float(diameter.partial_moment(0, x, high)) for x in edges])
         above[-1] = 0.0
         beta = self.beta(edges)
@@ -349,5 +349,5 @@ class Filter(Value):
         ]
         slopes = -(logs[1] - logs[0]) / np.diff(np.log(edges)) - 1
         slopes = np.where(counts > 0, np.clip(slopes, -STEEPEST, STEEPEST), 0.0)
-        found = PowerLaw(edges=tuple(edges), counts=tuple(counts), slopes=tuple(slopes))
-        return float(left[0]) if goes_on else float(counts.sum()), found
+        sizes_behind = PowerLaw(edges=tuple(edges), counts=tuple(counts), slopes=tuple(slopes))
+        return float(left[0]) if goes_on else float(counts.sum()), sizes_behind

@@ -327,22 +327,22 @@ class FilmParticles(Value):
         assert self.strength is not None
         size, number, pressed, broken = [np.empty(0)], [np.empty(0)], 0.0, 0.0
         eps = [1 - self.film / end for end in ends if end > self.film]
-        for share, part in self.diameter.components:
-            scale, shape = part.standardised()
+        for share, component in self.diameter.components:
+            scale, shape = component.standardised()
             gap, top = self.film / scale, shape.support[1]
             if gap >= top:
                 continue
             breakage = Breakage.of_material(self.strength, self.material, scale)
             average = broken_average(self._particle(), shape, breakage)
-            found = average.pieces(
+            pieces = average.pieces(
                 np.array([[gap]]), np.array([[top - gap]]), eps,
                 nodes=NODES, squeezes=average.squeezes,
             )  # fmt: skip
-            here = found.delta > 0
-            size.append(scale * found.x[here])
-            number.append(share * found.number[here])
-            pressed += share * float(found.parents[here].sum())
-            broken += share * float((found.parents * (1 - found.survival))[here].sum())
+            here = pieces.delta > 0
+            size.append(scale * pieces.x[here])
+            number.append(share * pieces.number[here])
+            pressed += share * float(pieces.parents[here].sum())
+            broken += share * float((pieces.parents * (1 - pieces.survival))[here].sum())
         return np.concatenate(size), np.concatenate(number), (pressed, broken)
 
     @property
@@ -358,8 +358,10 @@ class FilmParticles(Value):
         """Whether it is known how deep the particles sit in surface 1 (side 0) or 2 (side 1)."""
         need_one("side", side, 0, 1)
         one = self._particle()
-        H, known = one.sides[side].H, one.knows_sink[side]
-        return not math.isnan(sink(self.material, hardness=H, debris=self.debris, computed=known))
+        H, knows_sink = one.sides[side].H, one.knows_sink[side]
+        return not math.isnan(
+            sink(self.material, hardness=H, debris=self.debris, computed=knows_sink)
+        )
 
     def _deep(self, spots: ParticleSpots, side: int) -> Array:
         return sunk(spots, side=side, particle=self.material, debris=self.debris)
@@ -440,9 +442,9 @@ class FilmParticles(Value):
         if self.strength is not None:
             return self._pieces([size for size in sides if math.isfinite(size)])[:2]
         cuts = np.array([*(self.film / (1 - inner)), *(s for s in sides if math.isfinite(s))])
-        for share, part in self.diameter.components:
-            low, high = max(part.support[0], self.film), part.support[1]
-            if part.support[0] == high:
+        for share, component in self.diameter.components:
+            low, high = max(component.support[0], self.film), component.support[1]
+            if component.support[0] == high:
                 size.append(np.array([high] if high > self.film else []))
                 weight.append(np.full(len(size[-1]), share))
                 continue
@@ -450,11 +452,13 @@ class FilmParticles(Value):
                 high = min(high, self.fragment)
             if high <= low:
                 continue
-            edges = np.unique(np.concatenate([[low, high], part.pieces, part.kinks, cuts]))
+            edges = np.unique(
+                np.concatenate([[low, high], component.pieces, component.kinks, cuts])
+            )
             edges = edges[(edges >= low) & (edges <= high)]
             x, w = panel_rule(subdivide(edges, width=math.inf, ratio=1.5), NODES)
             size.append(x)
-            weight.append(share * w * part.pdf(x))
+            weight.append(share * w * component.pdf(x))
         x, w = np.concatenate([*size, []]), np.concatenate([*weight, []])
         if self.fragment is None:
             return x, w
@@ -562,14 +566,14 @@ class FilmParticles(Value):
         lowest = self._first(side - 1) if self.sinks(side - 1) else self.film
         if not math.isfinite(lowest) or self._number_above(lowest) <= wanted:
             return Dent(np.array(math.nan), np.array(math.nan), np.array(math.nan))
-        found = self._dent(self.single(self._size(wanted, lowest)), side - 1)
-        return Dent(*(each[0, 0] for each in found))
+        dent = self._dent(self.single(self._size(wanted, lowest)), side - 1)
+        return Dent(*(value[0, 0] for value in dent))
 
     def after(self, overrollings: ArrayLike, *, side: int = 1) -> Array:
         """Dents per area of surface 1 or 2 after N overrollings, see `dents_after` [1/m²]."""
-        found = self.dents(side)
+        dents = self.dents(side)
         return dents_after(
-            found.number, overrollings=overrollings, area=0.0 if found.number == 0 else found.area
+            dents.number, overrollings=overrollings, area=0.0 if dents.number == 0 else dents.area
         )
 
     def severity_index(self) -> SeverityIndex:

@@ -136,8 +136,8 @@ def _result(
     axis_gap = state.d + float(axis @ (grid.compliance @ p))
     area = share = close = None
     status = "ok"
-    if skin.bound is not None:
-        fields_ = skin.bound.fields(state.gap)
+    if skin.solids is not None:
+        fields_ = skin.solids.fields(state.gap)
         area = float(grid.weights @ fields_["A_t"])
         share = float(grid.weights @ fields_["F_sa"]) / state.load
         close, status = skin.crowded_places(fields_["A_t"], grid.weights * p)
@@ -242,8 +242,8 @@ def rough_sphere(
     """
     skin = Skin(contact, E_star)
     shape = Sphere(_positive("radius", radius), skin.E_star)
-    found = balance(skin, shape, d=d, load=load, guess=guess, quick=quick)
-    return _result(skin, shape, found, COARSE if quick else 1e-6)
+    state = balance(skin, shape, d=d, load=load, guess=guess, quick=quick)
+    return _result(skin, shape, state, COARSE if quick else 1e-6)
 
 
 @takes_units
@@ -306,8 +306,8 @@ def rough_cylinder(
     radius = _positive("radius", radius)
     point = radius if reference is None else float(reference)
     shape = Cylinder(radius, skin.E_star, point)
-    found = balance(skin, shape, d=d, load=load, guess=guess, quick=quick)
-    return _result(skin, shape, found, COARSE if quick else 1e-6)
+    state = balance(skin, shape, d=d, load=load, guess=guess, quick=quick)
+    return _result(skin, shape, state, COARSE if quick else 1e-6)
 
 
 @takes_units

@@ -56,10 +56,10 @@ def jackson_streator(q: ArrayLike) -> Array:
     >>> jackson_streator([0.1, 0.5, 0.9]).round(6)
     array([0.211025, 0.681555, 0.952254])
     """
-    part = np.clip(np.asarray(q, dtype=float), 0.0, 1.0)
-    hertz = math.pi * (3 * part / (8 * math.pi)) ** (2 / 3)
-    full = 1 - 3 / (2 * math.pi) * (1 - part)
-    return np.where(part < 0.8, hertz * (1 - part**1.51) + full * part**1.04, full)
+    clipped_q = np.clip(np.asarray(q, dtype=float), 0.0, 1.0)
+    hertz = math.pi * (3 * clipped_q / (8 * math.pi)) ** (2 / 3)
+    full = 1 - 3 / (2 * math.pi) * (1 - clipped_q)
+    return np.where(clipped_q < 0.8, hertz * (1 - clipped_q**1.51) + full * clipped_q**1.04, full)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

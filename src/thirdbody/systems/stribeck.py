@@ -82,7 +82,7 @@ def stribeck(
     """
     import xarray as xr
 
-    columns, told = stribeck_columns(
+    columns, messages = stribeck_columns(
         contact, conjunction=conjunction, oil=oil, load=load, speed=speed, **options
     )
 
@@ -97,7 +97,7 @@ def stribeck(
             "speed": ("speed", columns["speed"], COLUMNS["speed"].labels),
             "hersey": ("speed", columns["hersey"], hersey.labels),
         },
-        attrs={"load": float(load), "warnings": "\n".join(told)},
+        attrs={"load": float(load), "warnings": "\n".join(messages)},
     )
 
 
@@ -117,8 +117,8 @@ def stribeck_columns(
         state = mixed_film(
             contact, conjunction=conjunction, oil=oil, load=load, speed=speeds, **options
         )
-    for each in heard:
-        tell_of_range(each.message, each.category)
+    for warning in heard:
+        tell_of_range(warning.message, warning.category)
 
     hersey = oil.eta * speeds / conjunction.intensity(float(load))
     if conjunction.shape == "point":
@@ -205,23 +205,23 @@ def regime_speeds(
     """
     w, _, _ = _loads_and_speeds(load, 1.0)
     bodies = check_lubricated(contact, conjunction, oil, w, film, None, hertz, (few, most))
-    bound, floor, sigma = interface(contact), bodies.floor, contact.roughness.sigma
+    solids, floor, sigma = interface(contact), bodies.floor, contact.roughness.sigma
 
     def share_at(t: Array) -> Array:
         """Share of the solids at a separation d = floor + σe^t."""
-        return bound.load(floor + sigma * np.exp(t))[:, 0] / bodies.p
+        return solids.load(floor + sigma * np.exp(t))[:, 0] / bodies.p
 
     shares = np.array([most, few])
-    known = (shares > 0) & (shares < 1) & (share_at(np.full(2, -40.0)) > shares)
+    exists = (shares > 0) & (shares < 1) & (share_at(np.full(2, -40.0)) > shares)
     # beyond e^40 sigma there is no contact
     t = zeros_of_falling(lambda t: share_at(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
-    gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma=sigma)
-    gamma = 1 / (1 - np.where(known, shares, 0.5))
+    gap = mean_gap(floor + sigma * np.exp(t) + solids.mean_plane, sigma=sigma)
+    gamma = 1 / (1 - np.where(exists, shares, 0.5))
     ends = np.log([[SLOWEST] * 2, [FASTEST] * 2])
 
     def short(v: Array) -> Array:
         return gap / bodies.thickness(np.exp(v), gamma) - 1
 
-    known &= (short(ends[0]) > 0) & (short(ends[1]) < 0)
+    exists &= (short(ends[0]) > 0) & (short(ends[1]) < 0)
     speeds = np.exp(zeros_of_falling(short, *ends))
-    return RegimeSpeeds(*(float(u) if yes else None for u, yes in zip(speeds, known, strict=True)))
+    return RegimeSpeeds(*(float(u) if yes else None for u, yes in zip(speeds, exists, strict=True)))

@@ -185,8 +185,8 @@ def _result(skin: Skin, state: Balance, cosine: bool) -> WavyContact:
     areas: dict[str, float | None] = dict.fromkeys(("A_t", "A_ss", "A_sa"))
     share = close = None
     status = "ok"
-    if skin.bound is not None:
-        fields = skin.bound.fields(state.gap)
+    if skin.solids is not None:
+        fields = skin.solids.fields(state.gap)
         areas = {name: float(grid.weights @ fields[name]) for name in areas}
         share = float(grid.weights @ fields["F_sa"]) / state.load
         close, status = skin.crowded_places(fields["A_t"], grid.weights * state.pressure)

@@ -30,13 +30,13 @@ def page(assessment: Assessment | Assessments) -> str:
     title = assessment.title or "Assessment"
     body = [f"<h1>{escape(title)}</h1>"]
     figures = iter(pictures(assessment) if isinstance(assessment, Assessment) else [])
-    for part in assessment.sections():
-        lines = [text_table(part.head, part.rows, WORDS)] if part.rows else []
-        lines += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
-        if part.title in ("State", "Inputs that matter") and (next_one := next(figures, None)):
+    for chapter in assessment.sections():
+        lines = [text_table(chapter.head, chapter.rows, WORDS)] if chapter.rows else []
+        lines += [f"<p>{words(sentence)}</p>" for sentence in chapter.sentences]
+        if chapter.title in ("State", "Inputs that matter") and (next_one := next(figures, None)):
             caption, picture = next_one
             lines.append(figure(picture, caption))
-        body.append(section(part.title, lines))
+        body.append(section(chapter.title, lines))
     return document(title, body)
 
 
@@ -65,23 +65,25 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     from . import plot
     from .html import svg_of
 
-    found = assessment.propagation
-    if not found.inputs:
+    propagation = assessment.propagation
+    if not propagation.inputs:
         return []
-    of = "A_t" if found.contact.two_body else "particle_load_share"
-    value = float(found.loads)
+    of = "A_t" if propagation.contact.two_body else "particle_load_share"
+    value = float(propagation.loads)
     loads = value * np.geomspace(1 / 30, 30, LOADS_SHOWN)
-    known = {name: one for name, one in found.inputs.items() if name != found.load}
+    other_inputs = {
+        name: one for name, one in propagation.inputs.items() if name != propagation.load
+    }
     out = []
-    if known:
+    if other_inputs:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RangeWarning)  # nobody has asked for these loads
             curve = propagate(
-                found.contact,
-                vary=known,
-                **{found.load: loads},  # type: ignore[arg-type]
-                samples=max(min(SAMPLES_SHOWN, found.samples // 16), 64),
-                seed=found.seed,
+                propagation.contact,
+                vary=other_inputs,
+                **{propagation.load: loads},  # type: ignore[arg-type]
+                samples=max(min(SAMPLES_SHOWN, propagation.samples // 16), 64),
+                seed=propagation.seed,
                 outputs=[of],
             )
         shown = _drop_crowded_loads(curve, of, value)
@@ -100,7 +102,7 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
         return out
     values = assessment.tornado[assessment.decisive]
     strongest = dict([*values.items()][:MOST_BARS])
-    ax = plot.tornado(found, assessment.decisive, values=strongest)
+    ax = plot.tornado(propagation, assessment.decisive, values=strongest)
     called = assessment.called
     words = f"{called[:1].upper()}{called[1:]} with one input at each end of its 5 % to 95 % range"
     words += f", the {MOST_BARS} strongest." if len(values) > MOST_BARS else "."

@@ -56,13 +56,13 @@ class Shown(NamedTuple):
         ('h [nm]', [Cell(value=100.0, text='100'), Cell(value=200.0, text='200'), \
 Cell(value=1200.0, text='1200')])
         """
-        known = [None if v is None or not math.isfinite(v) else float(v) for v in values]
-        sizes = sorted(abs(v) for v in known if v)
+        finite = [None if v is None or not math.isfinite(v) else float(v) for v in values]
+        sizes = sorted(abs(v) for v in finite if v)
         size, unit = 1.0, ""
         if sizes and self.unit not in ("1", "share"):
             size, unit = readable_unit(sizes[len(sizes) // 2], self.unit)
         head = f"{self.head} [{unit}]" if unit else self.head
-        return head, [self._cell(value, size) for value in known]
+        return head, [self._cell(value, size) for value in finite]
 
     def _cell(self, value: float | None, size: float) -> Cell | str:
         if value is None:
@@ -113,7 +113,7 @@ FILM_COLUMNS = (
 def state_columns(contact: Contact) -> list[Shown]:
     """Columns of a table of states of a contact."""
     dusty = not contact.two_body
-    return [each for each in STATE_COLUMNS if dusty or each.name not in OF_DUST]
+    return [column for column in STATE_COLUMNS if dusty or column.name not in OF_DUST]
 
 
 def modes_of(result: StudyResult) -> list[str]:
@@ -128,4 +128,4 @@ def film_columns(result: FilmResult) -> list[Shown]:
     """Columns of a table of a film: particles and friction where there are any."""
     gone = {"sa_share"} if not result.passing else set()
     gone |= set() if any(map(math.isfinite, result.states["mu"])) else {"mu"}
-    return [each for each in FILM_COLUMNS if each.name not in gone]
+    return [column for column in FILM_COLUMNS if column.name not in gone]

@@ -63,14 +63,16 @@ def _count(failure: float) -> str:
     return f"{round(round(turns, digits))}"
 
 
-def answer(found: ConnectorResult) -> list[str]:
+def answer(result: ConnectorResult) -> list[str]:
     """Sentences on how often the connector fails."""
-    plug = found.asked.connector
-    many = _makes(found)
+    plug = result.asked.connector
+    many = _makes(result)
     out: list[str] = []
-    of_each = found.failure if plug.contacts == 1 else found.failure_of_contact
-    for i in sorted({found.places[0], found.places[-1]}):
-        force, one, every = (float(c[i]) for c in (found.force, of_each, found.failure_of_all))
+    of_one_contact = result.failure if plug.contacts == 1 else result.failure_of_contact
+    for i in sorted({result.places[0], result.places[-1]}):
+        force, one, every = (
+            float(c[i]) for c in (result.force, of_one_contact, result.failure_of_all)
+        )
         what = "connector" if many else "contact"
         often = f"fails to close {once_in(every)}" if every > 0 else "never fails to close"
         said = f"Under {value_of(force, 'N')} the {what} {often}"
@@ -82,15 +84,15 @@ def answer(found: ConnectorResult) -> list[str]:
     if len(out) == 1:
         kinds = join_words([name_of(dust, i) for i, dust in enumerate(plug.particles)])
         out.append(
-            f"On average {number(found.in_the_way, 3)} particles ({kinds}) lie where the metal "
-            f"meets; pressing in the mean one takes {value_of(found.threshold, 'N', 3)}."
+            f"On average {number(result.in_the_way, 3)} particles ({kinds}) lie where the metal "
+            f"meets; pressing in the mean one takes {value_of(result.threshold, 'N', 3)}."
         )
     return out
 
 
-def _makes(found: ConnectorResult) -> str:
+def _makes(result: ConnectorResult) -> str:
     """What the connector is made of, empty for a single contact."""
-    plug = found.asked.connector
+    plug = result.asked.connector
     n, m = int(plug.contacts), int(plug.parallel)
     series = f"{n} contacts in series" if n > 1 else ""
     if m == 1:
@@ -98,36 +100,39 @@ def _makes(found: ConnectorResult) -> str:
     return f"{series} with {m} spots each" if series else f"{m} spots, of which one is enough"
 
 
-def uncertainty(found: ConnectorResult) -> list[str]:
+def uncertainty(result: ConnectorResult) -> list[str]:
     """Sentences on what moves the answer most and on the wipe, each with what to do."""
-    every = [each for each in found.what_ifs if each.ratio > 1]
+    every = [what_if for what_if in result.what_ifs if what_if.ratio > 1]
     heads = ["Most uncertain"] + ["Besides"] * len(every)
     return [
-        f"{head}: {each.what}. With {each.between} it fails {_range_words(each.low, each.high)}; "
-        f"{each.action}."
-        for head, each in zip(heads, every, strict=False)
-        if each is every[0] or each.code == "wipe"
+        f"{head}: {what_if.what}. With {what_if.between} it fails "
+        f"{_range_words(what_if.low, what_if.high)}; "
+        f"{what_if.action}."
+        for head, what_if in zip(heads, every, strict=False)
+        if what_if is every[0] or what_if.code == "wipe"
     ]
 
 
-def rows(found: ConnectorResult) -> list[list[str]]:
+def rows(result: ConnectorResult) -> list[list[str]]:
     """The table: a row a force."""
     out = []
-    for i, force in enumerate(found.force):
-        every = float(found.failure_of_all[i])
+    for i, force in enumerate(result.force):
+        every = float(result.failure_of_all[i])
         turns = "-" if every < RARE else _count(every)
-        shown = [percent(float(each), least=RARE) for each in (found.failure_of_contact[i], every)]
+        shown = [
+            percent(float(share), least=RARE) for share in (result.failure_of_contact[i], every)
+        ]
         out.append([value_of(float(force), "N"), *shown, turns])
     return out
 
 
-def facts(found: ConnectorResult) -> dict[str, str]:
+def facts(result: ConnectorResult) -> dict[str, str]:
     """Named numbers of the force that is asked for."""
-    i = found.places[0]
+    i = result.places[0]
     return {
-        "connector open": percent(float(found.failure_of_all[i]), least=RARE),
-        "one contact open": percent(float(found.failure_of_contact[i]), least=RARE),
-        "particles in the way": number(found.in_the_way, 3),
-        "force that presses the mean one in": value_of(found.threshold, "N", 3),
-        "they lie within": value_of(found.asked.connector.reach, "m", 3),
+        "connector open": percent(float(result.failure_of_all[i]), least=RARE),
+        "one contact open": percent(float(result.failure_of_contact[i]), least=RARE),
+        "particles in the way": number(result.in_the_way, 3),
+        "force that presses the mean one in": value_of(result.threshold, "N", 3),
+        "they lie within": value_of(result.asked.connector.reach, "m", 3),
     }

@@ -44,13 +44,13 @@ def point(result: FilmResult, i: int) -> dict[str, str]:
     for name in FRICTION:  # the summary says what is lacking
         if {_coefficient(value) for value in result.states[name]} <= {NOT_KNOWN}:
             rows.pop(FRICTION[name], None)
-    for part in result.passing:
-        if part.share[i] > 0:
-            rows[f"{part.name}: particles narrower than h"] = share(part.share[i])
+    for population in result.passing:
+        if population.share[i] > 0:
+            rows[f"{population.name}: particles narrower than h"] = share(population.share[i])
     if brought := result.entrainment:
         rows["largest particle dragged in"] = value_of(brought.largest[i], "m")
-        for part, density in zip(result.passing, brought.areal_density, strict=True):
-            rows[f"{part.name}: particles that enter"] = value_of(density[i], "1/m^2")
+        for population, density in zip(result.passing, brought.areal_density, strict=True):
+            rows[f"{population.name}: particles that enter"] = value_of(density[i], "1/m^2")
     return rows
 
 
@@ -61,7 +61,7 @@ def answer(result: FilmResult) -> list[str]:
     def ends_of(name: str, unit: str = "") -> str:
         said = [states[name][i] for i in ends]
         return " to ".join(dict.fromkeys(
-            share(each) if not unit else value_of(each, unit, 3) for each in said
+            share(value) if not unit else value_of(value, unit, 3) for value in said
         ))  # fmt: skip
 
     lambdas = " to ".join(number(states["lambda_ratio"][i], 2) for i in ends)
@@ -90,17 +90,19 @@ def summary(result: FilmResult) -> list[str]:
     states = result.states
     out = [f"Lubrication is {', and '.join(_regimes(result))}."]
     ends = sorted({0, len(states["speed"]) - 1})
-    narrower = [part for part in result.passing if any(part.share[i] > 0 for i in ends)]
+    narrower = [
+        population for population in result.passing if any(population.share[i] > 0 for i in ends)
+    ]
     if result.passing and not narrower:
         gap = value_of(max(states["h"][i] for i in ends), "m")
         out.append(f"No particle is narrower than the gap of {gap}{' at most' * (len(ends) > 1)}.")
-    for part in narrower:
+    for population in narrower:
         at = [
-            f"{share(part.share[i])} of the particles are narrower than the gap of "
+            f"{share(population.share[i])} of the particles are narrower than the gap of "
             f"{value_of(states['h'][i], 'm')} at {value_of(states['speed'][i], 'm/s')}"
             for i in ends
         ]
-        out.append(f"{part.name}: {'; '.join(at)}.")
+        out.append(f"{population.name}: {'; '.join(at)}.")
     if rare := meets(result.particles_held or 0.0):
         out.append(f"{rare[0].upper()}{rare[1:]}, and the others are as without particles.")
     if lacking := _lacking(result):
@@ -112,7 +114,9 @@ def _regimes(result: FilmResult) -> list[str]:
     """Up to where it is boundary, and from where the film is full; or why it never is."""
     film = result.conditions
     slow, fast = result.regime_speeds
-    most, few = (f"solids carry {percent(part)} of the load" for part in (film.most, film.few))
+    most, few = (
+        f"solids carry {percent(load_share)} of the load" for load_share in (film.most, film.few)
+    )
     out = [f"boundary up to {value_of(slow, 'm/s')}, where {most}"]
     if slow is None:
         out = [f"never boundary, because there is no speed at which {most}"]
@@ -138,6 +142,6 @@ def _lacking(result: FilmResult) -> list[str]:
     needs = {
         "film.slide_roll": film.slide_roll is None,
         "film.oil.eyring_stress": film.oil.eyring_stress is None,
-        "[outputs.friction]": not any(isinstance(each, Friction) for each in outputs),
+        "[outputs.friction]": not any(isinstance(output, Friction) for output in outputs),
     }
     return [name for name, lacks in needs.items() if lacks]

@@ -190,7 +190,7 @@ def text_table(
     kinds = ["", *(" class=words" if text in reads else " class=n" for text in heads[1:])]
 
     def cells(tag: str, row: Iterable[str]) -> list[str]:
-        each = zip(row, kinds, strict=True)
-        return [f"<{tag}{kind}>{breaking(words(text))}</{tag}>" for text, kind in each]
+        pairs = zip(row, kinds, strict=True)
+        return [f"<{tag}{kind}>{breaking(words(text))}</{tag}>" for text, kind in pairs]
 
     return table(cells("th", heads), [cells("td", row) for row in rows])

@@ -113,13 +113,13 @@ def _jumps(law: AbstractAsperityLaw) -> str:
         touch = law.onset * float(law.yield_interference(**body)) * body["H"] / w
         out.append(f"at touch: F from 0 to {_signed_text(touch)} πwR")
     for y, jump in law.jumps.items():
-        found = [
+        changes = [
             f"{symbol} {_signed_text(100 * step)} %"
             for symbol, step in zip("FAS", jump, strict=True)
             if abs(step) > 5e-5
         ]
-        if found:
-            out.append(f"{number(y)}: {', '.join(found)}")
+        if changes:
+            out.append(f"{number(y)}: {', '.join(changes)}")
     return "; ".join(out) if out else "none"
 
 

@@ -55,7 +55,7 @@ def masses_of(kilograms: Sequence[float]) -> list[str]:
     """
     largest = max(kilograms, default=0.0)
     unit, size = next(((unit, size) for unit, size in UNITS if largest >= size), UNITS[-1])
-    return [f"{number(each / size, 3)} {unit}" if each else "0 g" for each in kilograms]
+    return [f"{number(mass / size, 3)} {unit}" if mass else "0 g" for mass in kilograms]
 
 
 def flows_of(kilograms_per_second: Sequence[float]) -> list[str]:
@@ -64,7 +64,7 @@ def flows_of(kilograms_per_second: Sequence[float]) -> list[str]:
     >>> flows_of([2e-7, 3e-7])
     ['0.72 g/h', '1.08 g/h']
     """
-    return [f"{each}/h" for each in masses_of([HOUR * each for each in kilograms_per_second])]
+    return [f"{mass}/h" for mass in masses_of([HOUR * flow for flow in kilograms_per_second])]
 
 
 def flow_of(kilograms_per_second: float) -> str:

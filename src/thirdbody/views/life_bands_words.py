@@ -17,14 +17,14 @@ HEADS = ("input", "at its low end", "at its high end", "factor")
 MEANS = {"factor": "the larger over the smaller, the other inputs as the study has them"}
 
 
-def answer(found: LifeAssessment) -> list[str]:
+def answer(assessment: LifeAssessment) -> list[str]:
     """Bands of code, wear and times."""
-    return words_of_bands(found.bands)[:-1]
+    return words_of_bands(assessment.bands)[:-1]
 
 
-def rows(found: LifeAssessment) -> list[list[str]]:
+def rows(assessment: LifeAssessment) -> list[list[str]]:
     """The table: a row an input, the one that moves most first."""
-    bands = found.bands
+    bands = assessment.bands
     unit = "1/m^3" if bands.swings_of == "count from 6 µm" else "m"
 
     def amount(value: float) -> str:
@@ -34,18 +34,18 @@ def rows(found: LifeAssessment) -> list[list[str]]:
 
     return [
         [
-            each.name,
-            amount(each.low),
-            amount(each.high),
-            number(each.factor, 3) if math.isfinite(each.factor) else "no end",
+            swing.name,
+            amount(swing.low),
+            amount(swing.high),
+            number(swing.factor, 3) if math.isfinite(swing.factor) else "no end",
         ]
-        for each in bands.swings
+        for swing in bands.swings
     ]
 
 
-def last_words(found: LifeAssessment) -> list[str]:
+def last_words(assessment: LifeAssessment) -> list[str]:
     """What moves the answer most, and what to do."""
-    bands = found.bands
+    bands = assessment.bands
     most = words_of_bands(bands)[-1]
     low, high = min(bands.probabilities), max(bands.probabilities)
     return [

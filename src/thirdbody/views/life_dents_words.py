@@ -24,14 +24,14 @@ MEANS = {
 }
 
 
-def _heading(found: LifeDents) -> str:
+def _heading(dents: LifeDents) -> str:
     """What the table is of."""
-    said = "taken as" if found.assumed else "given as"
-    ratio = number(found.entry_ratio, 3)
+    said = "taken as" if dents.assumed else "given as"
+    ratio = number(dents.entry_ratio, 3)
     return f"Dents in the tracks by each oil as it ends, entry ratio {said} {ratio}:"
 
 
-def _rows(found: LifeDents) -> list[list[str]]:
+def _rows(dents: LifeDents) -> list[list[str]]:
     """A row for each oil and track."""
     return [
         [
@@ -42,7 +42,7 @@ def _rows(found: LifeDents) -> list[list[str]]:
             number(1e-6 * track.per_overrolling, 2),
             value_of(track.depth_p95, "m", 3) if track.per_hour > 0 else "-",
         ]
-        for oil in found.oils
+        for oil in dents.oils
         for i, track in enumerate(oil.tracks)
     ]
 
@@ -52,19 +52,19 @@ def _oil(oil: OilDents) -> str:
     return f"{oil.oil}, after {duration_of(oil.time)}" if after else oil.oil
 
 
-def dent_answer(found: LifeDents | None) -> list[str]:
+def dent_answer(dents: LifeDents | None) -> list[str]:
     """How often each track is dented, with the filter as it is, with others, and without."""
-    if found is None or len(found.oils) < 2:
+    if dents is None or len(dents.oils) < 2:
         return []
-    first, *others = found.oils[1:]
+    first, *others = dents.oils[1:]
     who = f"The oil {first.oil} dents" if first.oil.startswith("with") else "The oil dents"
-    tracks = [f"{each.track} {_count(each.per_hour)}" for each in first.tracks]
+    tracks = [f"{track.track} {_count(track.per_hour)}" for track in first.tracks]
     when = _time_clause(first)
     out = [f"{who} {join_words(tracks)} times an hour{when}"]
     out += [
-        f"{each.oil} {join_words([_count(track.per_hour) for track in each.tracks])} times"
-        f"{_time_clause(each) if _time_clause(each) != when else ''}"
-        for each in others
+        f"{oil.oil} {join_words([_count(track.per_hour) for track in oil.tracks])} times"
+        f"{_time_clause(oil) if _time_clause(oil) != when else ''}"
+        for oil in others
     ]
     return [f"{'; '.join(out)}.", *_smaller(first)]
 
@@ -75,10 +75,10 @@ def _time_clause(oil: OilDents) -> str:
 
 def _smaller(oil: OilDents) -> list[str]:
     """What the particles do that the code does not count."""
-    some = [each for each in oil.tracks if each.smaller_per_hour > 0]
+    some = [track for track in oil.tracks if track.smaller_per_hour > 0]
     if not some:
         return []
-    most = max(some, key=lambda each: each.smaller_per_hour)
+    most = max(some, key=lambda track: track.smaller_per_hour)
     depth = most.smaller_depth
     deep = f", {value_of(depth, 'm', 2)} deep on average" if math.isfinite(depth) else ""
     return [
@@ -92,8 +92,8 @@ def _count(value: float) -> str:
     return number(float(np.format_float_scientific(value, 1)), 6 if 1 <= value < 1e6 else 2)
 
 
-def tables_of_dents(found: LifeDents | None) -> list[WordTable]:
+def tables_of_dents(dents: LifeDents | None) -> list[WordTable]:
     """The table below its heading; none where nothing is dented."""
-    if found is None or not found.oils:
+    if dents is None or not dents.oils:
         return []
-    return [WordTable(HEADS, _rows(found), MEANS, _heading(found))]
+    return [WordTable(HEADS, _rows(dents), MEANS, _heading(dents))]

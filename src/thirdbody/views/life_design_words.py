@@ -25,44 +25,44 @@ SAME = 1.005
 """Factor of times below which they are the same."""
 
 
-def answer(found: LifeDesign) -> list[str]:
+def answer(result: LifeDesign) -> list[str]:
     """What to take, and what that gives."""
-    return _for_code(found) if found.codes else _longest(found)
+    return _for_code(result) if result.codes else _longest(result)
 
 
-def _for_code(found: LifeDesign) -> list[str]:
-    design = found.asked.design
+def _for_code(result: LifeDesign) -> list[str]:
+    design = result.asked.design
     assert design is not None
-    if not found.best:
-        none = "The filter is" if len(found.names) == 1 else f"None of the {len(found.names)} is"
-        low = np.nanmin(found.flows) if np.any(np.isfinite(found.flows)) else math.nan
+    if not result.best:
+        none = "The filter is" if len(result.names) == 1 else f"None of the {len(result.names)} is"
+        low = np.nanmin(result.flows) if np.any(np.isfinite(result.flows)) else math.nan
         with_flow = (
             "; more flow is not enough either, as it holds too few of the particles"
             if math.isnan(low)
-            else f"; with {_flow(low)} {found.names[int(np.nanargmin(found.flows))]} would be"
+            else f"; with {_flow(low)} {result.names[int(np.nanargmin(result.flows))]} would be"
         )
-        what = " not enough" if len(found.names) == 1 else " enough"
+        what = " not enough" if len(result.names) == 1 else " enough"
         return [f"{none}{what} for {design.code}{with_flow}."]
-    code = found.codes[found.names.index(found.best)]
-    first = "is enough" if len(found.names) == 1 else f"is the first of {len(found.names)} enough"
-    return [f"{found.best[0].upper()}{found.best[1:]} {first} for {design.code}: the oil comes to "
-            f"{code}."]  # fmt: skip
+    code = result.codes[result.names.index(result.best)]
+    first = "is enough" if len(result.names) == 1 else f"is the first of {len(result.names)} enough"
+    return [f"{result.best[0].upper()}{result.best[1:]} {first} for {design.code}: the oil comes "
+            f"to {code}."]  # fmt: skip
 
 
-def _longest(found: LifeDesign) -> list[str]:
-    (event,) = found.asked.until
-    end = duration_of(found.asked.duration)
-    never = [n for n, time in zip(found.names, found.times, strict=True) if math.isinf(time)]
+def _longest(result: LifeDesign) -> list[str]:
+    (event,) = result.asked.until
+    end = duration_of(result.asked.duration)
+    never = [n for n, time in zip(result.names, result.times, strict=True) if math.isinf(time)]
     if never:
         out = f"With {join_words(never)} it takes more than {end} until {event.sentence}"
         more = ": a longer life.duration tells them apart" if len(never) > 1 else ""
         return [f"{out}{more}."]
-    time = float(np.max(found.times))
-    next_best = sorted(float(each) for each in found.times)[-2]
+    time = float(np.max(result.times))
+    next_best = sorted(float(time) for time in result.times)[-2]
     more = f", {number(time / next_best, 3)} times as long as with the next" if next_best else ""
     if time < SAME * next_best:
         more = ", about as long as with the next"
-    said = f"With {found.best} it takes longest until {event.sentence}"
+    said = f"With {result.best} it takes longest until {event.sentence}"
     return [f"{said}: {duration_of(time)}{more}."]
 
 
@@ -70,26 +70,28 @@ def _flow(cubic_metres: float) -> str:
     return f"{number(6e4 * cubic_metres, 3)} L/min"
 
 
-def heads(found: LifeDesign) -> tuple[str, ...]:
+def heads(result: LifeDesign) -> tuple[str, ...]:
     """Heads of the table."""
-    if found.codes:
+    if result.codes:
         return ("filter", "comes to", "least flow")
     return ("choice", "time")
 
 
-def rows(found: LifeDesign) -> list[list[str]]:
+def rows(result: LifeDesign) -> list[list[str]]:
     """The table: a row a choice."""
-    if found.codes:
-        flows = ["none is enough" if math.isnan(f) else _flow(f) for f in found.flows]
-        return [list(row) for row in zip(found.names, found.codes, flows, strict=True)]
+    if result.codes:
+        flows = ["none is enough" if math.isnan(f) else _flow(f) for f in result.flows]
+        return [list(row) for row in zip(result.names, result.codes, flows, strict=True)]
     times = [
-        f"more than {duration_of(found.asked.duration)}" if math.isinf(t) else duration_of(float(t))
-        for t in found.times
+        f"more than {duration_of(result.asked.duration)}"
+        if math.isinf(t)
+        else duration_of(float(t))
+        for t in result.times
     ]
-    return [list(row) for row in zip(found.names, times, strict=True)]
+    return [list(row) for row in zip(result.names, times, strict=True)]
 
 
-def last_words(found: LifeDesign) -> list[str]:
+def last_words(result: LifeDesign) -> list[str]:
     """What was not known."""
     return [
         "What nobody can predict: the ingress, and whether filters hold in service what their data "

@@ -27,11 +27,11 @@ MEANS = {
 }
 
 
-def answer(found: DryResult) -> list[str]:
+def answer(result: DryResult) -> list[str]:
     """What the contact comes to, whether wear feeds itself, and how much is worn: two sentences."""
-    history = found.history
+    history = result.history
     end = duration_of(float(history.times[-1]))
-    stopped, vain = stop(found), in_vain(found)
+    stopped, vain = stop(result), in_vain(result)
     when = f"{stopped}:" if stopped else f"After {end}"
     worn = " and ".join(
         f"surface {side} by {value_of(_last(history, f'wear_{side}'), 'm', 3)}" for side in (1, 2)
@@ -82,9 +82,9 @@ def _why(history: DryHistory) -> str:
     return ", and some of them never leave it" if slowest <= 0 else ""
 
 
-def rows(found: DryResult) -> list[list[str]]:
+def rows(result: DryResult) -> list[list[str]]:
     """The table: a row a time."""
-    history = found.history
+    history = result.history
     more = {name: values for name, (_, values) in history.more.items()}
     out = []
     for i, time in enumerate(history.times):
@@ -102,14 +102,14 @@ def rows(found: DryResult) -> list[list[str]]:
     return out
 
 
-def last_words(found: DryResult) -> list[str]:
+def last_words(result: DryResult) -> list[str]:
     """Flows, events, time scales, and what was not known."""
-    history = found.history
+    history = result.history
     some = [row for row in history.flows() if row[2] > 0][:3]
     masses = masses_of([mass for _, _, mass in some])
     shown = [f"{m} from {start} to {end}" for m, (start, end, _) in zip(masses, some, strict=True)]
     out = [f"Most of the particles: {join_words(shown)}."] if shown else []
-    out += [*band_words(found), *events(history)]
+    out += [*band_words(result), *events(history)]
     scales = [
         f"{name} {duration_of(time)}"
         for name, time in history.time_scales.items()
@@ -117,7 +117,7 @@ def last_words(found: DryResult) -> list[str]:
     ]
     out.append(f"Time scales: {', '.join(scales)}.")
     unknown = ["what arrives", "what comes round again (life.dry.loss)", "the wear coefficients"]
-    if found.asked.debris is not None:
+    if result.asked.debris is not None:
         unknown.append("the sizes and the hardness of the debris")
     out.append(f"What nobody can predict: {join_words(unknown)}. Vary them with --set.")
     return out

@@ -50,36 +50,36 @@ MOST_TIMES, MOST_EVENTS = 4, 6
 """Times of one kind of event that are listed, and kinds of events."""
 
 
-def answer(found: LifeResult) -> list[str]:
+def answer(result: LifeResult) -> list[str]:
     """How dirty the oil becomes, what it tends to, and where most of its dirt goes."""
-    history = found.history
+    history = result.history
     end = duration_of(float(history.times[-1]))
     out = [f"The oil goes from {history.codes[0]} to {history.codes[-1]} in {end}."]
-    if stopped := stop(found):
+    if stopped := stop(result):
         out[0] = f"{stopped}: the oil has gone from {history.codes[0]} to {history.codes[-1]}."
-    out += [each for each in (in_vain(found), _tends(history)) if each]
+    out += [sentence for sentence in (in_vain(result), _tends(history)) if sentence]
     said = history.reproduction
     out.append(f"{said[0].upper()}{said[1:]}.")
     out.append(_largest_flows(history))
-    return [*out, *dent_answer(found.dents)]
+    return [*out, *dent_answer(result.dents)]
 
 
-def stop(found: LifeResult | DryResult) -> str:
+def stop(result: LifeResult | DryResult) -> str:
     """What ended the history before its time, and when."""
-    history = found.history
-    if history.times[-1] >= found.asked.duration * (1 - 1e-12) or not history.events:
+    history = result.history
+    if history.times[-1] >= result.asked.duration * (1 - 1e-12) or not history.events:
         return ""
     last = history.events[-1]
     return f"After {duration_of(last.time)} {last.sentence}"
 
 
-def in_vain(found: LifeResult | DryResult) -> str:
+def in_vain(result: LifeResult | DryResult) -> str:
     """What a history waited for to its end, and did not come."""
-    if stop(found):
+    if stop(result):
         return ""
-    came = {each.sentence for each in found.history.events}
-    lacks = [each.sentence for each in found.asked.until if each.sentence not in came]
-    end = duration_of(found.asked.duration)
+    came = {event.sentence for event in result.history.events}
+    lacks = [goal.sentence for goal in result.asked.until if goal.sentence not in came]
+    end = duration_of(result.asked.duration)
     return f"Within {end} it does not happen that {join_words(lacks)}." if lacks else ""
 
 
@@ -100,7 +100,7 @@ def _tends(history: LifeHistory) -> str:
         out += f", and is within half a number of it after {_each_time(ends)}."
         out += _bypass_sentence(history)
     else:
-        grow = [size for part, size in zip(code.split("/"), SIZES, strict=True) if part == "-"]
+        grow = [size for digits, size in zip(code.split("/"), SIZES, strict=True) if digits == "-"]
         out = (
             f"The count from {join_words(grow)} on grows for ever: nothing takes the smallest of "
             "these particles out"
@@ -163,7 +163,7 @@ def hidden_words(history: LifeHistory) -> list[str]:
     grown = dirt[-1] - dirt[since]
     if not (dirt[-1] > RISES * dirt[since] and small[-1] - small[since] > 0.5 * grown):
         return []
-    now, then = (number(1e3 * float(each), 3) for each in (dirt[since], dirt[-1]))
+    now, then = (number(1e3 * float(mass), 3) for mass in (dirt[since], dirt[-1]))
     return [
         f"The code stays at {history.codes[-1]} from {duration_of(float(history.times[since]))} on "
         f"while the dirt rises from {now} to {then} mg/L: it is in particles below "
@@ -184,8 +184,8 @@ def _largest_flows(history: LifeHistory) -> str:
 def events(history: LifeHistory | DryHistory) -> list[str]:
     """What happened and when, a sentence for each kind; of many kinds the first and the last."""
     times: dict[str, list[str]] = {}
-    for each in history.events:
-        times.setdefault(each.sentence, []).append(duration_of(each.time))
+    for event in history.events:
+        times.setdefault(event.sentence, []).append(duration_of(event.time))
     out = [f"After {_list_times(when)}: {what}." for what, when in times.items()]
     if len(out) <= MOST_EVENTS:
         return out
@@ -199,13 +199,13 @@ def _list_times(times: list[str]) -> str:
     return f"{times[0]}, and {len(times) - 1} times more until {times[-1]}"
 
 
-def rows(found: LifeResult) -> list[list[str]]:
+def rows(result: LifeResult) -> list[list[str]]:
     """The table: a row a time."""
-    history = found.history
+    history = result.history
     dirt = history.mass_per_volume.sum(axis=1)
     out = []
     for i, time in enumerate(history.times):
-        counts = [number(float(each) / 1e6, 3) for each in history.counts[i]]
+        counts = [number(float(count) / 1e6, 3) for count in history.counts[i]]
         out.append(
             [
                 duration_of(float(time)),
@@ -217,9 +217,9 @@ def rows(found: LifeResult) -> list[list[str]]:
     return out
 
 
-def band_words(found: LifeResult | DryResult) -> list[str]:
+def band_words(result: LifeResult | DryResult) -> list[str]:
     """Bands of code, wear and times, and what moves the answer most."""
-    bands = found.bands
+    bands = result.bands
     return [] if bands is None else words_of_bands(bands)
 
 
@@ -230,20 +230,20 @@ def words_of_bands(bands: LifeBands) -> list[str]:
     ----------
     bands : LifeBands
     """
-    part = percent(max(bands.probabilities) - min(bands.probabilities))
+    share = percent(max(bands.probabilities) - min(bands.probabilities))
     end = duration_of(bands.duration)
-    out, known = [], "With what is known of its numbers"
+    out, opening = [], "With what is known of its numbers"
     if bands.codes:
         low, high = bands.codes[0], bands.codes[-1]
-        out.append(f"{known} the oil is at {low} to {high} after {end} ({part}).")
+        out.append(f"{opening} the oil is at {low} to {high} after {end} ({share}).")
     if np.all(np.isfinite(bands.wear)):
         least, most = (value_of(float(w), "m", 3) for w in (bands.wear[0], bands.wear[-1]))
         worn = f"the surface that wears more is worn by {least} to {most}"
         out.append(
-            f"{'By then' if out else known} {worn}" + ("." if out else f" after {end} ({part}).")
+            f"{'By then' if out else opening} {worn}" + ("." if out else f" after {end} ({share}).")
         )
     if np.all(np.isfinite(bands.R0)) and np.any(bands.R0 > 0):
-        least, most = (number(float(each), 2) for each in (bands.R0[0], bands.R0[-1]))
+        least, most = (number(float(R0), 2) for R0 in (bands.R0[0], bands.R0[-1]))
         bred = "about 1 other" if least == most == "1" else f"{least} to {most} others"
         out.append(f"One particle of debris breeds {bred}.")
     for name, times in bands.times.items():
@@ -270,9 +270,9 @@ def _time_or_censored(seconds: float, bands: LifeBands) -> str:
     )
 
 
-def least_flow_words(found: LifeResult, code: str) -> list[str]:
+def least_flow_words(result: LifeResult, code: str) -> list[str]:
     """How much flow each filter needs for a code, a sentence each."""
-    circuit = found.asked.circuit
+    circuit = result.asked.circuit
     out = []
     for i, name in enumerate(circuit.filter_names()):
         if circuit.filters[i].line:
@@ -288,16 +288,16 @@ def least_flow_words(found: LifeResult, code: str) -> list[str]:
     return out or [f"No filter of its own line can be sized for {code}."]
 
 
-def last_words(found: LifeResult) -> list[str]:
+def last_words(result: LifeResult) -> list[str]:
     """Events, time scales, and what was not known."""
-    history = found.history
+    history = result.history
     scales = [f"{name} {duration_of(time)}" for name, time in history.time_scales.items()]
-    out = [*band_words(found), *hidden_words(history), *slow_words(history),
+    out = [*band_words(result), *hidden_words(history), *slow_words(history),
            *events(history)]  # fmt: skip
     if scales:
         out.append(f"Time scales: {', '.join(scales)}.")
     unknown = ["the ingress"]
-    if any(each.service == 1 for each in history.circuit.filters):
+    if any(oil_filter.service == 1 for oil_filter in history.circuit.filters):
         unknown.append("whether the filters hold in service what their data sheets say")
     out.append(
         f"What nobody can predict: {join_words(unknown)}. Vary them, or give reports of the oil: "
@@ -318,45 +318,45 @@ def facts(history: LifeHistory) -> dict[str, str]:
 
 
 # ------------------------------------------------------------------------------ reports
-def report_answer(found: OilReports) -> list[str]:
+def report_answer(reports: OilReports) -> list[str]:
     """What the reports say, in sentences."""
-    best, low, high = flows_of([found.mass_rate, found.mass_low, found.mass_high])
-    first = value_of(float(found.sizes[0]), "m")
+    best, low, high = flows_of([reports.mass_rate, reports.mass_low, reports.mass_high])
+    first = value_of(float(reports.sizes[0]), "m")
     spread = "lies somewhere in the range of its code"
-    if not found.coded:
-        spread = f"is off by a factor of at most {number(found.width**0.5, 2)}"
+    if not reports.coded:
+        spread = f"is off by a factor of at most {number(reports.width**0.5, 2)}"
     out = [
         f"Between the reports {best} of dirt from {first} on entered the oil: {low} to {high}, if "
         f"every count {spread}."
     ]
-    more = (zero_counts(found), below_counts(found), beyond_counts(found))
+    more = (zero_counts(reports), below_counts(reports), beyond_counts(reports))
     out += [sentence for sentence in more if sentence is not None]
-    if found.is_constant is None:
+    if reports.is_constant is None:
         out.append("Two reports fit any ingress: whether it is constant, a third one says.")
-    elif found.is_constant:
-        out.append(f"A constant ingress fits them ({_misfit(found)}).")
+    elif reports.is_constant:
+        out.append(f"A constant ingress fits them ({_misfit(reports)}).")
     else:
         out.append(
-            f"A constant ingress does not fit them ({_misfit(found)}): it changed, or the filters "
-            "do not hold what their data sheets say."
+            f"A constant ingress does not fit them ({_misfit(reports)}): it changed, or the "
+            "filters do not hold what their data sheets say."
         )
     return out
 
 
-def _misfit(found: OilReports) -> str:
-    degrees = "degree" if found.degrees == 1 else "degrees"
-    chi2, more = number(found.chi2, 3), f"{found.degrees} {degrees} of freedom"
-    return f"χ² = {chi2} with {more}, as large by chance {percent(found.probability, digits=2)}"
+def _misfit(reports: OilReports) -> str:
+    degrees = "degree" if reports.degrees == 1 else "degrees"
+    chi2, more = number(reports.chi2, 3), f"{reports.degrees} {degrees} of freedom"
+    return f"χ² = {chi2} with {more}, as large by chance {percent(reports.probability, digits=2)}"
 
 
-def report_rows(found: OilReports) -> list[list[str]]:
+def report_rows(reports: OilReports) -> list[list[str]]:
     """A row a size."""
     return [
         [
             value_of(float(size), "m"),
-            *(f"{number(60 * float(each), 3)} /min" for each in (rate, low, high)),
+            *(f"{number(60 * float(per_second), 3)} /min" for per_second in (rate, low, high)),
         ]
         for size, rate, low, high in zip(
-            found.sizes, found.rate, found.low, found.high, strict=True
+            reports.sizes, reports.rate, reports.low, reports.high, strict=True
         )
     ]

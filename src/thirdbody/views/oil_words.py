@@ -56,11 +56,11 @@ DROP = ("width", "per mm²", "deepest", "load")
 """Columns in the order in which they go where the width is small."""
 
 
-def answer(found: DirtyOil) -> list[str]:
+def answer(oil: DirtyOil) -> list[str]:
     """Sentences on who dents, who carries, and the life that is left."""
-    out = [_dents(found.populations, found.where), _carries(found)]
-    if found.life is not None:
-        out.append(_life(found.life))
+    out = [_dents(oil.populations, oil.where), _carries(oil)]
+    if oil.life is not None:
+        out.append(_life(oil.life))
     return out
 
 
@@ -70,7 +70,7 @@ def uncertainty(what_ifs: Sequence[OilWhatIf]) -> list[str]:
         return []
     most = what_ifs[0]
     out = [f"Most uncertain: {most.what}. {_effects(most)}."]
-    for_life = max(what_ifs, key=lambda each: each.life_ratio)
+    for_life = max(what_ifs, key=lambda what_if: what_if.life_ratio)
     if for_life is not most and for_life.life_ratio > max(most.life_ratio, LITTLE):
         out.append(f"For the life: {for_life.what}. {_effects(for_life)}.")
     return out
@@ -80,13 +80,13 @@ def what_if_rows(what_ifs: Sequence[OilWhatIf]) -> list[list[str]]:
     """A row an input, under `WHAT_IF_HEADS`."""
     return [
         [
-            each.what,
-            each.between,
-            _ends([_count(end) for end in each.dents]),
-            _ends([value_of(end, "m", 3) for end in each.depth]),
-            _ends([number(end, 2) for end in each.a_ISO]),
+            what_if.what,
+            what_if.between,
+            _ends([_count(end) for end in what_if.dents]),
+            _ends([value_of(end, "m", 3) for end in what_if.depth]),
+            _ends([number(end, 2) for end in what_if.a_ISO]),
         ]
-        for each in what_ifs
+        for what_if in what_ifs
     ]
 
 
@@ -101,11 +101,11 @@ def _effects(one: OilWhatIf) -> str:
     if one.code == "number":
         life += " (ISO 281 goes by steps of several codes)"
     clauses = {
-        "there are {} dents an hour": [_count(each) for each in one.dents],
+        "there are {} dents an hour": [_count(count) for count in one.dents],
         "one in twenty dents of the deepest kind is beyond {}": [
-            value_of(each, "m", 3) for each in one.depth
+            value_of(depth, "m", 3) for depth in one.depth
         ],
-        life: [number(each, 2) for each in one.a_ISO],
+        life: [number(factor, 2) for factor in one.a_ISO],
     }
     moved = [
         clause.format(" to ".join(ends)) for clause, ends in clauses.items() if ends[0] != ends[1]
@@ -115,11 +115,11 @@ def _effects(one: OilWhatIf) -> str:
 
 def _dents(parts: Sequence[PopulationDents], where: str) -> str:
     """Sentence on who dents most often and who deepest."""
-    if not any(each.per_hour > 0 for each in parts):
+    if not any(population.per_hour > 0 for population in parts):
         return f"Nothing dents {where}: no particle of the oil is larger than the film and hard."
-    often = max(parts, key=lambda each: each.per_hour)
-    known = [each for each in parts if math.isfinite(each.depth_p95)]
-    deep = max(known, key=lambda each: each.depth_p95) if known else None
+    often = max(parts, key=lambda population: population.per_hour)
+    with_depth = [population for population in parts if math.isfinite(population.depth_p95)]
+    deep = max(with_depth, key=lambda population: population.depth_p95) if with_depth else None
     if deep is None:
         return (
             f"{_capital(often.name)} is flattened in {where}: {_rate(often)} marks an hour, "
@@ -127,36 +127,42 @@ def _dents(parts: Sequence[PopulationDents], where: str) -> str:
         )
     if deep is often:
         most = "" if len(parts) == 1 else " most often and deepest"
-        rest = [each for each in parts if each is not often]
-        told = f"{_capital(often.name)} dents {where}{most}: {_number_and_depth(often)}"
-        return told + "".join(f"; {each.name}: {_number_and_depth(each)}" for each in rest) + "."
-    others = [each for each in parts if each not in (deep, often)]
+        rest = [population for population in parts if population is not often]
+        sentence = f"{_capital(often.name)} dents {where}{most}: {_number_and_depth(often)}"
+        return (
+            sentence
+            + "".join(
+                f"; {population.name}: {_number_and_depth(population)}" for population in rest
+            )
+            + "."
+        )
+    others = [population for population in parts if population not in (deep, often)]
     return (
         f"{_capital(deep.name)} dents {where} deepest: {_number_and_depth(deep)}; {often.name} "
         f"dents it most often: {_number_and_depth(often)}"
-        + "".join(f"; {each.name}: {_number_and_depth(each)}" for each in others)
+        + "".join(f"; {population.name}: {_number_and_depth(population)}" for population in others)
         + "."
     )
 
 
-def _number_and_depth(each: PopulationDents) -> str:
-    if not each.per_hour > 0:
+def _number_and_depth(population: PopulationDents) -> str:
+    if not population.per_hour > 0:
         return "no dents"
-    told = f"{_rate(each)} dents an hour"
-    if math.isnan(each.depth):
-        return f"{_rate(each)} flat marks an hour, {value_of(each.width, 'm', 3)} wide"
+    often = f"{_rate(population)} dents an hour"
+    if math.isnan(population.depth):
+        return f"{_rate(population)} flat marks an hour, {value_of(population.width, 'm', 3)} wide"
     return (
-        f"{told}, {value_of(each.depth, 'm', 3)} deep on average, one in twenty beyond "
-        f"{value_of(each.depth_p95, 'm', 3)}"
+        f"{often}, {value_of(population.depth, 'm', 3)} deep on average, one in twenty beyond "
+        f"{value_of(population.depth_p95, 'm', 3)}"
     )
 
 
-def _carries(found: DirtyOil) -> str:
-    parts = [f"{each.name} {_share(each.load_share)}" for each in found.populations]
+def _carries(oil: DirtyOil) -> str:
+    parts = [f"{population.name} {_share(population.load_share)}" for population in oil.populations]
     return (
-        f"The film of {value_of(found.film, 'm', 3)} carries {_share(found.film_share)} of the "
-        f"load at {value_of(found.speed, 'm/s', 3)} (lambda = {number(found.lambda_ratio, 2)}), "
-        f"{join_words([f'asperities {_share(found.asperity_share)}', *parts])}."
+        f"The film of {value_of(oil.film, 'm', 3)} carries {_share(oil.film_share)} of the "
+        f"load at {value_of(oil.speed, 'm/s', 3)} (lambda = {number(oil.lambda_ratio, 2)}), "
+        f"{join_words([f'asperities {_share(oil.asperity_share)}', *parts])}."
     )
 
 
@@ -187,25 +193,25 @@ def _load_warning(life: Life) -> str:
     )
 
 
-def rows(found: DirtyOil) -> list[list[str]]:
+def rows(oil: DirtyOil) -> list[list[str]]:
     """A row a population, under `HEADS`."""
     return [
         [
-            each.name,
-            _share(each.load_share),
-            _rate(each),
-            number(1e-6 * each.per_overrolling, 2),
-            _length(each.depth, each),
-            _length(each.depth_p95, each),
-            _length(each.deepest, each),
-            _length(each.width, each),
+            population.name,
+            _share(population.load_share),
+            _rate(population),
+            number(1e-6 * population.per_overrolling, 2),
+            _length(population.depth, population),
+            _length(population.depth_p95, population),
+            _length(population.deepest, population),
+            _length(population.width, population),
         ]
-        for each in found.populations
+        for population in oil.populations
     ]
 
 
-def _length(value: float, each: PopulationDents) -> str:
-    return "-" if not each.per_hour > 0 else value_of(value, "m", 3)
+def _length(value: float, population: PopulationDents) -> str:
+    return "-" if not population.per_hour > 0 else value_of(value, "m", 3)
 
 
 SAME_DENTS = 1.1
@@ -214,28 +220,28 @@ SAME_DENTS = 1.1
 
 def filter_answer(before: DirtyOil, after: DirtyOil) -> str:
     """What a filter changes, in a sentence."""
-    dents = [sum(each.per_hour for each in found.populations) for found in (before, after)]
-    told = "In one pass the filter takes the dents from "
-    told += f"{_count(dents[0])} to {_count(dents[1])} an hour"
+    dents = [sum(population.per_hour for population in oil.populations) for oil in (before, after)]
+    sentence = "In one pass the filter takes the dents from "
+    sentence += f"{_count(dents[0])} to {_count(dents[1])} an hour"
     if dents[1] > 0 and dents[0] > dents[1]:
-        told += f", {number(dents[0] / dents[1], 2)} times fewer"
+        sentence += f", {number(dents[0] / dents[1], 2)} times fewer"
     lives = (before.life, after.life)
     if lives[0] is not None and lives[1] is not None:
-        told += f", the oil from {lives[0].code} to {lives[1].code}"
-        a = [each.a_ISO for each in lives]  # type: ignore[union-attr]
+        sentence += f", the oil from {lives[0].code} to {lives[1].code}"
+        a = [life.a_ISO for life in lives]  # type: ignore[union-attr]
         if all(map(math.isfinite, a)):
-            told += f", and a_ISO from {number(a[0], 2)} to {number(a[1], 2)}"
-            told += f", {number(a[1] / a[0], 2)} times the life"
+            sentence += f", and a_ISO from {number(a[0], 2)} to {number(a[1], 2)}"
+            sentence += f", {number(a[1] / a[0], 2)} times the life"
         if lives[0].place != lives[1].place:
-            told += f"; ISO 281 has its own factors for {PLACES[lives[1].place]}"
+            sentence += f"; ISO 281 has its own factors for {PLACES[lives[1].place]}"
     more = after.most_per_hour
     if more > SAME_DENTS * dents[1]:
         size = value_of(after.from_size, "m", 3)
-        told += (
+        sentence += (
             f". Its data sheet begins at {size}, and below that the line of its β goes on: if it "
             f"held nothing there, {_count(more)} dents an hour would be left"
         )
-    return f"{told}."
+    return f"{sentence}."
 
 
 def filter_rows(before: DirtyOil, after: DirtyOil) -> list[list[str]]:
@@ -248,31 +254,37 @@ def filter_rows(before: DirtyOil, after: DirtyOil) -> list[list[str]]:
     both = (before, after)
     if before.life is not None and after.life is not None:
         lives = (before.life, after.life)
-        add("ISO 4406 code", [each.code for each in lives])
-        add("e_C", [number(each.e_C, 2) for each in lives])
-        add("life factor a_ISO", [number(each.a_ISO, 2) for each in lives])
+        add("ISO 4406 code", [life.code for life in lives])
+        add("e_C", [number(life.e_C, 2) for life in lives])
+        add("life factor a_ISO", [number(life.a_ISO, 2) for life in lives])
         if not math.isnan(before.life.hours):
-            add("rating life [h]", [_count(each.hours) for each in lives])
-        add("kappa", [number(each.kappa, 3) for each in lives])
-    add("lambda", [number(each.lambda_ratio, 2) for each in both])
-    add("load on the film", [_share(each.film_share) for each in both])
-    add("load on asperities", [_share(each.asperity_share) for each in both])
-    for i, part in enumerate(before.populations):
-        pair = (part, after.populations[i])
-        add(f"{part.name}: load", [_share(each.load_share) for each in pair])
-        add(f"{part.name}: dents an hour", [_rate(each) for each in pair])
+            add("rating life [h]", [_count(life.hours) for life in lives])
+        add("kappa", [number(life.kappa, 3) for life in lives])
+    add("lambda", [number(oil.lambda_ratio, 2) for oil in both])
+    add("load on the film", [_share(oil.film_share) for oil in both])
+    add("load on asperities", [_share(oil.asperity_share) for oil in both])
+    for i, population in enumerate(before.populations):
+        pair = (population, after.populations[i])
+        add(f"{population.name}: load", [_share(dents.load_share) for dents in pair])
+        add(f"{population.name}: dents an hour", [_rate(dents) for dents in pair])
         add(
-            f"{part.name}: dents per mm² and pass",
-            [number(1e-6 * each.per_overrolling, 2) for each in pair],
+            f"{population.name}: dents per mm² and pass",
+            [number(1e-6 * dents.per_overrolling, 2) for dents in pair],
         )
-        add(f"{part.name}: depth", [_length(each.depth, each) for each in pair])
-        add(f"{part.name}: 5 % deeper than", [_length(each.depth_p95, each) for each in pair])
-        add(f"{part.name}: deepest of an hour", [_length(each.deepest, each) for each in pair])
+        add(f"{population.name}: depth", [_length(dents.depth, dents) for dents in pair])
+        add(
+            f"{population.name}: 5 % deeper than",
+            [_length(dents.depth_p95, dents) for dents in pair],
+        )
+        add(
+            f"{population.name}: deepest of an hour",
+            [_length(dents.deepest, dents) for dents in pair],
+        )
     return [[name, *how] for name, how in out]
 
 
-def _rate(each: PopulationDents) -> str:
-    return _count(each.per_hour)
+def _rate(population: PopulationDents) -> str:
+    return _count(population.per_hour)
 
 
 def _count(value: float) -> str:

@@ -41,21 +41,21 @@ def _entry(kind: Any) -> dict[str, object]:
         **{key: getattr(kind, key) for key in about},
         "class": kind.__name__,
         "needs": list(kind.needs),
-        "options": [_option(each) for each in declarations(kind)],
+        "options": [_option(declaration) for declaration in declarations(kind)],
         "columns": {name: column._asdict() for name, column in kind.columns.items()},
     }
 
 
-def _option(each: Declaration) -> dict[str, object]:
-    about = each.quantity or {"symbol": "", "unit": ""}
+def _option(declaration: Declaration) -> dict[str, object]:
+    about = declaration.quantity or {"symbol": "", "unit": ""}
     return {
-        "key": each.name,
-        "required": each.needed,
-        "default": each.default,
+        "key": declaration.name,
+        "required": declaration.needed,
+        "default": declaration.default,
         "symbol": about["symbol"],
         "unit": about["unit"],
-        "allowed": each.allowed or ", ".join(each.options),
-        "meaning": each.meaning,
+        "allowed": declaration.allowed or ", ".join(declaration.options),
+        "meaning": declaration.meaning,
     }
 
 

@@ -42,8 +42,8 @@ PATIENCE = 120.0
 
 def find_browser() -> str | None:
     """The program of a browser that prints pages: Chromium, Chrome or Edge; None without one."""
-    if asked := os.environ.get(BROWSER):
-        return shutil.which(asked)
+    if program := os.environ.get(BROWSER):
+        return shutil.which(program)
     places = map(os.path.expandvars, PLACES.get(sys.platform, ()))
     return next(filter(None, map(shutil.which, (*COMMANDS, *places))), None)
 
@@ -56,16 +56,16 @@ def need_browser() -> str:
     InvalidValue
         There is none.
     """
-    found = find_browser()
-    if found is None:
-        asked = os.environ.get(BROWSER)
-        lacking = f"{BROWSER} = {asked} is no program" if asked else "none of them was found"
+    browser = find_browser()
+    if browser is None:
+        program = os.environ.get(BROWSER)
+        lacking = f"{BROWSER} = {program} is no program" if program else "none of them was found"
         raise InvalidValue(
             f"a PDF is drawn by Chromium, Chrome or Edge, and {lacking}; install one, name its "
             f"program in {BROWSER}, or open the HTML page in any browser and print it",
             code=Mistake.ABSENT,
         )
-    return found
+    return browser
 
 
 def pdf_of(page: str) -> bytes:
@@ -121,7 +121,7 @@ def _without_date(pdf: bytes) -> bytes:
     )
     ours = f"/Creator (thirdbody {__version__})".encode()
 
-    def creator(found: re.Match[bytes]) -> bytes:
-        return ours.ljust(len(found[0])) if len(ours) <= len(found[0]) else found[0]
+    def creator(match: re.Match[bytes]) -> bytes:
+        return ours.ljust(len(match[0])) if len(ours) <= len(match[0]) else match[0]
 
     return re.sub(rb"/Creator \((?:[^()\\]|\\.)*\)", creator, held, count=1)

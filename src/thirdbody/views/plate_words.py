@@ -22,21 +22,21 @@ MEANS = {
 FEW = 1e-6
 
 
-def answer(found: PlateResult) -> list[str]:
+def answer(result: PlateResult) -> list[str]:
     """Sentences on the height of the plate, and how often it is too high."""
-    i, chuck = found.at, found.asked.chuck
-    height, grain = float(found.height[i]), float(found.grain[i])
-    of = f"a particle of {value_of(grain, 'm', 3)} ({found.particles[i]})"
+    i, chuck = result.at, result.asked.chuck
+    height, grain = float(result.height[i]), float(result.grain[i])
+    of = f"a particle of {value_of(grain, 'm', 3)} ({result.particles[i]})"
     names = [name_of(dust, n) for n, dust in enumerate(chuck.particles)]
-    kinds_of_name = zip(names, found.breaking, strict=True)
-    whole = grain < min(end for name, end in kinds_of_name if name == found.particles[i])
+    kinds_of_name = zip(names, result.breaking, strict=True)
+    whole = grain < min(end for name, end in kinds_of_name if name == result.particles[i])
     out = [
         f"The plate stands {'' if whole else 'at most '}{value_of(height, 'm', 3)} high over {of}, "
         f"{percent(height / grain, digits=2)} of "
-        f"its diameter, on a bump {value_of(float(found.width[i]), 'm', 3)} wide."
+        f"its diameter, on a bump {value_of(float(result.width[i]), 'm', 3)} wide."
     ]
     if height < ATOM:
-        force = value_of(float(found.force[i]), "N", 3)
+        force = value_of(float(result.force[i]), "N", 3)
         out = [
             f"The plate does not stand on {of}: a force of {force} presses the particle into plate "
             f"and chuck until the gap is {_height_in_words(height)}, less than an atom."
@@ -44,16 +44,16 @@ def answer(found: PlateResult) -> list[str]:
     if chuck.limit is None:
         return out
     limit = value_of(chuck.limit, "m")
-    kinds = zip(found.lifting, names, strict=True)
+    kinds = zip(result.lifting, names, strict=True)
     sizes = ", ".join(f"{value_of(x, 'm', 3)} ({name})" for x, name in kinds)
-    if found.bumps is None or found.none is None:
+    if result.bumps is None or result.none is None:
         return [*out, f"Particles from {sizes} on lift it above the limit of {limit}."]
-    pairs = zip(found.lifting, found.breaking, strict=True)
+    pairs = zip(result.lifting, result.breaking, strict=True)
     most, least = ("at most ", "at least ") if any(x >= end for x, end in pairs) else ("", "")
     return [
         *out,
-        f"Above the limit of {limit} there are {most}{number(found.bumps, 3, least=FEW)} bumps on "
-        f"a plate, and {least}{percent(found.none, least=FEW)} of the plates have none: particles "
+        f"Above the limit of {limit} there are {most}{number(result.bumps, 3, least=FEW)} bumps on "
+        f"a plate, and {least}{percent(result.none, least=FEW)} of the plates have none: particles "
         f"from {sizes} on lift it so high.",
     ]
 
@@ -72,18 +72,18 @@ def _height_in_cell(height: float) -> str:
     return _height_in_words(height).replace("below", "<")
 
 
-def uncertainty(found: PlateResult) -> list[str]:
+def uncertainty(result: PlateResult) -> list[str]:
     """Sentences on what moves the answer most, by how much, and what to do."""
-    most = found.what_ifs[0]
+    most = result.what_ifs[0]
     if not most.ratio > 1:
         return []
-    if found.bumps is None:
+    if result.bumps is None:
         low, high = _height_in_words(most.low), _height_in_words(most.high)
         ends = f"it stands {low} to {high} high" if low != high else f"it stands {low} high"
         if most.high < ATOM:
             ends = f"the gap stays {high}"
     else:
-        low, high = (number(each, 3, least=FEW) for each in (most.low, most.high))
+        low, high = (number(count, 3, least=FEW) for count in (most.low, most.high))
         ends = f"there are {low} to {high} bumps above the limit"
     return [f"Most uncertain: {most.what}. With {most.between} {ends}; {most.action}."]
 
@@ -97,45 +97,45 @@ def _share_of_size(height: float, grain: float) -> str:
     )
 
 
-def _width_of_bump(found: PlateResult, i: int) -> str:
+def _width_of_bump(result: PlateResult, i: int) -> str:
     """How wide a bump is; a dash where there is none."""
-    return "-" if found.height[i] < ATOM else value_of(float(found.width[i]), "m", 3)
+    return "-" if result.height[i] < ATOM else value_of(float(result.width[i]), "m", 3)
 
 
-def _columns(found: PlateResult, i: int) -> dict[str, str]:
+def _columns(result: PlateResult, i: int) -> dict[str, str]:
     """The cells of one particle by their heads; its kind where there are several."""
-    kinds = {"of": found.particles[i]} if len(found.asked.chuck.particles) > 1 else {}
-    height, grain = float(found.height[i]), float(found.grain[i])
+    kinds = {"of": result.particles[i]} if len(result.asked.chuck.particles) > 1 else {}
+    height, grain = float(result.height[i]), float(result.grain[i])
     return {
         "particle": value_of(grain, "m", 3),
         **kinds,
         "plate stands": _height_in_cell(height),
         "of its size": _share_of_size(height, grain),
-        "bump wide": _width_of_bump(found, i),
-        "force": value_of(float(found.force[i]), "N", 3),
+        "bump wide": _width_of_bump(result, i),
+        "force": value_of(float(result.force[i]), "N", 3),
     }
 
 
-def heads(found: PlateResult) -> tuple[str, ...]:
+def heads(result: PlateResult) -> tuple[str, ...]:
     """The heads of the table."""
-    return tuple(_columns(found, 0))
+    return tuple(_columns(result, 0))
 
 
-def rows(found: PlateResult) -> list[list[str]]:
+def rows(result: PlateResult) -> list[list[str]]:
     """The table: a row a particle."""
-    return [list(_columns(found, i).values()) for i in range(len(found.grain))]
+    return [list(_columns(result, i).values()) for i in range(len(result.grain))]
 
 
-def facts(found: PlateResult) -> dict[str, str]:
+def facts(result: PlateResult) -> dict[str, str]:
     """Named numbers of the particle that the answer tells of."""
-    i = found.at
+    i = result.at
     out = {
-        "particle": value_of(float(found.grain[i]), "m", 3),
-        "plate stands": _height_in_cell(float(found.height[i])),
-        "bump wide": _width_of_bump(found, i),
-        "force on the particle": value_of(float(found.force[i]), "N", 3),
+        "particle": value_of(float(result.grain[i]), "m", 3),
+        "plate stands": _height_in_cell(float(result.height[i])),
+        "bump wide": _width_of_bump(result, i),
+        "force on the particle": value_of(float(result.force[i]), "N", 3),
     }
-    if found.bumps is not None:
-        out["bumps above the limit"] = number(found.bumps, 3, least=FEW)
-        out["plates without one"] = percent(found.none, least=FEW)
+    if result.bumps is not None:
+        out["bumps above the limit"] = number(result.bumps, 3, least=FEW)
+        out["plates without one"] = percent(result.none, least=FEW)
     return out

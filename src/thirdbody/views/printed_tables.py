@@ -50,9 +50,13 @@ def grid_of_words(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Grid:
 
 def _in_one_unit(texts: Sequence[str]) -> tuple[str, list[Cell | str]]:
     """The unit, in brackets, and the cells of values that share one; else the words."""
-    found = [cell_of_words(text) for text in texts]
-    parts = [(cell, unit) for cell, unit in found if isinstance(cell, Cell)]
-    others = [text for text, (cell, _) in zip(texts, found, strict=True) if isinstance(cell, str)]
+    cells_and_units = [cell_of_words(text) for text in texts]
+    parts = [(cell, unit) for cell, unit in cells_and_units if isinstance(cell, Cell)]
+    others = [
+        text
+        for text, (cell, _) in zip(texts, cells_and_units, strict=True)
+        if isinstance(cell, str)
+    ]
     plain = all(text in ("-", NOT_KNOWN) or text.startswith("<") for text in others)
     if not (parts and plain and all(NAMED.fullmatch(unit) for _, unit in parts)):
         return "", list(texts)
@@ -65,7 +69,7 @@ def _in_one_unit(texts: Sequence[str]) -> tuple[str, list[Cell | str]]:
         _scale_cell(cell, SIZES.get(unit, (unit, 1.0))[1] / size)
         if isinstance(cell, Cell)
         else text
-        for text, (cell, unit) in zip(texts, found, strict=True)
+        for text, (cell, unit) in zip(texts, cells_and_units, strict=True)
     ]
     return f" [{shared}]" if shared else "", cells
 

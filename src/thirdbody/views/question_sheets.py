@@ -54,21 +54,21 @@ def question_sheets(
     warnings, citations : iterable of str
     """
     columns, units = states
-    found: list[str | Grid | bytes] = [*answer]
+    contents: list[str | Grid | bytes] = [*answer]
     if table is not None:
-        found.append(grid_of_words(*table))
-    told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
-    notes = [note_line(each) for each in rank_notes(warnings)] or [("none", None, "")]
+        contents.append(grid_of_words(*table))
+    column_rows = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
+    notes = [note_line(note) for note in rank_notes(warnings)] or [("none", None, "")]
     cited = [(line, None, "") for line in (*citations, f"thirdbody {__version__}")]
     return [
-        Sheet("Answer", (*found, *last), title=f"{title} (thirdbody {__version__})"),
+        Sheet("Answer", (*contents, *last), title=f"{title} (thirdbody {__version__})"),
         sheet_of_table("States", columns, units),
         Sheet("Inputs", (Grid(("input", "symbol", "value", "unit", "from", "name"), inputs),)),
         Sheet(
             "Notes",
             (
                 Grid(("note", "effect on the answer", "what to do"), notes),
-                Grid(("column of States", "unit", "meaning"), told),
+                Grid(("column of States", "unit", "meaning"), column_rows),
                 Grid(("to be cited", "", ""), cited),
             ),
         ),
@@ -86,9 +86,9 @@ def inputs_of(
     Numbers that are no fields of a value stand first. Of what the file states none is a default.
     """
     rows = [
-        Row(each.name, each.about["symbol"], "", each.about["meaning"], False, each.value,
-            each.about["unit"])
-        for each in numbers
+        Row(number.name, number.about["symbol"], "", number.about["meaning"], False,
+            number.value, number.about["unit"])
+        for number in numbers
     ]  # fmt: skip
     rows += [row for name, value in values.items() for row in value_rows(value, name)]
     rows = as_stated(rows, stated)

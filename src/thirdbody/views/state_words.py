@@ -28,13 +28,17 @@ __all__ = ["answer", "details", "uncertainty"]
 
 def answer(result: StudyResult) -> list[str]:
     """Who carries, and how close the surfaces are, in one or two sentences."""
-    told = [each for each in result.forces if each.real_area is not None and each.kind != "flat"]
-    if told:
-        return _under_forces(told)
-    known = sorted(result.solved_states, key=lambda i: result.states.pressure[i])
-    if len(known) == 1:
-        return [_at_one(result, known[0])]
-    return _over_loads(result, known)
+    pressed_bodies = [
+        pressed
+        for pressed in result.forces
+        if pressed.real_area is not None and pressed.kind != "flat"
+    ]
+    if pressed_bodies:
+        return _under_forces(pressed_bodies)
+    solved_states = sorted(result.solved_states, key=lambda i: result.states.pressure[i])
+    if len(solved_states) == 1:
+        return [_at_one(result, solved_states[0])]
+    return _over_loads(result, solved_states)
 
 
 def details(result: StudyResult) -> list[str]:
@@ -60,16 +64,18 @@ def _ends(most: WhatIf) -> str:
     return " to ".join(percent(value) for value in most.values)
 
 
-def _under_forces(told: Sequence[Pressed]) -> list[str]:
+def _under_forces(pressed_bodies: Sequence[Pressed]) -> list[str]:
     """The least and the greatest force on bodies: who carries, pressure and real area."""
-    ends = [told[0]] if len(told) == 1 else [told[0], told[-1]]
+    ends = (
+        [pressed_bodies[0]] if len(pressed_bodies) == 1 else [pressed_bodies[0], pressed_bodies[-1]]
+    )
     carries = []
-    for each in ends:
-        share, some = each.particle_load_share, each.with_particles
-        under = f"nder {value_of(each.force, 'N')}"
+    for pressed in ends:
+        share, some = pressed.particle_load_share, pressed.with_particles
+        under = f"nder {value_of(pressed.force, 'N')}"
         if share is None:
             carries.append(f"u{under} asperities carry the whole load, as there are no particles")
-        elif (rare := meets(each.particles_held or 0.0)) and some is not None:
+        elif (rare := meets(pressed.particles_held or 0.0)) and some is not None:
             carries.append(
                 f"u{under} {rare}, and there particles carry "
                 f"{percent(some['particle_load_share'])} of the load, on average over all contacts "
@@ -77,14 +83,14 @@ def _under_forces(told: Sequence[Pressed]) -> list[str]:
             )
         else:
             carries.append(f"u{under} particles carry {percent(share)} of the load")
-    largest = " to ".join(value_of(each.maximum, "Pa") for each in ends)
-    real = " to ".join(percent(float(each.real_area or 0.0) / each.area) for each in ends)
-    loads = [each.heaviest for each in ends if each.heaviest is not None]
+    largest = " to ".join(value_of(pressed.maximum, "Pa") for pressed in ends)
+    real = " to ".join(percent(float(pressed.real_area or 0.0) / pressed.area) for pressed in ends)
+    loads = [pressed.heaviest for pressed in ends if pressed.heaviest is not None]
     most = ""
     if len(loads) == len(ends):
         which = plural(int(ends[0].bodies), "contact")
         most = (
-            f" on the most loaded of {which} ({' to '.join(value_of(each, 'N') for each in loads)})"
+            f" on the most loaded of {which} ({' to '.join(value_of(load, 'N') for load in loads)})"
         )
     return [
         f"U{'; '.join(carries)[1:]}.",
@@ -105,16 +111,16 @@ def _at_one(result: StudyResult, i: int) -> str:
     area = f"real contact area {percent(states.A_t[i])} of the nominal area"
     if result.study.contact.two_body:
         return f"{at} {two_bodies()}; {gap}, {area}."
-    parts = {part.name: part.load_share[i] for part in states.populations}
+    parts = {population.name: population.load_share[i] for population in states.populations}
     share = particle_share_text(states.particle_load_share[i], parts)
     mode, held = states.mode[i], result.particles_in(i)
     where = " of a wide surface" * is_rare(mode, held)
     return f"{at} {mode_among(mode, held)}, and {share}{where}; {gap}, {area}."
 
 
-def _over_loads(result: StudyResult, known: Sequence[int]) -> list[str]:
+def _over_loads(result: StudyResult, solved_states: Sequence[int]) -> list[str]:
     """Least to greatest load, in two sentences."""
-    states, ends = result.states, (known[0], known[-1])
+    states, ends = result.states, (solved_states[0], solved_states[-1])
 
     def both(say: Sequence[str]) -> str:
         return say[0] if say[0] == say[1] else " to ".join(say)
@@ -129,14 +135,14 @@ def _over_loads(result: StudyResult, known: Sequence[int]) -> list[str]:
         return [f"From {loads} {two_bodies()}.", f"Over these loads {apart}."]
     share = both([percent(states.particle_load_share[i]) for i in ends])
     parts = [
-        f"{part.name} {both([percent(part.load_share[i]) for i in ends])}"
-        for part in states.populations
+        f"{population.name} {both([percent(population.load_share[i]) for i in ends])}"
+        for population in states.populations
     ]
-    each = f" ({', '.join(parts)})" if parts else ""
+    by_population = f" ({', '.join(parts)})" if parts else ""
     rare = [i for i in ends if is_rare(states.mode[i], result.particles_in(i))]
     where = " of a wide surface" * bool(rare)
-    first = f"From {loads} particles carry {share} of the load{each}{where}"
+    first = f"From {loads} particles carry {share} of the load{by_population}{where}"
     if rare:
         first += f"; {meets(result.particles_in(rare[0]))}, and the others are as without particles"
         return [f"{first}.", f"Over these loads {apart}."]
-    return [f"{first}.", f"{mode_path(states.mode[i] for i in known)}; {apart}."]
+    return [f"{first}.", f"{mode_path(states.mode[i] for i in solved_states)}; {apart}."]

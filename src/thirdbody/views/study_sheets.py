@@ -66,18 +66,18 @@ def state_sheets(result: StudyResult) -> list[Sheet]:
     """Sheets of what `run_study` found."""
     states, contact = result.states, result.study.contact
     columns = state_columns(contact)
-    table = grid_of(columns, {each.name: getattr(states, each.name) for each in columns})
+    table = grid_of(columns, {column.name: getattr(states, column.name) for column in columns})
     if not contact.two_body:
         table = _with_column(table, "mode", modes_of(result))
-    found: list[str | Grid | bytes] = [*answer(result), *_some_rows(table), *uncertainty(result)]
+    contents: list[str | Grid | bytes] = [*answer(result), *_some_rows(table), *uncertainty(result)]
     if not contact.two_body:
-        found.append(_critical_grid(result))
+        contents.append(_critical_grid(result))
     if contact.outputs:
-        found.append(_output_grid(result))
-    found += details(result)
-    found.append(png_of(_figure_of_states(result)))
+        contents.append(_output_grid(result))
+    contents += details(result)
+    contents.append(png_of(_figure_of_states(result)))
     meanings = _meanings_of_states(result)
-    return _sheets(result, found, _rows_of_study(result), meanings)
+    return _sheets(result, contents, _rows_of_study(result), meanings)
 
 
 def film_sheets(
@@ -101,26 +101,26 @@ def film_sheets(
     from ..systems.mixed_film import COLUMNS
 
     states = result.states
-    found: list[str | Grid | bytes] = [*sentences]
+    contents: list[str | Grid | bytes] = [*sentences]
     if len(states["speed"]) == 1:
         at = {"speed": value_of(states["speed"][0], "m/s"), **point(result, 0)}
         rows = [(name, *cell_of_words(text)) for name, text in at.items()]
-        found.append(Grid(("at this speed", "value", "unit"), rows))
+        contents.append(Grid(("at this speed", "value", "unit"), rows))
     else:
         curve = grid_of(film_columns(result), states)
-        found += _some_rows(_with_column(curve, "regime", states["regime"].tolist()))
-    found.append(png_of(draw_film(result)))
+        contents += _some_rows(_with_column(curve, "regime", states["regime"].tolist()))
+    contents.append(png_of(draw_film(result)))
     meanings = {name: COLUMNS[name].meaning for name in states if name in COLUMNS}
     meanings |= {"hersey": "Hersey number", "largest": "largest particle dragged in"}
-    for part in result.passing:
-        meanings[f"{part.name}: passing"] = "share of its particles narrower than the gap"
-        meanings[f"{part.name}: areal_density"] = "particles that enter, per area"
+    for population in result.passing:
+        meanings[f"{population.name}: passing"] = "share of its particles narrower than the gap"
+        meanings[f"{population.name}: areal_density"] = "particles that enter, per area"
     study = result.study
     inputs = load_rows(study) if study.own_load else []
     inputs += [] if study.body is None else value_rows(study.body, "body.")
     inputs += [*film_rows(result), *rows_of(study.contact)]
     inputs = as_stated(inputs, study.stated)
-    return _sheets(result, found, inputs, meanings | dict(more), table)
+    return _sheets(result, contents, inputs, meanings | dict(more), table)
 
 
 def _some_rows(grid: Grid) -> list[str | Grid]:
@@ -134,7 +134,7 @@ def _some_rows(grid: Grid) -> list[str | Grid]:
 
 def grid_of(columns: Sequence[Shown], values: Mapping[str, ArrayLike]) -> Grid:
     """A table for readers, each column in the unit that suits most of its values."""
-    drawn = [each.column(np.atleast_1d(values[each.name]).tolist()) for each in columns]
+    drawn = [column.column(np.atleast_1d(values[column.name]).tolist()) for column in columns]
     return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))
 
 
@@ -165,9 +165,9 @@ def _output_grid(result: StudyResult) -> Grid:
     some = some_of(len(states.status), MOST_LOADS)
     rows = []
     for name, values in states.outputs.items():
-        told = states.about(name)
+        about = states.about(name)
         numbers = [cell_of(float(values[i])) or NOT_KNOWN for i in some]
-        rows.append((name, *numbers, unit_of(told.unit), told.meaning))
+        rows.append((name, *numbers, unit_of(about.unit), about.meaning))
     loads = (f"at {value_of(states.pressure[i], 'Pa')}" for i in some)
     return Grid(("output", *loads, "unit", "meaning"), rows)
 
@@ -180,7 +180,7 @@ def _figure_of_states(result: StudyResult) -> Figure:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)  # the answer has told of them
         curve = curve_over(contact, result.transitions, loaded)
-    found = Found(
+    results = Found(
         study=result.study,
         result=result,
         curve=curve,
@@ -188,14 +188,14 @@ def _figure_of_states(result: StudyResult) -> Figure:
         slopes=None,
         at=result.solved_states[0],
     )
-    axes, _ = first_figure(found)
+    axes, _ = first_figure(results)
     return axes.figure  # type: ignore[return-value]
 
 
 # -------------------------------------------------------------------------- the others
 def _sheets(
     result: StudyResult | FilmResult,
-    found: Sequence[str | Grid | bytes],
+    contents: Sequence[str | Grid | bytes],
     inputs: Sequence[Row],
     meanings: Mapping[str, str],
     table: tuple[Mapping[str, Sequence[object]], Mapping[str, str]] | None = None,
@@ -204,7 +204,7 @@ def _sheets(
     columns, units = result.table() if table is None else table
     contact = result.study.contact
     return [
-        Sheet("Answer", tuple(found), title=f"{result.heading} (thirdbody {__version__})"),
+        Sheet("Answer", tuple(contents), title=f"{result.heading} (thirdbody {__version__})"),
         sheet_of_table("States", columns, units),
         Sheet("Inputs", (_input_grid(inputs, contact), _source_grid(contact, result.study.stated))),
         Sheet("Notes", _notes(result, columns, units, meanings)),
@@ -274,12 +274,12 @@ def _notes(
     meanings: Mapping[str, str],
 ) -> tuple[Grid, ...]:
     """Warnings with what to do, the columns of the states, and what is to be cited."""
-    notes = [note_line(each) for each in rank_notes(result.warnings)] or [("none", None, "")]
-    told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
+    notes = [note_line(note) for note in rank_notes(result.warnings)] or [("none", None, "")]
+    column_rows = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
     cited = [(line, None, "") for line in (*result.citations, f"thirdbody {__version__}")]
     return (
         Grid(("note", "effect on the answer", "what to do"), notes),
-        Grid(("column of States", "unit", "meaning"), told),
+        Grid(("column of States", "unit", "meaning"), column_rows),
         Grid(("to be cited", "", ""), cited),
     )
 
@@ -290,14 +290,17 @@ def note_line(note: str) -> tuple[str, Cell | None, str]:
         return note, None, ""
     what = note.removesuffix(f"; {note.action}") if note.action else note
     share = Shown("", "", "share")
-    known = np.isfinite(note.effect) and note.effect > 0
-    cell = share.column([note.effect])[1][0] if known else None
+    has_effect = np.isfinite(note.effect) and note.effect > 0
+    cell = share.column([note.effect])[1][0] if has_effect else None
     return str(what), cell if isinstance(cell, Cell) else None, note.action
 
 
 def _meanings_of_states(result: StudyResult) -> dict[str, str]:
     states = result.states
     out = {name: states.about(name).meaning for name in states.columns()}
-    for part in states.populations:
-        out |= {f"{part.name}: {name}": part.about(name).meaning for name in part.columns()}
+    for population in states.populations:
+        out |= {
+            f"{population.name}: {name}": population.about(name).meaning
+            for name in population.columns()
+        }
     return out

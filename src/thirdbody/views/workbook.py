@@ -98,12 +98,12 @@ def cell_of_words(text: str) -> tuple[Cell | str, str]:
     """
     if isinstance(text, Least):
         return Cell(text.value, str(text)), ""
-    found = PRINTED.match(text)
-    if found is None:
+    match = PRINTED.match(text)
+    if match is None:
         return text, ""
-    plain = found[0].removesuffix(" %").replace("−", "-").replace("×10", "e")
-    value = Decimal(plain.translate(DIGITS)).scaleb(-2 if found[4] else 0)
-    return Cell(float(value), found[0]), text[found.end() :].strip()
+    plain = match[0].removesuffix(" %").replace("−", "-").replace("×10", "e")
+    value = Decimal(plain.translate(DIGITS)).scaleb(-2 if match[4] else 0)
+    return Cell(float(value), match[0]), text[match.end() :].strip()
 
 
 def sheet_of_table(
@@ -125,10 +125,10 @@ def shown_in_excel(cell: Cell) -> str:
     >>> shown_in_excel(Cell(0.1234, "12.3 %")), shown_in_excel(Cell(1e-8, "< 0.0001 %"))
     ('0.0 %', '"< 0.0001 %"')
     """
-    found = PRINTED.fullmatch(cell.text)
-    if found is None:
+    match = PRINTED.fullmatch(cell.text)
+    if match is None:
         return f'"{cell.text}"'
-    plain, decimals, power, share = found.groups()
+    plain, decimals, power, share = match.groups()
     tens = int(power.removeprefix("×10").translate(DIGITS)) if power else 0
     digits = Decimal(repr(cell.value)).scaleb(2 * bool(share) - tens)
     rounded = digits.quantize(Decimal(1).scaleb(-len(decimals or "")), ROUND_HALF_UP)
@@ -165,10 +165,10 @@ def _draw_sheet(drawn: Worksheet, sheet: Sheet) -> None:
     """Write the parts of a sheet below each other; the head of a table stays in sight."""
     from openpyxl.styles import Font
 
-    widths = _widths([part for part in sheet.parts if isinstance(part, Grid)])
+    widths = _widths([grid for grid in sheet.parts if isinstance(grid, Grid)])
     if sheet.title:  # the last column of each table has room at its right
         widths = _widths(
-            [Grid(part.heads[:-1], part.rows) for part in sheet.parts if isinstance(part, Grid)]
+            [Grid(grid.heads[:-1], grid.rows) for grid in sheet.parts if isinstance(grid, Grid)]
         )
         widths = [max(w, 12) for w in (*widths, *[12] * (9 - len(widths)))]
     for i, width in enumerate(widths, 1):
@@ -181,13 +181,13 @@ def _draw_sheet(drawn: Worksheet, sheet: Sheet) -> None:
         drawn.freeze_panes = sheet.frozen
         if len(sheet.parts) == 1 and len(first.rows) > 1:
             drawn.auto_filter.ref = f"A1:{_letter(len(first.heads))}{len(first.rows) + 1}"
-    for part in sheet.parts:
-        if isinstance(part, Grid):
-            row = _draw_grid(drawn, part, row, widths, free=bool(sheet.title)) + 1
-        elif isinstance(part, bytes):
-            row = _place_picture(drawn, part, row) + 1
+    for content in sheet.parts:
+        if isinstance(content, Grid):
+            row = _draw_grid(drawn, content, row, widths, free=bool(sheet.title)) + 1
+        elif isinstance(content, bytes):
+            row = _place_picture(drawn, content, row) + 1
         else:
-            row = _draw_sentence(drawn, part, row, widths)
+            row = _draw_sentence(drawn, content, row, widths)
     drawn.page_setup.orientation = "landscape"
     drawn.page_setup.fitToHeight = 0
     drawn.sheet_properties.pageSetUpPr.fitToPage = True
@@ -219,7 +219,7 @@ def _draw_grid(
     last = -1 if free else 0
     below = Border(bottom=Side(style="thin", color="999999"))
     numeric = [any(isinstance(line[i], Cell) for line in grid.rows) for i in range(len(grid.heads))]
-    sides = ["right" if each else "left" for each in numeric]
+    sides = ["right" if is_numeric else "left" for is_numeric in numeric]
     # words keep off the number before them
     places = [{"horizontal": side, "vertical": "top", "indent": int(i > 0 and side == "left")}
               for i, side in enumerate(sides)]  # fmt: skip

@@ -58,7 +58,7 @@ def test_tables_are_the_contact_at_random_states(unlike, tables, sigma):
     own = {name: [] for name in ("p", "wear_1", "wear_2", "V_2", "area", "force")}
     for each in d:
         state = tables.press_at(float(each), eta=eta, sigma=sigma)
-        total = np.tensordot(eta, state.each, 2)
+        total = np.tensordot(eta, state.per_particle, 2)
         spots = state.asperities
         own["p"].append(tables.load(float(each), eta=eta, sigma=sigma)[0])
         for side, share in ((1, 0.0), (2, 1.0)):  # asperities wear the softer surface
@@ -105,7 +105,7 @@ def test_dents_are_those_of_all_particles_beyond_first_yield(unlike, tables):
             epsabs=0, epsrel=1e-11,
         )[0]  # fmt: skip
         state = tables.press_at(d, eta=np.zeros((2, CLASSES.count)), sigma=1e-7)
-        assert state.each[1, k, INDEX["dents_1"]] == pytest.approx(exact, rel=1e-5)
+        assert state.per_particle[1, k, INDEX["dents_1"]] == pytest.approx(exact, rel=1e-5)
 
 
 def test_the_gap_under_a_load_is_that_of_the_contact(unlike, tables):
@@ -129,8 +129,8 @@ def test_slopes_of_the_load(tables):
 def test_exchanged_surfaces_exchange_what_they_lose(tables):
     eta = mixture(3)
     turned = ContactTables(contact(SOFT, STEEL, K_sa=1e-6), CLASSES, KINDS)
-    one = np.tensordot(eta, tables.press_at(2e-7, eta=eta, sigma=100e-9).each, 2)
-    two = np.tensordot(eta, turned.press_at(2e-7, eta=eta, sigma=100e-9).each, 2)
+    one = np.tensordot(eta, tables.press_at(2e-7, eta=eta, sigma=100e-9).per_particle, 2)
+    two = np.tensordot(eta, turned.press_at(2e-7, eta=eta, sigma=100e-9).per_particle, 2)
     for name, place in INDEX.items():
         if name in ("elastic", "elastoplastic", "plastic"):
             continue  # regimes are those on surface 1
@@ -145,8 +145,8 @@ def test_lengths_in_another_unit():
     one = ContactTables(contact(), CLASSES, KINDS[:1])
     two = ContactTables(contact(sigma=3e-7, R=8.4e-6), large, KINDS[:1])
     eta = mixture(2)[:1]
-    at = one.press_at(1.5e-7, eta=eta, sigma=1e-7).each[0]
-    there = two.press_at(4.5e-7, eta=eta / factor**2, sigma=3e-7).each[0]
+    at = one.press_at(1.5e-7, eta=eta, sigma=1e-7).per_particle[0]
+    there = two.press_at(4.5e-7, eta=eta / factor**2, sigma=3e-7).per_particle[0]
     powers = np.array(list(POWERS.values()))
     small = 1e-6 * np.abs(at).max(axis=0)
     np.testing.assert_allclose(there / factor**powers, at, rtol=1e-5, atol=float(small.min()))

@@ -121,8 +121,8 @@ class Best(Record):
     >>> best = tb.design(
     ...     contact,
     ...     vary={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
-    ...     objective=tb.Objective(of="A_t", aim="smallest"),
-    ...     limits=[tb.Limit(of="plastic_share", most=0.1)],
+    ...     objective=tb.objectives.Objective(of="A_t", aim="smallest"),
+    ...     limits=[tb.objectives.Limit(of="plastic_share", most=0.1)],
     ...     pressure=[1e6, 5e6],
     ... )
     >>> [round(float(x) * 1e9) for x in best.values.values()], best.active, best.at_bound
@@ -163,8 +163,8 @@ class Best(Record):
             name: value.name if isinstance(value, Material) else value
             for name, value in self.values.items()
         }
-        states = {name: each.values for name, each in self.of_states.items()}
-        points = {name: each.values for name, each in self.of_points.items()}
+        states = {name: column.values for name, column in self.of_states.items()}
+        points = {name: column.values for name, column in self.of_points.items()}
         more = {"values": values, "states": states | {self.load: self.loads}, "points": points}
         return Record.to_dict(self) | plain_data(more | {"warnings": self.warnings})
 
@@ -172,7 +172,7 @@ class Best(Record):
 def _dataset(table: dict[str, Values], dim: str, coords: dict[str, Array]) -> xarray.Dataset:
     import xarray  # takes longer to load than most designs to find
 
-    columns = {name: (dim, each.values, each.about) for name, each in table.items()}
+    columns = {name: (dim, column.values, column.about) for name, column in table.items()}
     return xarray.Dataset(columns, coords=coords)
 
 
@@ -316,7 +316,7 @@ def _answer(task: Task) -> Best:
     volume = None
     if len(task.objectives) > 1 and ok.any():
         volume = hypervolume(costs[ok], costs[ok].max(axis=0))
-    signs = {each.label: each.sign for each in task.objectives}
+    signs = {objective.label: objective.sign for objective in task.objectives}
     columns = {
         name: Values(np.array([point.numbers[name] for point in rows]), _about_variable(task, name))
         for name in task.variables
@@ -326,15 +326,15 @@ def _answer(task: Task) -> Best:
         for name in task.materials
     }
     columns |= {
-        each.label: Values(each.sign * costs[:, i], _about_objective(each))
-        for i, each in enumerate(task.objectives)
+        objective.label: Values(objective.sign * costs[:, i], _about_objective(objective))
+        for i, objective in enumerate(task.objectives)
     }
     columns |= {
         "feasible": Values(ok, {}),
         "front": Values(on_front, {}),
         "reason": Values(np.array([point.reason for point in rows]), {}),
     }
-    ends = {name: each.place(best.numbers[name]) for name, each in task.variables.items()}
+    ends = {name: variable.place(best.numbers[name]) for name, variable in task.variables.items()}
     at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
     notes: list[str] = [
         Note(
@@ -345,7 +345,7 @@ def _answer(task: Task) -> Best:
     ]
     tolerance, plateau = _bands(task, best)
     if task.scatter is None and any(
-        each.over_scatter not in ("mean", "nominal") for each in task.objectives
+        objective.over_scatter not in ("mean", "nominal") for objective in task.objectives
     ):
         notes.append("nothing scatters: over_scatter has no meaning")
     return Best(
@@ -380,13 +380,13 @@ def _about_variable(task: Task, name: str) -> dict[str, str]:
     }
 
 
-def _about_objective(each: Objective) -> dict[str, str]:
+def _about_objective(objective: Objective) -> dict[str, str]:
     """Unit and words of what is to be good."""
-    told = METRICS.get(each.of) or about(each.of)
-    how = ", ".join(each.label.split(":")[1:])
-    words = told.meaning + (f" ({how})" if how else "")
-    unit = "1" if each.aim == "window" else told.unit
-    return {"units": unit, "long_name": words, "aim": each.aim}
+    column = METRICS.get(objective.of) or about(objective.of)
+    how = ", ".join(objective.label.split(":")[1:])
+    words = column.meaning + (f" ({how})" if how else "")
+    unit = "1" if objective.aim == "window" else column.unit
+    return {"units": unit, "long_name": words, "aim": objective.aim}
 
 
 APART = ("coverage", "buried_share", "refused")
@@ -395,12 +395,12 @@ APART = ("coverage", "buried_share", "refused")
 
 def _states(task: Task, best: Point) -> dict[str, Values]:
     """Metrics against the load, nominal."""
-    found = task.metrics([best.numbers], best.materials, samples=False)
+    metrics = task.metrics([best.numbers], best.materials, samples=False)
     columns: dict[str, Values] = {}
-    first = (name for name in found if name not in APART)
+    first = (name for name in metrics if name not in APART)
     for name in (*first, "buried_share"):
-        told = METRICS.get(name) or about(name)
-        columns[name] = Values(found[name].reshape(-1), told.labels)
+        column = METRICS.get(name) or about(name)
+        columns[name] = Values(metrics[name].reshape(-1), column.labels)
     return columns
 
 
@@ -414,29 +414,31 @@ def _bands(task: Task, best: Point) -> tuple[Bands, Bands]:
     tolerance = {name: _band(task, best, name, LOSS, (0.0, 1.0)) for name in task.variables}
     plateau = {}
     for name, ends in tolerance.items():
-        each = task.variables[name]
-        low, high = _band(task, best, name, FLAT, (each.place(ends[0]), each.place(ends[1])))
+        variable = task.variables[name]
+        low, high = _band(
+            task, best, name, FLAT, (variable.place(ends[0]), variable.place(ends[1]))
+        )
         if high - low > WIDE * max(abs(low), abs(high)):
             plateau[name] = low, high
     return tolerance, plateau
 
 
 def _band(
-    task: Task, best: Point, name: str, part: float, places: tuple[float, float]
+    task: Task, best: Point, name: str, fraction: float, places: tuple[float, float]
 ) -> tuple[float, float]:
-    """Range between two places in which the first objective loses less than this part of it."""
+    """Range between two places in which the first objective loses less than this fraction of it."""
     label = task.objectives[0].label
-    value, own = best.costs[label], best.numbers[name]
+    value, best_value = best.costs[label], best.numbers[name]
     among = task.variables[name].span.values_at(np.linspace(*places, GRID + 1))
-    grid = np.unique(np.append(among, own))
-    place = int(np.searchsorted(grid, own))
+    grid = np.unique(np.append(among, best_value))
+    place = int(np.searchsorted(grid, best_value))
 
     def good(some: NDArray[np.intp]) -> NDArray[np.bool_]:
         rows = task.judge_points(
             [{**best.numbers, name: float(grid[i])} for i in some], best.materials
         )
         lost = np.array([point.costs[label] for point in rows]) - value
-        return (lost <= part * abs(value)) & np.array([not point.reason for point in rows])
+        return (lost <= fraction * abs(value)) & np.array([not point.reason for point in rows])
 
     first, last = (_last_good(good, place, way, len(grid)) for way in (-1, 1))
     return float(grid[first]), float(grid[last])
@@ -456,35 +458,38 @@ def _last_good(
 
 def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float]]:
     """d m/d ln y at the load in the middle, by the exact sensitivities."""
-    known = set(columns_of(made)) - NOT_SMOOTH
-    wanted = [name for name in task.columns if name in known]
+    smooth = set(columns_of(made)) - NOT_SMOOTH
+    wanted = [name for name in task.columns if name in smooth]
     if "plastic_share" in task.columns:
         wanted = list(dict.fromkeys([*wanted, "A_p", "A_t"]))
-    labels = [name for name, each in task.variables.items() if each.moved is not None]
+    labels = [name for name, variable in task.variables.items() if variable.moved is not None]
     if task.suspension is not None:
         labels.append(DENSITY)
     if not (wanted and labels):
         return {}
     middle = as_load(task.load, float(np.sort(task.loads)[len(task.loads) // 2]))
     try:
-        found = sensitivity(made, of=wanted, to=labels, **middle)
+        sensitivities = sensitivity(made, of=wanted, to=labels, **middle)
     except ThirdBodyError:
         return {}
     slopes = {
-        column: {name: found.derivative[column][name] * found.inputs[name] for name in labels}
+        column: {
+            name: sensitivities.derivative[column][name] * sensitivities.inputs[name]
+            for name in labels
+        }
         for column in wanted
     }
     if "plastic_share" in task.columns:
-        A_p, A_t = found.value["A_p"], found.value["A_t"]
+        A_p, A_t = sensitivities.value["A_p"], sensitivities.value["A_t"]
         slopes["plastic_share"] = {
             name: (slopes["A_p"][name] - A_p / A_t * slopes["A_t"][name]) / A_t for name in labels
         }
     if task.suspension is not None:
-        per_density = {column: own.pop(DENSITY) for column, own in slopes.items()}
+        per_density = {column: by_input.pop(DENSITY) for column, by_input in slopes.items()}
         for name in task.variables:
             crowding = _crowding(task, best, name)
-            for column, own in slopes.items():
-                own[name] = own.get(name, 0.0) + crowding * per_density[column]
+            for column, by_input in slopes.items():
+                by_input[name] = by_input.get(name, 0.0) + crowding * per_density[column]
     return {column: slopes[column] for column in task.columns if column in slopes}
 
 

@@ -19,9 +19,9 @@ def front(costs: Array) -> NDArray[np.bool_]:
     [True, True, False]
     """
     out = np.ones(len(costs), bool)
-    for i, own in enumerate(costs):
-        no_worse = np.all(costs <= own, axis=1)
-        better = np.any(costs < own, axis=1)
+    for i, point in enumerate(costs):
+        no_worse = np.all(costs <= point, axis=1)
+        better = np.any(costs < point, axis=1)
         out[i] = not np.any(no_worse & better)
     return out
 
@@ -44,7 +44,7 @@ def hypervolume(costs: Array, reference: Array) -> float:
     inside = inside[np.argsort(inside[:, -1])]
     tops = np.append(inside[1:, -1], reference[-1])
     return sum(
-        float(top - own) * hypervolume(inside[: i + 1, :-1], reference[:-1])
-        for i, (own, top) in enumerate(zip(inside[:, -1], tops, strict=True))
-        if top > own
+        float(top - bottom) * hypervolume(inside[: i + 1, :-1], reference[:-1])
+        for i, (bottom, top) in enumerate(zip(inside[:, -1], tops, strict=True))
+        if top > bottom
     )

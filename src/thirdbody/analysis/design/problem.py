@@ -144,9 +144,9 @@ class Limit(Value):
         A metric without a value breaks it.
         """
         over = np.full(metric.shape[:2], -np.inf)
-        for bound, sign in ((self.most, 1.0), (self.least, -1.0)):
-            if bound is not None:
-                worst = np.max(sign * (metric - bound), axis=-1) / (abs(bound) or 1.0)
+        for limit, sign in ((self.most, 1.0), (self.least, -1.0)):
+            if limit is not None:
+                worst = np.max(sign * (metric - limit), axis=-1) / (abs(limit) or 1.0)
                 over = np.maximum(over, np.where(np.isnan(worst), np.inf, worst))
         nominal, samples = over[:, 0], np.sort(over[:, 1:], axis=1)
         if not samples.shape[1]:
@@ -206,10 +206,10 @@ class Suspension(Value):
             raise InvalidValue(
                 "Suspension.concentration is missing, and it is not searched", code=Mistake.MISSING
             )
-        found = cleanliness.Concentration(float(amount), self.by)
+        particle_content = cleanliness.Concentration(float(amount), self.by)
         density = self.particle_density or particles.material.density
         n = cleanliness.particles_in(
-            found,
+            particle_content,
             particles.diameter,
             particle_density=density,
             oil_density=self.oil_density,

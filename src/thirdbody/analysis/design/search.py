@@ -123,9 +123,9 @@ class Task:
     tried: list[Point] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        asked = (*(o.of for o in self.objectives), *(g.of for g in self.limits))
-        self.columns = list(dict.fromkeys(asked))
-        outputs = {name for each in self.contact.outputs for name in each.columns}
+        names = (*(o.of for o in self.objectives), *(g.of for g in self.limits))
+        self.columns = list(dict.fromkeys(names))
+        outputs = {name for output in self.contact.outputs for name in output.columns}
         if not outputs & set(self.columns):
             self.contact = self.contact.replace(outputs=())
 
@@ -139,15 +139,19 @@ class Task:
         """Values of the variables at points of the unit cube (P, k)."""
         return [
             {
-                each.name: float(np.clip(each.span.values_at(part), each.low, each.high))
-                for part, each in zip(row, self.variables.values(), strict=True)
+                variable.name: float(
+                    np.clip(variable.span.values_at(place), variable.low, variable.high)
+                )
+                for place, variable in zip(row, self.variables.values(), strict=True)
             }
             for row in np.clip(u, 0.0, 1.0)
         ]
 
     def where(self, numbers: Numbers) -> Array:
         """Coordinates of a point in the unit cube (k,)."""
-        return np.array([each.place(numbers[name]) for name, each in self.variables.items()])
+        return np.array(
+            [variable.place(numbers[name]) for name, variable in self.variables.items()]
+        )
 
     # ------------------------------------------------------------------ contacts
     def contact_at(self, numbers: Numbers, materials: Materials) -> Contact:
@@ -173,20 +177,20 @@ class Task:
         """Every number that moves (P, 1 + samples), sample 0 nominal."""
         S = 1 + (len(self.scatter[1]) if samples and self.scatter else 0)
         out: dict[str, Array] = {}
-        for name, each in self.variables.items():
-            for moved, column in each.changes(np.array([p[name] for p in numbers])).items():
+        for name, variable in self.variables.items():
+            for moved, column in variable.changes(np.array([p[name] for p in numbers])).items():
                 out[moved] = np.repeat(column[:, None], S, axis=1)
         if S > 1 and self.scatter is not None:
             drawn, u = self.scatter
             nominal = inputs(contact)
             for name, sample in drawn.points(u).items():
-                own = np.append(nominal[name], sample)
+                values = np.append(nominal[name], sample)
                 if name not in out:
-                    out[name] = np.broadcast_to(own, (len(numbers), S))
+                    out[name] = np.broadcast_to(values, (len(numbers), S))
                 elif nominal[name]:  # about each value of a variable by the same factors
-                    out[name] = out[name] * own / nominal[name]
+                    out[name] = out[name] * values / nominal[name]
                 else:
-                    out[name] = out[name] + own
+                    out[name] = out[name] + values
         return out
 
     # ------------------------------------------------------------------ metrics
@@ -209,20 +213,20 @@ class Task:
                 one = self._filled_contact(bare, {name: v[i, j] for name, v in vary.items()})
             except InvalidValue:
                 continue
-            covered[i, j] = sum(each.coverage for each in one.populations)
+            covered[i, j] = sum(population.coverage for population in one.populations)
             if self.suspension is not None:
                 density[i, j] = one.populations[0].areal_density
         vary.pop(AMOUNT, None)
         if self.suspension is not None:
             vary[DENSITY] = density
         possible = np.isfinite(covered)
-        asked = dict.fromkeys((*self.columns, "A_t", "h", "d", "particle_load_share"))
-        out = {name: np.full((P, S, J), math.nan) for name in asked}
+        names = dict.fromkeys((*self.columns, "A_t", "h", "d", "particle_load_share"))
+        out = {name: np.full((P, S, J), math.nan) for name in names}
         refused = np.full(P, "", dtype=object)
         if possible.any():
             count = np.count_nonzero(possible)
             flat = {name: np.repeat(values[possible], J) for name, values in vary.items()}
-            states, why = self._states(contact, flat, asked)
+            states, why = self._states(contact, flat, names)
             owner = np.repeat(np.argwhere(possible)[:, 0], J)
             for k in sorted(why, reverse=True):
                 refused[owner[k]] = why[k]
@@ -243,8 +247,8 @@ class Task:
 
         def solve(which: NDArray[np.intp]) -> Columns:
             some = {name: values[which] for name, values in vary.items()}
-            given = as_load(self.load, loads[which])
-            return state_columns(contact, vary=some or None, fewest=1, **given)
+            load = as_load(self.load, loads[which])
+            return state_columns(contact, vary=some or None, fewest=1, **load)
 
         try:
             return columns_tried(solve, count)
@@ -254,10 +258,10 @@ class Task:
             return none, dict.fromkeys(range(count), why)
 
     def _buried_share(
-        self, contact: Contact, vary: dict[str, Array], found: dict[str, Array]
+        self, contact: Contact, vary: dict[str, Array], columns: dict[str, Array]
     ) -> Array:
         """Share of the load on particles deeper than their radius, nominal: (P, loads)."""
-        d, share = found["d"][:, 0], found["particle_load_share"][:, 0]
+        d, share = columns["d"][:, 0], columns["particle_load_share"][:, 0]
         out = np.where(np.isnan(d), math.nan, 0.0)
         # where particles carry less than that, no more can be on buried ones
         many = np.flatnonzero(np.nanmax(share, axis=1, initial=0) > MOST_BURIED)
@@ -266,34 +270,34 @@ class Task:
             key = tuple(float(v[i]) for name, v in vary.items() if name != DENSITY)
             alike.setdefault(key, []).append(int(i))
         for which in alike.values():
-            own = contact.replace(**{name: float(v[which[0]]) for name, v in vary.items()})
-            known = np.isfinite(d[which])
-            most = np.zeros(known.shape)
-            most[known] = most_buried(own, d[which][known])
+            changed = contact.replace(**{name: float(v[which[0]]) for name, v in vary.items()})
+            needed = np.isfinite(d[which])
+            most = np.zeros(needed.shape)
+            most[needed] = most_buried(changed, d[which][needed])
             if DENSITY in vary:
                 most *= (vary[DENSITY][which] / vary[DENSITY][which[0]])[:, None]
-            pressure = self.loads * (own.E_ss if self.load == "F_star" else 1.0)
-            known &= most > NOTHING * pressure
-            part = np.zeros(known.shape)
-            if known.any():
-                part[known] = buried_share(own, d[which][known])
-            out[which] += np.nan_to_num(part * share[which])
+            pressure = self.loads * (changed.E_ss if self.load == "F_star" else 1.0)
+            needed &= most > NOTHING * pressure
+            buried = np.zeros(needed.shape)
+            if needed.any():
+                buried[needed] = buried_share(changed, d[which][needed])
+            out[which] += np.nan_to_num(buried * share[which])
         return out
 
     # ------------------------------------------------------------------ points
     def evaluate(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
         """Points, which are kept."""
         samples = len(self.scatter[1]) if self.scatter else 0
-        each = (1 + samples) * len(self.loads)
-        fit = max(1, AT_ONCE // each)
+        per_point = (1 + samples) * len(self.loads)
+        fit = max(1, AT_ONCE // per_point)
         rows: list[Point] = []
         for start in range(0, len(numbers), fit):
             some, before = numbers[start : start + fit], len(self.tried) + len(rows)
 
             def count(states: int, before: int = before) -> None:
-                self._report_more(before + states // each)
+                self._report_more(before + states // per_point)
 
-            with solving(Cost(each * len(some), count)):
+            with solving(Cost(per_point * len(some), count)):
                 rows += self.judge_points(some, materials)
             self._report_more(len(self.tried) + len(rows))
         self.tried += rows
@@ -308,7 +312,10 @@ class Task:
     def judge_points(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
         """Costs of points, and the limits that they break."""
         metric = self.metrics(numbers, materials)
-        costs = {each.label: each.cost(metric[each.of], self.weights) for each in self.objectives}
+        costs = {
+            objective.label: objective.cost(metric[objective.of], self.weights)
+            for objective in self.objectives
+        }
         broken = {str(limit): limit.excess(metric[limit.of]) for limit in self.limits}
         broken |= {
             f"A_t < {MOST_AREA}": np.max(metric["A_t"][:, 0], axis=1) / MOST_AREA - 1,
@@ -321,24 +328,24 @@ class Task:
         jammed = np.atleast_1d(np.any(np.isinf(metric["coverage"]), axis=1))
         rows = []
         for i, point in enumerate(numbers):
-            own = {what: _number(excess[i]) for what, excess in broken.items()}
+            excesses = {what: _number(excess[i]) for what, excess in broken.items()}
             cost = {label: float(values[i]) for label, values in costs.items()}
             reasons = [
                 f"{what} is broken by {excess:.3g} of it"
-                for what, excess in own.items()
+                for what, excess in excesses.items()
                 if excess > 0
             ]
             if unsolved[i]:
-                own["solved"] = math.inf
+                excesses["solved"] = math.inf
                 reasons = ["a load has no equilibrium"]
                 if jammed[i]:
                     reasons = [f"coverage < {MOST_COVERED} is broken: the particles jam"]
                 elif metric["refused"][i]:
                     reasons = [f"the contact is refused: {metric['refused'][i]}"]
             elif any(math.isnan(value) for value in cost.values()):
-                own["value"] = math.inf
+                excesses["value"] = math.inf
                 reasons = ["an objective has no value there"]
-            rows.append(Point(point, materials, cost, own, "; ".join(reasons)))
+            rows.append(Point(point, materials, cost, excesses, "; ".join(reasons)))
         return rows
 
     # ------------------------------------------------------------------ search
@@ -407,19 +414,19 @@ class Task:
 
         unit = abs(next(iter(best.costs.values()))) or 1.0
         names = [what for what in best.broken if what not in ("solved", "value")]
-        known: dict[bytes, Array] = {}
+        cache: dict[bytes, Array] = {}
 
         def values(u: Array) -> Array:
             """Cost and what is broken, finite."""
-            if u.tobytes() not in known:
+            if u.tobytes() not in cache:
                 (point,) = self.evaluate(self.values_at(u[None]), materials)
                 cost = next(iter(point.costs.values())) / unit
                 # a little inside, so that what is found there is feasible
                 broken = [min(point.broken.get(what, 1.0), 1.0) + 1e-6 for what in names]
                 if not math.isfinite(cost):
                     cost, broken = 1e3, [1.0] * len(names)
-                known[u.tobytes()] = np.array([cost, *np.maximum(broken, -1.0)])
-            return known[u.tobytes()]
+                cache[u.tobytes()] = np.array([cost, *np.maximum(broken, -1.0)])
+            return cache[u.tobytes()]
 
         minimize(
             lambda u: values(u)[0],

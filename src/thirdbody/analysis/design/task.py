@@ -30,12 +30,12 @@ CASES = 32
 
 
 def _load_cases(
-    contact: Contact, asked: Mapping[str, Any], weights: ArrayLike | None
+    contact: Contact, load_inputs: Mapping[str, Any], weights: ArrayLike | None
 ) -> tuple[str, Array, Array]:
     """Name of the load, its values, and their weights."""
     cases = {
         name: np.geomspace(v.low, v.high, CASES) if isinstance(v, Span) else v
-        for name, v in asked.items()
+        for name, v in load_inputs.items()
     }
     load, _, _ = given_load(contact, cases["pressure"], cases["F_star"], None)
     loads = np.atleast_1d(np.asarray(cases[load], float))
@@ -75,7 +75,7 @@ def design_task(
     if scatter and not problems:
         try:
             moved = drawn_inputs(contact, scatter, load, cases, "scatter[{!r}]")
-            drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
+            drawn = moved, latin(samples, len(moved.distributions), seed, 0, samples)
         except InvalidValue as error:
             problems += error.problems
     if problems:
@@ -127,19 +127,19 @@ def _unknown(
     problems: list[str] = []
     if not objectives:
         problems.append(is_empty("objective", "say what should be small or large"))
-    known = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
+    smooth = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
     both: list[Objective | Limit] = [*objectives, *limits]
     problems += [
         Problem(
             "",
-            f"{type(each).__name__} of {each.of!r}: no such number; the states of this contact "
-            f"have {', '.join(sorted(known))}",
+            f"{type(goal).__name__} of {goal.of!r}: no such number; the states of this contact "
+            f"have {', '.join(sorted(smooth))}",
             code=Mistake.UNKNOWN,
         )
-        for each in both
-        if each.of not in known
+        for goal in both
+        if goal.of not in smooth
     ]
-    if len({each.label for each in objectives}) < len(objectives):
+    if len({objective.label for objective in objectives}) < len(objectives):
         problems.append(Problem("", "two objectives are the same", code=Mistake.CLASH))
     return problems
 
@@ -183,12 +183,13 @@ def _suspension_problems(
     out += [
         Problem(
             "",
-            f"a concentration by mass needs the density of {each.name or 'the particles'} [kg/m^3]",
+            "a concentration by mass needs the density of "
+            f"{material.name or 'the particles'} [kg/m^3]",
             hint="give it with the material, or for one material as Suspension.particle_density",
             code=Mistake.MISSING,
         )
-        for each in every
-        if each.density is None and suspension.particle_density is None
+        for material in every
+        if material.density is None and suspension.particle_density is None
     ]
     return out
 
@@ -212,10 +213,10 @@ def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
             rule = f": low = {low:g} must be > 0"
             raise InvalidValue(Problem(f"vary[{name!r}]", rule, code=Mistake.RANGE))
         return Variable(name, low, high, None)
-    found = Variable(name, low, high, moved_input(contact, name))
+    variable = Variable(name, low, high, moved_input(contact, name))
     for end in (low, high):
         # of itself each end must be allowed; that particles jam depends on the others
-        changes = {k: float(v) for k, v in found.changes(end).items()}
+        changes = {k: float(v) for k, v in variable.changes(end).items()}
         sparse = {DENSITY: 0.0} if name.startswith("particles.diameter.") else {}
         contact.replace(**(sparse | changes))
-    return found
+    return variable

@@ -123,9 +123,9 @@ class Folder:
     @property
     def finished_summary(self) -> dict[str, Any] | None:
         """The summary of a finished run: states, and how many of them are unsolved."""
-        found = read_record(self.path / "finished.json", FINISHED)
-        right = found and {"states", "unsolved", "A_t", "shadow"} <= set(found.data)
-        return found.data if found and right and self.data.exists() else None
+        record = read_record(self.path / "finished.json", FINISHED)
+        right = record and {"states", "unsolved", "A_t", "shadow"} <= set(record.data)
+        return record.data if record and right and self.data.exists() else None
 
     def whole(self, read: Callable[[], Read]) -> Read:
         """What reads the data; InvalidValue where something has damaged them."""
@@ -189,9 +189,9 @@ class Folder:
 
     def relabel(self, study: str) -> None:
         """Say what the store holds once it has its labels."""
-        found = self.shared_files(study)
-        if found is not None:
-            files, blocks = found
+        shared = self.shared_files(study)
+        if shared is not None:
+            files, blocks = shared
             self.write_record(study, blocks, files | {ROOT: fingerprint(self.path / ROOT)})
 
     def restore(self, fresh: Path, study: str, blocks: int) -> None:
@@ -202,14 +202,14 @@ class Folder:
         InvalidValue
             Another version of zarr made the store, whose files this one does not make.
         """
-        found = self.shared_files(study)
+        shared = self.shared_files(study)
         names = sorted(
             file.relative_to(fresh).as_posix() for file in fresh.rglob("*") if file.is_file()
         )
         prints = {name: fingerprint(fresh / name) for name in names}
         there = {name: fingerprint(self.data / name) for name in names}
-        if found is not None:
-            wanted = {name: found[0].get(f"{self.data.name}/{name}") for name in names}
+        if shared is not None:
+            wanted = {name: shared[0].get(f"{self.data.name}/{name}") for name in names}
             for name in names:
                 if name != "zarr.json" and there[name] != wanted[name] != prints[name]:
                     raise InvalidValue(
@@ -217,7 +217,7 @@ class Folder:
                         f"one; remove {self.data}, and the same command solves all of it again",
                         code=Mistake.DAMAGED,
                     )
-        same = found is not None or any(
+        same = shared is not None or any(
             there[name] == prints[name] for name in names if name.endswith("/zarr.json")
         )
         for name in names:
@@ -227,20 +227,20 @@ class Folder:
                 place.parent.mkdir(parents=True, exist_ok=True)
                 (fresh / name).replace(place)
         if same:
-            kept = {f"{self.data.name}/{name}": told for name, told in prints.items()}
+            kept = {f"{self.data.name}/{name}": written for name, written in prints.items()}
             self.write_record(study, blocks, kept)
 
     def write_record(self, study: str, blocks: int, prints: Mapping[str, Fingerprint]) -> None:
         """Write ``files.json``."""
-        told = {"study": study, "blocks": blocks, "files": dict(prints)}
-        write_text(self.path / "files.json", sealed_text(told))
+        content = {"study": study, "blocks": blocks, "files": dict(prints)}
+        write_text(self.path / "files.json", sealed_text(content))
 
     def shared_files(self, study: str | None) -> tuple[dict[str, Fingerprint], int] | None:
         """Content of ``files.json``: fingerprints, and the number of blocks."""
-        found = read_record(self.path / "files.json", ())
-        if found is None or (study is not None and found.data.get("study") != study):
+        record = read_record(self.path / "files.json", ())
+        if record is None or (study is not None and record.data.get("study") != study):
             return None
-        return found.data["files"], found.data["blocks"]
+        return record.data["files"], record.data["blocks"]
 
     def markers(self, study: str | None) -> dict[int, dict[str, Any] | None]:
         """Content of each marker; None for a broken one or one of another study."""
@@ -248,11 +248,11 @@ class Folder:
         for path in sorted((self.path / "done").glob("*.json")):
             if not (path.stem.isdecimal() and path.stem.isascii()):
                 continue
-            found = read_record(path, MARKER)
-            right = found is not None and {"study", "states", "unsolved"} <= set(found.data)
-            if right and found is not None and study is not None:
-                right = found.data["study"] == study
-            out[int(path.stem)] = found.data if right and found is not None else None
+            record = read_record(path, MARKER)
+            right = record is not None and {"study", "states", "unsolved"} <= set(record.data)
+            if right and record is not None and study is not None:
+                right = record.data["study"] == study
+            out[int(path.stem)] = record.data if right and record is not None else None
         return dict(sorted(out.items()))
 
     def holds(self, study: str) -> bool:
@@ -276,8 +276,8 @@ class Folder:
         files, blocks = shared or ({}, 0)
         out.wanted = blocks or None
         finished = self.finished_summary is not None
-        for name, told in files.items():
-            problems = self._misfit(name, told)
+        for name, written in files.items():
+            problems = self._misfit(name, written)
             if name == ROOT and problems and not finished:
                 out.unlabelled = True
             else:
@@ -315,7 +315,9 @@ class Folder:
             ):
                 problems = [damage(self.part_file(number), "is missing")]
         elif not (finished and self._parts_only(files)):  # which go once they are put together
-            problems = [text for name, told in files.items() for text in self._misfit(name, told)]
+            problems = [
+                text for name, written in files.items() for text in self._misfit(name, written)
+            ]
             out.checked += len(files)
         if problems:
             out.damaged[number] = problems
@@ -328,13 +330,13 @@ class Folder:
         """Whether there should be a ``files.json`` that can be read."""
         if (self.path / "files.json").exists():
             return True
-        prints = [each["files"] for each in markers.values() if each and "files" in each]
-        return any(finished or not self._parts_only(each) for each in prints)
+        prints = [marker["files"] for marker in markers.values() if marker and "files" in marker]
+        return any(finished or not self._parts_only(files) for files in prints)
 
     def _put_together(self, markers: Mapping[int, dict[str, Any] | None]) -> bool:
         """Whether blocks lie in parts, so that data that are there hold all of them."""
-        prints = [each["files"] for each in markers.values() if each and "files" in each]
-        return any(each and self._parts_only(each) for each in prints)
+        prints = [marker["files"] for marker in markers.values() if marker and "files" in marker]
+        return any(files and self._parts_only(files) for files in prints)
 
     def _misfit(self, name: str, wanted: Fingerprint) -> list[Problem]:
         why = misfit(self.path / name, wanted)
@@ -348,8 +350,8 @@ class Folder:
         """Remove what a killed run of this folder left; the lock is held."""
         for name in ("study.json", "files.json", "finished.json"):
             _remove_ours(self.path, partial(is_draft, of=name))
-        _remove_ours(self.path / "done", lambda found: _numbered_draft(found, ".json"))
-        _remove_ours(self.path / "parts", lambda found: _numbered_draft(found, ".npz"))
+        _remove_ours(self.path / "done", lambda path: _numbered_draft(path, ".json"))
+        _remove_ours(self.path / "parts", lambda path: _numbered_draft(path, ".npz"))
         remove_files(self.path / ".states.part.zarr", STORE)
         (self.path / ".states.part.nc").unlink(missing_ok=True)
         store = self.path / "states.zarr"
@@ -383,31 +385,31 @@ class Folder:
             )
         if not path.exists():
             return
-        found = read_json(path / "study.json")
-        if found is not None and not differences(found, study):
+        old_study = read_json(path / "study.json")
+        if old_study is not None and not differences(old_study, study):
             return
         if self.holds(name_of(study)):
             return  # study.json is damaged, and written again
-        if found is None:
+        if old_study is None:
             self._refuse_strangers()
             return
-        old, new = found.get("order", "not told"), study["order"]
-        if list(differences(found, study)) == ["order"]:
-            there, here = (json.dumps(each, ensure_ascii=False) for each in (old, new))
+        old, new = old_study.get("order", "not told"), study["order"]
+        if list(differences(old_study, study)) == ["order"]:
+            there, here = (json.dumps(order, ensure_ascii=False) for order in (old, new))
             raise InvalidValue(
                 f"{path} holds another study: the order of its inputs, which decides the samples "
                 f"that each is given, is {there} there and {here} here; write them in that order, "
                 "or give another folder",
                 code=Mistake.OTHER_STUDY,
             )
-        refuse_another(path, found, study, derived=("order",))
+        refuse_another(path, old_study, study, derived=("order",))
 
     def _refuse_strangers(self) -> None:
         """Refuse a folder without a study that holds anything but what a killed run leaves."""
         strange = sorted(
-            each.name
-            for each in self.path.iterdir()
-            if not is_draft(each.name, "study.json") and not _is_lock(each)
+            path.name
+            for path in self.path.iterdir()
+            if not is_draft(path.name, "study.json") and not _is_lock(path)
         )
         if not strange:
             return
@@ -513,7 +515,7 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
     if kind not in ("zarr", "netcdf"):
         kind = "netcdf" if (place / "states.nc").exists() else "zarr"
     folder = Folder(place, kind, ())
-    names = {each["study"] for each in folder.markers(None).values() if each is not None}
+    names = {marker["study"] for marker in folder.markers(None).values() if marker is not None}
     if study is None and not names:
         raise InvalidValue(
             f"{place} holds no sweep: there is no study.json that can be read",
@@ -524,8 +526,8 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
     if name is None or (names and name not in names):
         problems.append(damage(place / "study.json"))
         name = min(names)
-    found = folder.look(name, progress)
-    problems += found.problems
+    findings = folder.look(name, progress)
+    problems += findings.problems
     finished = folder.finished_summary is not None
     if (place / "finished.json").exists() and not finished:
         problems.append(damage(place / "finished.json", "is damaged, or the data are missing"))
@@ -538,19 +540,19 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
             damage(place, "is damaged: thirdbody sweep with its study makes that again"),
             code=Mistake.DAMAGED,
         )
-    blocks = plural(len(found.blocks), "block")
+    blocks = plural(len(findings.blocks), "block")
     if finished:
-        told = f"{place}: {plural(found.checked, 'file')} of {blocks} as they were written; "
-        told += "the sweep is finished"
+        summary = f"{place}: {plural(findings.checked, 'file')} of {blocks} as they were written; "
+        summary += "the sweep is finished"
     else:
-        if found.wanted is not None:
-            blocks = f"{len(found.blocks)} of {plural(found.wanted, 'block')}"
-        told = (
-            f"{place}: {blocks} done, {plural(found.checked, 'file')} as they were written; "
+        if findings.wanted is not None:
+            blocks = f"{len(findings.blocks)} of {plural(findings.wanted, 'block')}"
+        summary = (
+            f"{place}: {blocks} done, {plural(findings.checked, 'file')} as they were written; "
             "the sweep is not finished: its command goes on"
         )
-    missing = unchecked_words(place, found)
-    return f"{told}\n{missing}" if missing else told
+    missing = unchecked_words(place, findings)
+    return f"{summary}\n{missing}" if missing else summary
 
 
 def damage(file: Path, rule: str = "is damaged") -> Problem:
@@ -558,28 +560,33 @@ def damage(file: Path, rule: str = "is damaged") -> Problem:
     return Problem("", f"{file} {rule}", code=Mistake.DAMAGED)
 
 
-def damage_words(path: Path, found: Found) -> str:
+def damage_words(path: Path, findings: Found) -> str:
     """Sentence on damaged blocks that are computed again; "" where there are none."""
-    if not found.problems:
+    if not findings.problems:
         return ""
-    shown = "; ".join(found.problems[:SHOWN])
-    more = f"; and {len(found.problems) - SHOWN} more" if len(found.problems) > SHOWN else ""
+    shown = "; ".join(findings.problems[:SHOWN])
+    more = f"; and {len(findings.problems) - SHOWN} more" if len(findings.problems) > SHOWN else ""
     what = f"{path} is damaged, and what is damaged is made again: {shown}{more}"
     return Note(what, code="kept.damaged")
 
 
 def _much(markers: Mapping[int, dict[str, Any] | None]) -> bool:
     """Whether there are seconds of reading."""
-    prints = [told for each in markers.values() if each for told in each.get("files", {}).values()]
-    return sum(told[0] for told in prints if told) > MUCH
+    prints = [
+        written
+        for marker in markers.values()
+        if marker
+        for written in marker.get("files", {}).values()
+    ]
+    return sum(written[0] for written in prints if written) > MUCH
 
 
-def unchecked_words(path: Path, found: Found) -> str:
+def unchecked_words(path: Path, findings: Found) -> str:
     """Sentence on files that cannot be checked, and what to do; "" where all can."""
-    if not found.unchecked:
+    if not findings.unchecked:
         return ""
     what = (
-        f"{path}: {plural(found.unchecked, 'block')} of an earlier version of thirdbody kept no "
+        f"{path}: {plural(findings.unchecked, 'block')} of an earlier version of thirdbody kept no "
         "digest, so that damage in them is not seen; solve the study into another folder where "
         "that matters"
     )

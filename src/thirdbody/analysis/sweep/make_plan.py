@@ -74,8 +74,8 @@ def make_plan(
             )
         )
     problems += _unequal_lengths(listed) if design == "zip" else []
-    known = columns_of(contact)
-    problems += [p for name in columns or () for p in _not_known("column", name, known)]
+    available = columns_of(contact)
+    problems += [p for name in columns or () for p in _not_known("column", name, available)]
     if problems:
         raise InvalidValue(*problems)
 
@@ -83,7 +83,7 @@ def make_plan(
     if spans:
         assert samples is not None
         dims.append(Sampled(spans, design, samples, seed, 0, samples))
-    kept = tuple(name for name in known if name != load and name in (columns or known))
+    kept = tuple(name for name in available if name != load and name in (columns or available))
     if reduce is None:
         return Plan(contact, load, tuple(dims), kept, None, chunk)
     words = ("mode", "status", "iterations", *(() if columns else ("residual",)))

@@ -69,9 +69,9 @@ class Listed:
         """Its inputs, in order."""
         return tuple(self.values)
 
-    def cut(self, part: slice) -> Listed:
-        cut = {name: values[part] for name, values in self.values.items()}
-        return Listed(self.name, cut, self.start + part.start)
+    def cut(self, places: slice) -> Listed:
+        cut = {name: values[places] for name, values in self.values.items()}
+        return Listed(self.name, cut, self.start + places.start)
 
     def inputs(self) -> Arrays:
         return self.values
@@ -101,8 +101,8 @@ class Sampled:
         """Its inputs, in order."""
         return tuple(self.spans)
 
-    def cut(self, part: slice) -> Sampled:
-        ends = {"start": self.start + part.start, "stop": self.start + part.stop}
+    def cut(self, places: slice) -> Sampled:
+        ends = {"start": self.start + places.start, "stop": self.start + places.stop}
         return dataclasses.replace(self, **ends)
 
     def inputs(self) -> Arrays:
@@ -111,8 +111,8 @@ class Sampled:
         return {name: span.values_at(u[:, j]) for j, (name, span) in enumerate(self.spans.items())}
 
     def to_dict(self) -> dict[str, object]:
-        own = {"design": self.design, "samples": self.count, "seed": self.seed}
-        return own | {name: dataclasses.asdict(span) for name, span in self.spans.items()}
+        sampling = {"design": self.design, "samples": self.count, "seed": self.seed}
+        return sampling | {name: dataclasses.asdict(span) for name, span in self.spans.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,9 +146,9 @@ class Block:
         out: Arrays = {}
         for changes, which in _split_by_words(words, len(loads)):
             contact = vary_contact(self.contact, changes) if changes else self.contact
-            given = as_load(self.load, loads[which])
+            load = as_load(self.load, loads[which])
             vary = {name: values[which] for name, values in numbers.items()}
-            for name, column in state_columns(contact, **given, vary=vary or None).items():
+            for name, column in state_columns(contact, **load, vary=vary or None).items():
                 if name not in out:
                     kind = object if column.dtype.kind in "UO" else column.dtype
                     out[name] = np.empty(len(loads), dtype=kind)
@@ -157,11 +157,11 @@ class Block:
 
     def parts(self, most: int) -> Iterator[tuple[Box, Block]]:
         """The block in boxes of at most so many states."""
-        for part in _boxes(self.sizes, _box(self.sizes, most)):
-            yield part, self.cut(part)
+        for box in _boxes(self.sizes, _box(self.sizes, most)):
+            yield box, self.cut(box)
 
-    def cut(self, part: Box) -> Block:
-        dims = tuple(dim.cut(s) for dim, s in zip(self.dims, part, strict=True))
+    def cut(self, box: Box) -> Block:
+        dims = tuple(dim.cut(s) for dim, s in zip(self.dims, box, strict=True))
         return dataclasses.replace(self, dims=dims)
 
 
@@ -181,12 +181,12 @@ class Task:
         need_version(self.version, "sweep")
         needed = dict.fromkeys((*self.columns, "status", "status_code", "engine", "A_t", "shadow"))
         solved: Arrays = {}
-        for part, block in self.block.parts(CHUNK):
+        for box, block in self.block.parts(CHUNK):
             columns = block.solve()
             for name in needed:
                 if name not in solved:
                     solved[name] = np.empty(self.block.sizes, dtype=columns[name].dtype)
-                solved[name][part] = columns[name]
+                solved[name][box] = columns[name]
         summary: dict[str, object] = {
             "states": math.prod(self.block.sizes),
             "unsolved": int(np.sum(solved["status_code"] != Status.OK)),
@@ -339,22 +339,22 @@ class Plan:
         InvalidValue
             One of these states has inputs that the library refuses.
         """
-        found: dict[str, str] = {}
+        sentences: dict[str, str] = {}
         hardest: tuple[float, float, Contact] | None = None
         for load, contact in self.looked_at():
             sign = -1 if self.load == "d" else 1
             if hardest is None or sign * load > hardest[0]:
                 hardest = sign * load, load, contact
             for sentence in about_particles(contact):
-                found.setdefault(code_of(sentence), sentence)
+                sentences.setdefault(code_of(sentence), sentence)
         if hardest is not None:
             _, load, contact = hardest
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RangeWarning)
                 state = solve(contact, **as_load(self.load, np.array([load])))
             for sentence in state.warnings:
-                found.setdefault(code_of(sentence), sentence)
-        return list(found.values())
+                sentences.setdefault(code_of(sentence), sentence)
+        return list(sentences.values())
 
     def looked_at(self) -> Iterator[tuple[float, Contact]]:
         """Load and contact of some states, evenly spread."""

@@ -55,19 +55,19 @@ class Reduction:
 
     @staticmethod
     def read(
-        asked: Mapping[str, Any], dims: Mapping[str, Sequence[str]], columns: Sequence[str]
+        entries: Mapping[str, Any], dims: Mapping[str, Sequence[str]], columns: Sequence[str]
     ) -> Reduction:
         """From what a user writes; ``dims`` are the dimensions and the inputs along each."""
         problems = [
             Problem(
                 f"reduce[{key!r}]", f"is not known; it has {', '.join(KEYS)}", code=Mistake.UNKNOWN
             )
-            for key in asked
+            for key in entries
             if key not in KEYS
         ]
         over: list[str] = []
-        given = asked.get("over", ["sample"] if "sample" in dims else None)
-        if given is None:
+        names = entries.get("over", ["sample"] if "sample" in dims else None)
+        if names is None:
             problems.append(
                 Problem(
                     "reduce['over']",
@@ -75,26 +75,26 @@ class Reduction:
                     code=Mistake.MISSING,
                 )
             )
-        for name in [given] if isinstance(given, str) else given or ():
+        for name in [names] if isinstance(names, str) else names or ():
             home = next((dim for dim, inputs in dims.items() if name in (dim, *inputs)), None)
             if home is None:
-                known = ", ".join(dict.fromkeys(n for dim in dims for n in (dim, *dims[dim])))
+                varied = ", ".join(dict.fromkeys(n for dim in dims for n in (dim, *dims[dim])))
                 problems.append(
                     Problem(
                         "reduce['over']",
-                        f"names {name!r}, which is not varied: {known}",
+                        f"names {name!r}, which is not varied: {varied}",
                         code=Mistake.UNKNOWN,
                     )
                 )
             else:
                 over.append(home)
-        quantiles = tuple(float(q) for q in np.atleast_1d(asked.get("quantiles", ())))
+        quantiles = tuple(float(q) for q in np.atleast_1d(entries.get("quantiles", ())))
         problems += [
             Problem("reduce['quantiles']", "must be from 0 to 1", f"{q:g}", code=Mistake.RANGE)
             for q in quantiles
             if not 0 <= q <= 1
         ]
-        exceed = dict(asked.get("exceed", {}))
+        exceed = dict(entries.get("exceed", {}))
         for name, threshold in exceed.items():
             if name not in columns:
                 rule = f"names {name!r}, which is not among the columns {', '.join(columns)}"
@@ -108,8 +108,8 @@ class Reduction:
                         code=Mistake.KIND,
                     )
                 )
-        extrema, mean = asked.get("extrema", False), asked.get("mean", False)
-        if not (set(asked) - {"over"}):
+        extrema, mean = entries.get("extrema", False), entries.get("mean", False)
+        if not (set(entries) - {"over"}):
             problems.append(
                 Problem(
                     "reduce",
@@ -137,16 +137,16 @@ class Reduction:
         out["solved"], out["count"] = ok.sum(-1), np.full(shape, ok.shape[-1])
         thresholds = dict(self.exceed)
         for name, values in flat.items():
-            known = ~np.isnan(values)
-            every = bool(known.all())
-            out[f"{name}:count"] = known.sum(-1)
+            has_value = ~np.isnan(values)
+            every = bool(has_value.all())
+            out[f"{name}:count"] = has_value.sum(-1)
             if name in thresholds:
                 out[f"{name}:over"] = (values > thresholds[name]).sum(-1)
             if self.mean:
-                out[f"{name}:sum"] = np.where(known, values, 0).sum(-1)
+                out[f"{name}:sum"] = np.where(has_value, values, 0).sum(-1)
             if self.extrema:
-                out[f"{name}:min"] = np.where(known, values, np.inf).min(-1)
-                out[f"{name}:max"] = np.where(known, values, -np.inf).max(-1)
+                out[f"{name}:min"] = np.where(has_value, values, np.inf).min(-1)
+                out[f"{name}:max"] = np.where(has_value, values, -np.inf).max(-1)
             if self.quantiles:
                 out[f"{name}:quantile"] = _quantiles(values, self.quantiles, every)
         return out
@@ -157,26 +157,26 @@ class Reduction:
         if len(parts) == 1:
             return dict(parts[0])
         return {
-            key: SUMS[key.rpartition(":")[2]](np.stack([part[key] for part in parts]), axis=0)
+            key: SUMS[key.rpartition(":")[2]](np.stack([arrays[key] for arrays in parts]), axis=0)
             for key in parts[0]
         }
 
-    def result(self, part: Arrays) -> Arrays:
+    def result(self, arrays: Arrays) -> Arrays:
         """The stored variables."""
-        out = {"solved": part["solved"] / part["count"]}
-        for name in (key.removesuffix(":count") for key in part if key.endswith(":count")):
-            count = part[f"{name}:count"]
+        out = {"solved": arrays["solved"] / arrays["count"]}
+        for name in (key.removesuffix(":count") for key in arrays if key.endswith(":count")):
+            count = arrays[f"{name}:count"]
             with np.errstate(invalid="ignore", divide="ignore"):
                 none = np.where(count > 0, 0.0, np.nan)
                 if self.mean:
-                    out[f"{name}_mean"] = part[f"{name}:sum"] / count
-                if f"{name}:over" in part:
-                    out[f"{name}_exceeds"] = part[f"{name}:over"] / count
+                    out[f"{name}_mean"] = arrays[f"{name}:sum"] / count
+                if f"{name}:over" in arrays:
+                    out[f"{name}_exceeds"] = arrays[f"{name}:over"] / count
             if self.extrema:
-                out[f"{name}_min"] = part[f"{name}:min"] + none
-                out[f"{name}_max"] = part[f"{name}:max"] + none
+                out[f"{name}_min"] = arrays[f"{name}:min"] + none
+                out[f"{name}_max"] = arrays[f"{name}:max"] + none
             if self.quantiles:
-                out[f"{name}_quantile"] = part[f"{name}:quantile"]
+                out[f"{name}_quantile"] = arrays[f"{name}:quantile"]
         return out
 
     def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, Mapping[str, object]]]:
@@ -189,17 +189,17 @@ class Reduction:
             "solved": (False, {"units": "1", "long_name": "share of samples that were solved"})
         }
         for name in columns:
-            told = about(name)
-            unit = {"units": told.unit, "symbol": told.symbol}
+            column = about(name)
+            unit = {"units": column.unit, "symbol": column.symbol}
             for kind in kinds:
-                words_of = {"long_name": words[kind].format(told.meaning)}
+                words_of = {"long_name": words[kind].format(column.meaning)}
                 out[f"{name}_{kind}"] = (False, unit | words_of)
             if name in thresholds:
-                said = f"share of samples with {told.symbol} > {thresholds[name]:g}"
+                said = f"share of samples with {column.symbol} > {thresholds[name]:g}"
                 extra = {"units": "1", "long_name": said, "threshold": thresholds[name]}
                 out[f"{name}_exceeds"] = (False, extra)
             if self.quantiles:
-                words_of = {"long_name": f"quantiles of the {told.meaning}"}
+                words_of = {"long_name": f"quantiles of the {column.meaning}"}
                 out[f"{name}_quantile"] = (True, unit | words_of)
         return out
 
@@ -211,7 +211,7 @@ def _quantiles(
         return np.moveaxis(np.quantile(values, probabilities, axis=-1), 0, -1)
     out = np.full((*values.shape[:-1], len(probabilities)), np.nan)
     for cell in np.ndindex(*values.shape[:-1]):
-        known = values[cell][~np.isnan(values[cell])]
-        if len(known):
-            out[cell] = np.quantile(known, probabilities)
+        numbers = values[cell][~np.isnan(values[cell])]
+        if len(numbers):
+            out[cell] = np.quantile(numbers, probabilities)
     return out

@@ -208,16 +208,16 @@ def run(
     folder.refuse_others(study)
     shown = progress is True
     if folder.finished_summary is not None:
-        found = folder.look(name_of(study), shown)
-        if not found.problems and folder.says(study):
+        findings = folder.look(name_of(study), shown)
+        if not findings.problems and folder.says(study):
             folder.remove_parts()  # of a run killed at the very end
-            _warn(unchecked_words(folder.path, found))
+            _warn(unchecked_words(folder.path, findings))
             if shown:
                 print(f"{folder.path} is finished: nothing to do", file=sys.stderr)
             return folder
         if not os.access(folder.path, os.W_OK):
             raise InvalidValue(
-                f"{damage_words(folder.path, found)}; but it cannot be written",
+                f"{damage_words(folder.path, findings)}; but it cannot be written",
                 code=Mistake.UNWRITABLE,
             )
     notes = plan.notes()  # refuses inputs before anything is written
@@ -275,18 +275,18 @@ def _carry_out(
     direct = folder.format == "zarr" and plan.reduction is None
     if direct and not folder.data.exists():
         _make_store(plan, folder, layout, name)
-    found = folder.look(name, progress is True)
-    done = {number: one for number, one in found.blocks.items() if number < plan.count}
-    intact = found.recorded and not found.shared  # the data that were put together
-    if found.problems or len(done) < plan.count:
+    findings = folder.look(name, progress is True)
+    done = {number: one for number, one in findings.blocks.items() if number < plan.count}
+    intact = findings.recorded and not findings.shared  # the data that were put together
+    if findings.problems or len(done) < plan.count:
         (path / "finished.json").unlink(missing_ok=True)
     if direct:
-        store = _mend_store(plan, folder, layout, name, found)
+        store = _mend_store(plan, folder, layout, name, findings)
     elif not (intact and len(done) == plan.count):
         (path / "parts").mkdir(exist_ok=True)
         done = {n: one for n, one in done.items() if folder.part_file(n).exists()}
-    _warn(damage_words(path, found))
-    _warn(unchecked_words(path, found))
+    _warn(damage_words(path, findings))
+    _warn(unchecked_words(path, findings))
     states = _summary(done.values())["states"]
     more = len(done) < plan.count
     left = (number for number in range(plan.count) if number not in done)
@@ -324,9 +324,9 @@ def _make_store(plan: Plan, folder: Folder, layout: Layout, name: str) -> None:
     draft.rename(folder.data)
 
 
-def _mend_store(plan: Plan, folder: Folder, layout: Layout, name: str, found: Found) -> _Zarr:
+def _mend_store(plan: Plan, folder: Folder, layout: Layout, name: str, findings: Found) -> _Zarr:
     """The store with what belongs to no block as it was made."""
-    if found.shared or found.unlabelled or not found.recorded:
+    if findings.shared or findings.unlabelled or not findings.recorded:
         draft = folder.path / ".states.part.zarr"
         _Zarr.create(draft, layout)
         folder.restore(draft, name, plan.count)

@@ -260,10 +260,10 @@ def stated_ranges(contact: Contact) -> dict[str, Uncertain]:
 
     Bandwidths α of a process go as far as the law of the asperities knows them.
     """
-    known = {"alpha": contact.asperity_law.bandwidths}
+    limits = {"alpha": contact.asperity_law.bandwidths}
     out = library_ranges(contact)
     for name, ends in contact.roughness.ranges.items():
-        least, most = known.get(name, ends)
+        least, most = limits.get(name, ends)
         low, high = max(ends[0], least), min(ends[1], most)
         out[f"roughness.{name}"] = Uncertain.log_uniform(low=low, high=high)
     return out
@@ -274,18 +274,20 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
     from ...populations.materials import materials
 
     entries = materials.entries()
-    known = inputs(contact)
+    numbers = inputs(contact)
     bodies = {"surfaces.first": contact.surfaces.first, "surfaces.second": contact.surfaces.second}
-    given = contact.particles
-    if isinstance(given, tuple):
-        bodies |= {f"particles.{i}.material": each.material for i, each in enumerate(given)}
-    elif given is not None:
-        bodies["particles.material"] = given.material
+    particles = contact.particles
+    if isinstance(particles, tuple):
+        bodies |= {
+            f"particles.{i}.material": population.material for i, population in enumerate(particles)
+        }
+    elif particles is not None:
+        bodies["particles.material"] = particles.material
     alike = contact.surfaces.alike
     out = {}
     for name, body in bodies.items():
         for key, (low, high) in entries.get(body.name, {}).get("range", {}).items():
-            if not low < high or f"{name}.{key}" not in known:
+            if not low < high or f"{name}.{key}" not in numbers:
                 continue
             if key == "K_c":  # of the size below which nothing breaks: vary x_c or B for that
                 continue
@@ -297,11 +299,11 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
     return out
 
 
-def as_uncertain(given: Any) -> Uncertain:
+def as_uncertain(value: Any) -> Uncertain:
     """Distribution of an input from a distribution, two ends, or a ufloat."""
-    if isinstance(given, Uncertain):
-        return given
-    return Uncertain.from_ufloat(given) if is_uncertain(given) else _uniform_between(*given)
+    if isinstance(value, Uncertain):
+        return value
+    return Uncertain.from_ufloat(value) if is_uncertain(value) else _uniform_between(*value)
 
 
 def _uniform_between(low: float, high: float) -> Uncertain:
@@ -310,7 +312,7 @@ def _uniform_between(low: float, high: float) -> Uncertain:
 
 def _correlated_inputs(inputs: Mapping[str, object], where: str) -> list[str]:
     """Ufloats that rest on the same measurement, which no two inputs here may."""
-    told = [(label, given) for label, given in inputs.items() if is_uncertain(given)]
+    uncertain = [(label, value) for label, value in inputs.items() if is_uncertain(value)]
     return [
         Problem(
             where.format(one),
@@ -318,7 +320,7 @@ def _correlated_inputs(inputs: Mapping[str, object], where: str) -> list[str]:
             hint="join what is one thing by +, or take sensitivity(...).ufloats(...)",
             code=Mistake.CLASH,
         )
-        for (one, first), (other, second) in combinations(told, 2)
+        for (one, first), (other, second) in combinations(uncertain, 2)
         if are_correlated(first, second)
     ]
 
@@ -327,7 +329,7 @@ class Drawn(NamedTuple):
     """Uncertain inputs of a contact: what moves, and how it is distributed."""
 
     moved: tuple[Moved | str, ...]
-    known: tuple[Uncertain, ...]
+    distributions: tuple[Uncertain, ...]
 
     def moved_numbers(self, values: Sequence[object]) -> Arrays:
         """Every number of the contact that moves, from the values of the inputs."""
@@ -341,7 +343,9 @@ class Drawn(NamedTuple):
 
     def points(self, u: Array) -> Arrays:
         """Numbers of the contact at points of the unit cube (N, k)."""
-        return self.moved_numbers([known.quantile(u[:, j]) for j, known in enumerate(self.known)])
+        return self.moved_numbers(
+            [distribution.quantile(u[:, j]) for j, distribution in enumerate(self.distributions)]
+        )
 
     @property
     def nominal(self) -> list[float]:
@@ -358,19 +362,19 @@ def drawn_inputs(
 ) -> Drawn:
     """The uncertain inputs; mistakes say ``where`` they stand."""
     moved: list[Moved | str] = []
-    known: list[Uncertain] = []
+    distributions: list[Uncertain] = []
     taken: dict[str, str] = {}
     problems = _correlated_inputs(inputs, where)
     if not inputs:
         problems.append(
             is_empty("vary", 'say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}')
         )
-    for label, given in inputs.items():
+    for label, value in inputs.items():
         place = where.format(label)
         try:
-            each: Moved | str = label
+            moved_input: Moved | str = label
             if label not in ("pressure", "F_star", "d"):
-                each = input_of(contact, label, where)
+                moved_input = input_of(contact, label, where)
             elif label != load:
                 rule = f": the given load is {load}; only that can be uncertain"
                 problems.append(Problem(place, rule, code=Mistake.CLASH))
@@ -386,7 +390,7 @@ def drawn_inputs(
             ]
             continue
         try:
-            one = as_uncertain(given)
+            one = as_uncertain(value)
         except InvalidValue as error:
             problems += [Problem(place, f": {why}", code=why.code) for why in error.problems]
             continue
@@ -395,9 +399,9 @@ def drawn_inputs(
                 "must be (low, high), or one of Uncertain.uniform, log_uniform, normal, lognormal; "
                 "or a ufloat"
             )
-            problems.append(Problem(place, rule, repr(given), code=Mistake.KIND))
+            problems.append(Problem(place, rule, repr(value), code=Mistake.KIND))
             continue
-        names = (each,) if isinstance(each, str) else each.names
+        names = (moved_input,) if isinstance(moved_input, str) else moved_input.names
         for name in names:
             if name in taken:
                 rule = f"and {where.format(taken[name])} both move {name}"
@@ -405,29 +409,31 @@ def drawn_inputs(
             taken[name] = label
         problems += [
             Problem(place, f": {text}", code=text.code)
-            for text in _range_problems(contact, each, one)
+            for text in _range_problems(contact, moved_input, one)
         ]
-        moved.append(each)
-        known.append(one)
+        moved.append(moved_input)
+        distributions.append(one)
     if problems:
         raise InvalidValue(*problems)
-    return Drawn(tuple(moved), tuple(known))
+    return Drawn(tuple(moved), tuple(distributions))
 
 
-def _range_problems(contact: Contact, moved: Moved | str, known: Uncertain) -> list[Clause]:
+def _range_problems(contact: Contact, moved: Moved | str, distribution: Uncertain) -> list[Clause]:
     """Why the ends of a distribution cannot stand for the input."""
-    for end in (known.quantile(0.0), known.quantile(1.0)):
+    for end in (distribution.quantile(0.0), distribution.quantile(1.0)):
         if isinstance(moved, str):
             low = moved != "d" and end <= 0
             why = Mistake.RANGE.clause("must be > 0") if low else None
         else:
             values = moved.numbers_at((end - moved.values[0]) / moved.scales[0])
-            found = (
+            problems = (
                 problem_with(declared_quantity(contact, n), float(v)) for n, v in values.items()
             )
-            why = next(filter(None, found), None)
+            why = next(filter(None, problems), None)
         if why:
-            cause = "; a lognormal stays positive" if known.kind == "normal" else ""
-            far = ", six standard deviations from the mean," if known.kind == "normal" else ""
+            cause = "; a lognormal stays positive" if distribution.kind == "normal" else ""
+            far = (
+                ", six standard deviations from the mean," if distribution.kind == "normal" else ""
+            )
             return [why.code.clause(f"the value {end:.4g}{far} {why}{cause}")]
     return []

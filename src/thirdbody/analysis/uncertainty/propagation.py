@@ -133,10 +133,10 @@ class Propagation(Record):
         for name, band in self.bands.items():
             if name == self.load and not one:
                 continue  # a coordinate
-            told = about_result(name)
+            column = about_result(name)
             of = (*dims, "quantile") if np.ndim(band) > 1 else ("quantile",)
-            bands = told._replace(meaning=f"quantiles of the {told.meaning}")
-            errors = told._replace(meaning=f"standard error of the {bands.meaning}")
+            bands = column._replace(meaning=f"quantiles of the {column.meaning}")
+            errors = column._replace(meaning=f"standard error of the {bands.meaning}")
             data[name] = (of, band, bands.labels)
             data[f"{name}_error"] = (of, self.error[name], errors.labels)
         for name, table in (("probability", self.mode_probability), ("error", self.mode_error)):
@@ -152,7 +152,9 @@ class Propagation(Record):
         attributes = {
             "version": __version__,
             "contact": json.dumps(self.contact.to_dict()),
-            "inputs": json.dumps({name: known.to_dict() for name, known in self.inputs.items()}),
+            "inputs": json.dumps(
+                {name: distribution.to_dict() for name, distribution in self.inputs.items()}
+            ),
             "samples": self.samples,
             "seed": self.seed,
             "citations": cite(self.contact),
@@ -223,10 +225,10 @@ class Propagation(Record):
         """A table for notebooks: quantiles of every output; of several loads at the first."""
         rows = [notebook.Row("", [percent(q) for q in self.probabilities])]
         for name, band in self.bands.items():
-            told = about_result(name)
+            column = about_result(name)
             first = np.reshape(band, (-1, len(self.probabilities)))[0]
-            values = [notebook.words_of(value, told.unit) for value in first]
-            rows.append(notebook.Row(name, values, told.meaning))
+            values = [notebook.words_of(value, column.unit) for value in first]
+            rows.append(notebook.Row(name, values, column.meaning))
         for mode, share in self.mode_probability.items():
             values = [notebook.words_of(np.ravel(share)[0])]
             values += [""] * (len(self.probabilities) - 1)
@@ -361,9 +363,9 @@ class Propagation(Record):
         need_place("at", at, np.size(self.loads))
         load = float(np.atleast_1d(self.loads)[at])
         vary = self._problem().points(u)
-        asked = about_loads(names)
+        needs_critical = about_loads(names)
         with roughly():
-            critical = critical_of(self.contact, self.load, vary, len(u)) if asked else {}
+            critical = critical_of(self.contact, self.load, vary, len(u)) if needs_critical else {}
             solved = evaluate_samples(self.contact, self.load, load, vary, len(u), names, critical)
         out: dict[str, dict[str, dict[str, float]]] = {}
         for name in names:
@@ -393,15 +395,15 @@ class Propagation(Record):
                     )
                 )
             # SALib takes a seed of zero for none
-            found = analyse.analyze(
+            indices = analyse.analyze(
                 cube, groups.ravel(), calc_second_order=False, seed=self.seed + 1
             )
             out[name] = {
                 label: {
-                    "S1": float(found["S1"][j]),
-                    "S1_error": float(found["S1_conf"][j]),
-                    "ST": float(found["ST"][j]),
-                    "ST_error": float(found["ST_conf"][j]),
+                    "S1": float(indices["S1"][j]),
+                    "S1_error": float(indices["S1_conf"][j]),
+                    "ST": float(indices["ST"][j]),
+                    "ST_error": float(indices["ST_conf"][j]),
                 }
                 for j, label in enumerate(self.inputs)
             }
@@ -411,10 +413,10 @@ class Propagation(Record):
         """Inputs of two states for each input, with it at each end; and how many states."""
         problem = self._problem()
         rows: list[list[float]] = []
-        for j, known in enumerate(problem.known):
+        for j, distribution in enumerate(problem.distributions):
             for probability in probabilities:
                 row = list(problem.nominal)
-                row[j] = known.quantile(probability)
+                row[j] = distribution.quantile(probability)
                 rows.append(row)
         values = np.array(rows)
         values[np.isnan(values)] = load
@@ -532,51 +534,53 @@ def propagate(
     names = outputs_of(outputs, contact)
     probabilities = tuple(float(q) for q in quantiles)
     check_counts(probabilities, samples, critical_samples, seed)
-    each = power_of_two(samples) // REPLICATES
-    few = min(each, power_of_two(critical_samples or MOST_CRITICAL) // REPLICATES)
-    u = points_of(each, len(vary), int(seed), REPLICATES)
+    per_replicate = power_of_two(samples) // REPLICATES
+    few = min(per_replicate, power_of_two(critical_samples or MOST_CRITICAL) // REPLICATES)
+    u = points_of(per_replicate, len(vary), int(seed), REPLICATES)
     drawn_values = drawn.points(u)
-    first_few = np.arange(len(u)).reshape(REPLICATES, each)[:, :few]
+    first_few = np.arange(len(u)).reshape(REPLICATES, per_replicate)[:, :few]
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
     with watch_contacts("propagate", len(u), progress):
         critical = _sought(contact, sought, some, first_few)
-        found = _Bands(names, probabilities, first_few, critical, contact)
-        of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
+        results = _Bands(names, probabilities, first_few, critical, contact)
+        of_outputs = {name for output in contact.outputs for name in output.columns} & set(names)
         with roughly():
-            told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
+            output_columns = (
+                _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
+            )
         states = columns_of_loads(contact, load, loads, drawn_values, len(u))
         for i, value in enumerate(loads.tolist()):
             with roughly():
                 state = next(states)
-            state |= {name: told[name][i] for name in names if name in of_outputs}
-            found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
+            state |= {name: output_columns[name][i] for name in names if name in of_outputs}
+            results.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
 
-    for sentence in crowded_samples(found.crowded):
+    for sentence in crowded_samples(results.crowded):
         tell_of_range(sentence)
     fixed = {name for name in names if name in CRITICAL}
 
     def shape_columns(table: Mapping[str, Sequence[object]]) -> dict[str, object]:
         flat = {n for n in table if one or n in fixed}
-        return {n: part[0] if n in flat else np.array(part) for n, part in table.items()}
+        return {n: values[0] if n in flat else np.array(values) for n, values in table.items()}
 
     return Propagation(
         contact=contact,
-        inputs=dict(zip(vary, drawn.known, strict=True)),
+        inputs=dict(zip(vary, drawn.distributions, strict=True)),
         load=load,
         loads=float(loads[0]) if one else loads,
         samples=len(u),
         critical_samples=first_few.size if sought else 0,
         seed=int(seed),
         probabilities=probabilities,
-        nominal=shape_columns(found.nominal),
-        bands=shape_columns(found.bands),
-        error=shape_columns(found.errors),
-        mode_probability=shape_columns(found.modes),
-        mode_error=shape_columns(found.mode_errors),
-        critical_status=found.critical.statuses,
-        solved=found.solved[0] if one else np.array(found.solved),
-        crowded=found.crowded[0] if one else np.array(found.crowded),
+        nominal=shape_columns(results.nominal),
+        bands=shape_columns(results.bands),
+        error=shape_columns(results.errors),
+        mode_probability=shape_columns(results.modes),
+        mode_error=shape_columns(results.mode_errors),
+        critical_status=results.critical.statuses,
+        solved=results.solved[0] if one else np.array(results.solved),
+        crowded=results.crowded[0] if one else np.array(results.crowded),
     )
 
 
@@ -594,11 +598,11 @@ def _sought(
     if not sought:
         return _Critical({}, {}, {})
     with roughly():
-        found = critical_loads(contact, vary=some, count=first_few.size)
-    loads = {name: found[name][0].reshape(first_few.shape) for name in CRITICAL}
+        entries = critical_loads(contact, vary=some, count=first_few.size)
+    loads = {name: entries[name][0].reshape(first_few.shape) for name in CRITICAL}
     statuses = {}
     for name in (name for name in CRITICAL if name in sought):
-        words, counts = np.unique(found[name][1], return_counts=True)
+        words, counts = np.unique(entries[name][1], return_counts=True)
         shares = (counts / first_few.size).tolist()
         statuses[name] = dict(zip(map(str, words), shares, strict=True))
     nominal = {n: v[0] for n, v in critical_loads(contact, vary={}, count=1).items()}
@@ -612,8 +616,8 @@ def _outputs(
     which = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)].ravel()
     some = {name: np.tile(values[which], len(loads)) for name, values in drawn.items()}
     every = np.repeat(loads, len(which))
-    told = columns_at(contact, load, every, some, len(every), outputs=True)
-    return {name: values.reshape(len(loads), -1) for name, values in told.items()}
+    columns = columns_at(contact, load, every, some, len(every), outputs=True)
+    return {name: values.reshape(len(loads), -1) for name, values in columns.items()}
 
 
 class _Bands:
@@ -647,8 +651,8 @@ class _Bands:
             band, error = quantiles_of(values, self.probabilities)
             bands.append(band)
             self.errors[name].append(error)
-            own = output_of(name, middle, self.critical.nominal, np.zeros(1, int))
-            self.nominal[name].append(float(own.flat[0]))
+            nominal = output_of(name, middle, self.critical.nominal, np.zeros(1, int))
+            self.nominal[name].append(float(nominal.flat[0]))
         words = np.asarray(state["mode"]).reshape(REPLICATES, -1)
         for mode in MODES_OR_NONE:
             share = np.mean(words == ("" if mode == "none" else mode), axis=1)
@@ -664,9 +668,9 @@ def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propaga
     critical: Arrays = {}
     statuses: dict[str, dict[str, float]] = {}
     if set(names) & set(CRITICAL):
-        found = critical_loads(contact, vary={}, count=1)
-        critical = {name: values for name, (values, _) in found.items()}
-        statuses = {name: {str(words[0]): 1.0} for name, (_, words) in found.items()}
+        entries = critical_loads(contact, vary={}, count=1)
+        critical = {name: values for name, (values, _) in entries.items()}
+        statuses = {name: {str(words[0]): 1.0} for name, (_, words) in entries.items()}
     few = np.zeros(1, int)
     out = []
     for value in loads:
@@ -686,7 +690,7 @@ def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propaga
                 nominal=nominal,
                 bands={name: np.full(len(PROBABILITIES), one) for name, one in nominal.items()},
                 error={name: np.zeros(len(PROBABILITIES)) for name in names},
-                mode_probability={each: float(each == mode) for each in MODES_OR_NONE},
+                mode_probability={word: float(word == mode) for word in MODES_OR_NONE},
                 mode_error=dict.fromkeys(MODES_OR_NONE, 0.0),
                 critical_status=statuses,
                 solved=1.0,

@@ -56,10 +56,10 @@ MOST_OUTPUTS = 512
 """Samples of outputs: each is a contact of its own, with spots of its own."""
 
 
-def enough(contact: Contact, asked: int | None, vary: Iterable[str]) -> int:
+def enough(contact: Contact, samples: int | None, vary: Iterable[str]) -> int:
     """Samples that were asked for, or the usual number; few where each builds its own tables."""
-    if asked is not None:
-        return asked
+    if samples is not None:
+        return samples
     if costly(contact, vary):
         return LEAST
     on_a_field = contact.asperity_law.of_surface and not contact.two_body
@@ -68,10 +68,10 @@ def enough(contact: Contact, asked: int | None, vary: Iterable[str]) -> int:
 
 def costly(contact: Contact, vary: Iterable[str]) -> bool:
     """Whether contacts that differ in these inputs each take tables of their own, 0.1 s to 5 s."""
-    names = [part for label in vary for part in label.split("+") if carries(part)]
+    names = [name for label in vary for name in label.split("+") if carries(name)]
     if not names:
         return False
-    if any(each.strength is not None for each in contact.populations):
+    if any(population.strength is not None for population in contact.populations):
         return True
     return tables_each(contact, names)
 
@@ -81,23 +81,23 @@ def about_result(name: str) -> Column:
     return OUTPUTS.get(name) or about(name)
 
 
-def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
+def outputs_of(outputs: Sequence[str] | None, contact: Contact) -> list[str]:
     """The outputs, each once, that the contact has."""
     about_loads = (*CRITICAL, *MARGINS)
     without = contact.two_body or not load_falls(contact)
-    known = [*OUTPUTS, *(name for each in contact.outputs for name in each.columns)]
-    if asked is None:
-        return [name for name in known if not (without and name in about_loads)]
-    names = list(dict.fromkeys(asked))
+    options = [*OUTPUTS, *(name for output in contact.outputs for name in output.columns)]
+    if outputs is None:
+        return [name for name in options if not (without and name in about_loads)]
+    names = list(dict.fromkeys(outputs))
     problems = [
         Problem(
             "",
             f"{name!r} has no band",
-            hint=f"it must be one of {', '.join(known)}",
+            hint=f"it must be one of {', '.join(options)}",
             code=Mistake.OPTION,
         )
         for name in names
-        if name not in known
+        if name not in options
     ]
     if not names:
         problems.append(is_empty("outputs", "name a column of Equilibrium or a critical load"))
@@ -146,11 +146,11 @@ def power_of_two(count: int) -> int:
     return 1 << (int(count) - 1).bit_length()
 
 
-def points_of(each: int, width: int, seed: int, replicates: int) -> Array:
+def points_of(per_replicate: int, width: int, seed: int, replicates: int) -> Array:
     """Scrambled Sobol sequences, one after another; for none a short unscrambled one."""
     rows: Iterator[int] = iter(range(replicates)) if replicates else iter([REPLICATES])
     seeds = [int(np.random.SeedSequence([seed, r]).generate_state(1)[0]) for r in rows]
-    return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
+    return np.concatenate([sobol(per_replicate, width, one, 0, per_replicate) for one in seeds])
 
 
 def crowded_samples(shares: Sequence[float]) -> list[str]:
@@ -202,9 +202,9 @@ def columns_of_loads(
         some = loads[start : start + together]
         every = {name: np.repeat(values, len(some)) for name, values in vary.items()}
         size = count * len(some)
-        found = columns_at(contact, load, np.tile(some, count), every, size)
+        columns = columns_at(contact, load, np.tile(some, count), every, size)
         for i in range(len(some)):
-            yield {name: values[i :: len(some)] for name, values in found.items()}
+            yield {name: values[i :: len(some)] for name, values in columns.items()}
 
 
 def about_loads(names: Iterable[str]) -> bool:
@@ -228,8 +228,8 @@ def evaluate_samples(
     critical: Arrays,
 ) -> dict[str, Array]:
     """Outputs (N,) of samples at one load, of which the critical loads are known."""
-    asked = any(name in each.columns for each in contact.outputs for name in names)
-    state = columns_at(contact, load, value, vary, count, outputs=asked)
+    needs_outputs = any(name in output.columns for output in contact.outputs for name in names)
+    state = columns_at(contact, load, value, vary, count, outputs=needs_outputs)
     return {name: output_of(name, state, critical, np.arange(count)) for name in names}
 
 
@@ -254,17 +254,17 @@ def quantiles_of(values: Array, probabilities: Sequence[float]) -> tuple[Array, 
     of that mean: of one input, whose points are the most even, this is the larger part.
     """
     apart = np.array([_quantile(row, probabilities) for row in values])
-    found = _quantile(values.ravel(), probabilities)
+    quantiles = _quantile(values.ravel(), probabilities)
     with np.errstate(invalid="ignore"):
         error = apart.std(axis=0, ddof=1) / math.sqrt(len(values))
-        error = np.hypot(error, found - apart.mean(axis=0))
-    return found, error
+        error = np.hypot(error, quantiles - apart.mean(axis=0))
+    return quantiles, error
 
 
 def _quantile(values: Array, probabilities: Sequence[float]) -> Array:
-    known = values[~np.isnan(values)]
-    if not len(known):
+    numbers = values[~np.isnan(values)]
+    if not len(numbers):
         return np.full(len(probabilities), np.nan)
     # N points in N equal cells: the i-th smallest stands in the middle of its cell
-    method = "hazen" if np.isfinite(known).all() else "inverted_cdf"
-    return np.quantile(known, probabilities, method=method)  # type: ignore[call-overload]
+    method = "hazen" if np.isfinite(numbers).all() else "inverted_cdf"
+    return np.quantile(numbers, probabilities, method=method)  # type: ignore[call-overload]

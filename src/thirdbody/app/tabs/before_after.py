@@ -58,9 +58,9 @@ def flat(table: object, place: str = "") -> Iterator[tuple[str, object]]:
     if isinstance(table, dict):
         for key, value in table.items():
             yield from flat(value, f"{place}.{key}" if place else str(key))
-    elif isinstance(table, list) and any(isinstance(each, dict) for each in table):
-        for i, each in enumerate(table):
-            yield from flat(each, f"{place}.{i}")
+    elif isinstance(table, list) and any(isinstance(entry, dict) for entry in table):
+        for i, entry in enumerate(table):
+            yield from flat(entry, f"{place}.{i}")
     else:
         yield place, table
 
@@ -89,20 +89,20 @@ def cleaner(study: dict[str, object]) -> dict[str, object] | None:
     >>> cleaner({"particles": {"iso4406": "18/16/13"}})
     {'particles': {'iso4406': '15/13/10'}}
     """
-    given = study.get("particles")
-    several = given if isinstance(given, list) else [given]
+    particles = study.get("particles")
+    several = particles if isinstance(particles, list) else [particles]
     new, about = [], tb.Particles.__dataclass_fields__["areal_density"].metadata["quantity"]
-    for each in several:
-        if not isinstance(each, dict):
+    for population in several:
+        if not isinstance(population, dict):
             return None
-        many = number_of(each.get("areal_density"), about)
-        if CODES.fullmatch(str(each.get("iso4406"))):
-            new.append(each | {"iso4406": shift_code(each["iso4406"], CLASSES)})
+        many = number_of(population.get("areal_density"), about)
+        if CODES.fullmatch(str(population.get("iso4406"))):
+            new.append(population | {"iso4406": shift_code(population["iso4406"], CLASSES)})
         elif many > 0:
-            new.append(each | {"areal_density": engineering(FEWER * many, "1/m^2", 3)})
+            new.append(population | {"areal_density": engineering(FEWER * many, "1/m^2", 3)})
         else:
             return None
-    return study | {"particles": new if isinstance(given, list) else new[0]}
+    return study | {"particles": new if isinstance(particles, list) else new[0]}
 
 
 def compare_answers(before: Answer, after: Answer, at: float) -> Beside:
@@ -111,13 +111,13 @@ def compare_answers(before: Answer, after: Answer, at: float) -> Beside:
     forced = before.has_one_force or after.has_one_force
     same = before.load == after.load and not forced
     points = (before.solve(at if same else _load_before(before, after, at)), after.solve(at))
-    told = [
-        dict(facts_of(each, answer.particles_held))
-        for each, answer in zip(points, (before, after), strict=True)
+    facts = [
+        dict(facts_of(point, answer.particles_held))
+        for point, answer in zip(points, (before, after), strict=True)
     ]
     rows = []
-    for name in dict.fromkeys([*told[0], *told[1]]):
-        rows.append(_row(name, told, _change(points, NUMBERS.get(name, ""))))
+    for name in dict.fromkeys([*facts[0], *facts[1]]):
+        rows.append(_row(name, facts, _change(points, NUMBERS.get(name, ""))))
     films = [_film_facts(answer.study) for answer in (before, after)]
     for name in dict.fromkeys([*films[0], *films[1]]):
         rows.append(_row(f"film: {name}", [{f"film: {k}": v for k, v in f.items()} for f in films]))
@@ -133,15 +133,15 @@ def _load_before(before: Answer, after: Answer, at: float) -> float:
     return loads.get(before.load, before.default_at())
 
 
-def _row(name: str, told: list[dict[str, str]], change: str = "") -> dict[str, str]:
-    old, new = (each.get(name, "-") for each in told)
+def _row(name: str, facts: list[dict[str, str]], change: str = "") -> dict[str, str]:
+    old, new = (answer_facts.get(name, "-") for answer_facts in facts)
     return {"name": name, "before": old, "after": new, "change": change}
 
 
 def _change(points: tuple[tb.Equilibrium, tb.Equilibrium], column: str) -> str:
     if not column:
         return ""
-    old, new = (float(getattr(each, column)) for each in points)
+    old, new = (float(getattr(point, column)) for point in points)
     if not (np.isfinite(old) and np.isfinite(new)) or old <= 0 or old == new:
         return ""
     return (
@@ -153,10 +153,10 @@ def _change(points: tuple[tb.Equilibrium, tb.Equilibrium], column: str) -> str:
 
 def _sentence(points: tuple[tb.Equilibrium, tb.Equilibrium]) -> str:
     """The answer: what particles carry before and after."""
-    if any(each.contact.two_body for each in points):
-        old, new = (percent(float(each.A_t)) for each in points)
+    if any(point.contact.two_body for point in points):
+        old, new = (percent(float(point.A_t)) for point in points)
         return f"Real contact is {old} of the area before and {new} after."
-    old, new = (percent(float(each.particle_load_share)) for each in points)
+    old, new = (percent(float(point.particle_load_share)) for point in points)
     return f"Particles carry {old} of the load before and {new} after."
 
 
@@ -268,9 +268,9 @@ class BeforeAfter:
             return
         if self.shown == (old, now, state.operating_load):
             return
-        found = await ask_for_page(compare_answers, old, now, state.operating_load)
+        beside = await ask_for_page(compare_answers, old, now, state.operating_load)
         self.shown = (old, now, state.operating_load)
-        self.said.set_text(as_shown(found.sentence))
+        self.said.set_text(as_shown(beside.sentence))
         start = (
             "" if old is not now and before != state.study else SAME if old is not now else ALONE
         )
@@ -279,17 +279,17 @@ class BeforeAfter:
         self.rows.clear()
         with self.rows:
             heads = {"name": "quantity", "before": "before", "after": "after", "change": "change"}
-            shown_table("before and after", heads, found.rows)
-        await show_figures((self.plots[name], made) for name, made in found.figures.items())
+            shown_table("before and after", heads, beside.rows)
+        await show_figures((self.plots[name], made) for name, made in beside.figures.items())
 
     async def _answer(self, before: dict[str, object]) -> Answer | None:
         """The answer of the study before, None with a mistake."""
         if self.read is None or self.read[0] != before:
             state, key = self.state, surface_key(before, self.state.folder)
             surface = state.surfaces.get(key)
-            found, problems, _ = await ask_for_page(look, before, state.folder, surface)
+            answer, problems, _ = await ask_for_page(look, before, state.folder, surface)
             self.wrong.set_text(as_shown("; ".join(problems)))
-            self.read = (before, found)
+            self.read = (before, answer)
         return self.read[1]
 
     def _show_changes(self, before: dict[str, object]) -> None:

@@ -33,17 +33,17 @@ SHOWN = {
 }
 
 
-def law_figure(found: Laws, of: str) -> Figure:
+def law_figure(laws: Laws, of: str) -> Figure:
     """One curve a law; the study's own is the thickest."""
     label, ylog, scale = SHOWN[of]
-    loads = np.array(found["loads"]) * SCALES.get(found["load"], 1.0)
-    rows = scale * np.array(found["columns"][of], float)
+    loads = np.array(laws["loads"]) * SCALES.get(laws["load"], 1.0)
+    rows = scale * np.array(laws["columns"][of], float)
     traces = [
-        line(loads, y, law, row, line={"width": 4 if law == found["own"] else 1.8})
-        for row, (law, y) in enumerate(zip(found["laws"], rows, strict=True))
+        line(loads, y, law, row, line={"width": 4 if law == laws["own"] else 1.8})
+        for row, (law, y) in enumerate(zip(laws["laws"], rows, strict=True))
     ]
     return figure(
-        traces, x=AXES[found["load"]], y=label, title="Asperity laws", ylog=ylog, height=460
+        traces, x=AXES[laws["load"]], y=label, title="Asperity laws", ylog=ylog, height=460
     )
 
 
@@ -76,10 +76,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         shown = result
         await draw()
 
-    def little(asked: Asked) -> Asked:
-        loads = asked["loads"]
+    def little(request: Asked) -> Asked:
+        loads = request["loads"]
         assert isinstance(loads, list)
-        return asked | {"loads": [*loads[::LITTLE], loads[-1]]}
+        return request | {"loads": [*loads[::LITTLE], loads[-1]]}
 
     work = Work("compare", "Compare all laws", ask, show, key=lambda: state.answer, little=little)
     what = ui.select(
@@ -114,10 +114,10 @@ def _without_tags(label: str) -> str:
     return label.replace("<sub>", "_").replace("</sub>", "")
 
 
-def _table(found: Laws, place: ui.element) -> None:
-    columns, conditions = found["columns"], found["conditions"]
+def _table(laws: Laws, place: ui.element) -> None:
+    columns, conditions = laws["columns"], laws["conditions"]
     rows = []
-    for row, law in enumerate(found["laws"]):
+    for row, law in enumerate(laws["laws"]):
         one = {name: values[row][0] for name, values in columns.items()}
         difference = one.get("A_t_difference")
         rows.append(
@@ -128,7 +128,7 @@ def _table(found: Laws, place: ui.element) -> None:
                 "pressure": value_of(one.get("mean_pressure"), "Pa"),
                 "d": number(one.get("d_star")),
                 "plastic": percent(one.get("plastic_share")),
-                "note": found["notes"][row] or "",
+                "note": laws["notes"][row] or "",
             }
         )
     heads = {

@@ -30,8 +30,8 @@ FORCE = Field(
 
 def _question_of(answer: Answer) -> AskedConnector:
     """What the study asks, or the start where it has no such table."""
-    if (own := answer.study.connector) is not None:
-        return own
+    if (request := answer.study.connector) is not None:
+        return request
     contact = answer.contact
     plug = Connector(
         radius=2e-3,
@@ -45,9 +45,9 @@ def _question_of(answer: Answer) -> AskedConnector:
 
 def contents_of(answer_of_study: Answer) -> Shown:
     """The answer in words, numbers and a curve over the force."""
-    asked = _question_of(answer_of_study)
-    found, plug = run_connector(asked), asked.connector
-    forces, one, every = found.curve()
+    request = _question_of(answer_of_study)
+    result, plug = run_connector(request), request.connector
+    forces, one, every = result.curve()
     traces = [line(forces, np.where(one > SELDOM, one, np.nan), "one contact", 0)]
     if plug.contacts > 1:
         traces.append(line(forces, np.where(every > SELDOM, every, np.nan), "connector", 1))
@@ -59,14 +59,14 @@ def contents_of(answer_of_study: Answer) -> Shown:
         ylog=True,
     )
     made["layout"]["shapes"] = [
-        mark(float(force), "", dash="solid")[0] for force in asked.forces[:1]
+        mark(float(force), "", dash="solid")[0] for force in request.forces[:1]
     ]
     return Shown(
-        answer=answer(found),
-        facts=list(facts(found).items()),
-        notes=[*uncertainty(found), *(f"Note: {text}" for text in found.run_warnings)],
+        answer=answer(result),
+        facts=list(facts(result).items()),
+        notes=[*uncertainty(result), *(f"Note: {text}" for text in result.run_warnings)],
         heads=HEADS,
-        rows=rows(found),
+        rows=rows(result),
         figure=made,
     )
 
@@ -77,7 +77,7 @@ QUESTION = Question(
     "lies where contacts meet keeps the metal apart, unless the force presses it in. The dust and "
     "the metal are those at the side.",
     kind=Connector,
-    own=(FORCE,),
+    first_entries=(FORCE,),
     start=START,
     left_out=("law",),
     contents=contents_of,

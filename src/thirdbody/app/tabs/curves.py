@@ -59,14 +59,14 @@ CRITICAL = {
 
 def critical_loads(answer: Answer) -> dict[str, float]:
     """Critical loads F* that exist, by their short names."""
-    found = answer.critical
-    if found is None or answer.contact.two_body:
+    critical = answer.critical
+    if critical is None or answer.contact.two_body:
         return {}
     every = {
-        "F_cr1": found.F_cr1.value,
-        "F_cr2": found.F_cr2.value,
-        "A": found.F_tpca.A.value,
-        "B": found.F_tpca.B.value,
+        "F_cr1": critical.F_cr1.value,
+        "F_cr2": critical.F_cr2.value,
+        "A": critical.F_tpca.A.value,
+        "B": critical.F_tpca.B.value,
     }
     return {name: value for name, value in every.items() if value}
 
@@ -95,9 +95,9 @@ def _critical_lines(answer: Answer, against: str, x: np.ndarray) -> tuple[list[P
     if scale is None:
         return [], []
     marked = critical_loads(answer)
-    known = [(n, v * scale) for n, v in marked.items() if x.min() <= v * scale <= x.max()]
-    known.sort(key=lambda item: item[1])
-    made = [mark(v, CRITICAL[name], number=i) for i, (name, v) in enumerate(known)]
+    in_sight = [(n, v * scale) for n, v in marked.items() if x.min() <= v * scale <= x.max()]
+    in_sight.sort(key=lambda item: item[1])
+    made = [mark(v, CRITICAL[name], number=i) for i, (name, v) in enumerate(in_sight)]
     return [shape for shape, _ in made], [log_title(note) for _, note in made]
 
 
@@ -118,9 +118,9 @@ def _shares(answer: Answer, x: np.ndarray, draw: Draw) -> Figure:
         line(x, 100 * np.asarray(state.particle_load_share), "of the load", 0),
         line(x, 100 * np.asarray(state.particle_area_share), "of the real area", 1),
     ]
-    for number, part in enumerate(state.populations):
-        share = 100 * np.asarray(part.load_share)
-        lines.append(line(x, share, f"{escape_tags(part.name)}: load", number + 2))
+    for number, population in enumerate(state.populations):
+        share = 100 * np.asarray(population.load_share)
+        lines.append(line(x, share, f"{escape_tags(population.name)}: load", number + 2))
     made = draw(lines, y="share of particles [%]", title="What particles carry; mode as bands")
     fix(made, "yaxis", [-2, 102])
     return made
@@ -187,18 +187,18 @@ class Curves:
         """What the figures show."""
         self.drawing: asyncio.Future[bool] | None = None
         """Figures that the browser may still draw, of a study that has moved on meanwhile."""
-        self.told: Answer | None = None
+        self.in_table: Answer | None = None
         """Whose critical loads the table holds."""
         self.against.on_value_change(state.announce_change)
 
     async def draw(self) -> None:
         answer = self.state.answer
         assert answer is not None
-        known = "critical" in answer.__dict__
+        has_critical = "critical" in answer.__dict__
         await self._place(answer)
-        await self._show(answer, critical=known)
+        await self._show(answer, critical=has_critical)
         self.drawn = time.perf_counter()
-        if known:
+        if has_critical:
             self._show_table(answer)
         elif self.later is None:
             # critical loads are many states: they follow when the slider rests
@@ -221,13 +221,13 @@ class Curves:
         set_attributes(self.grid, {"data-at": repr(here)})
 
     async def _show(self, answer: Answer, *, critical: bool) -> None:
-        asked = (answer, str(self.against.value), critical)
-        if asked == self.shown:
+        view = (answer, str(self.against.value), critical)
+        if view == self.shown:
             return
-        found = await self.state.ask(_figures, asked[1], critical)
+        new_figures = await self.state.ask(_figures, view[1], critical)
         if answer is not self.state.answer:
             return  # it moved on meanwhile
-        self.shown = asked
+        self.shown = view
         two_body = answer.contact.two_body
         self.plots["shares"].widget.set_visibility(not two_body)
         self.key.set_visibility(not two_body)
@@ -237,7 +237,7 @@ class Curves:
             if below and await self._moves_on(BETWEEN if names == BELOW[:1] else 0.0):
                 self.shown = None
                 return
-            every = [(self.plots[name], found[name]) for name in names if name in found]
+            every = [(self.plots[name], new_figures[name]) for name in names if name in new_figures]
             drawn = await self._draw(every, below)
             if not drawn:
                 self.shown = None
@@ -294,8 +294,8 @@ class Curves:
             self._show_table(answer)
 
     def _show_table(self, answer: Answer) -> None:
-        if answer is not self.told:
-            self.told = answer
+        if answer is not self.in_table:
+            self.in_table = answer
             _table(answer, self.table)
 
 
@@ -312,15 +312,15 @@ def _solve_load(answer: Answer, d: float) -> float:
 def _table(answer: Answer, place: ui.element) -> None:
     """Critical loads, as the command line prints them."""
     place.clear()
-    found = answer.__dict__.get("critical")
-    if found is None or answer.contact.two_body:
+    critical = answer.__dict__.get("critical")
+    if critical is None or answer.contact.two_body:
         return
     entries = {
-        "F_cr1": found.F_cr1,
-        "F_cr2": found.F_cr2,
-        "F_tpca A": found.F_tpca.A,
-        "F_tpca B": found.F_tpca.B,
-        "F_tpca C": found.F_tpca.C,
+        "F_cr1": critical.F_cr1,
+        "F_cr2": critical.F_cr2,
+        "F_tpca A": critical.F_tpca.A,
+        "F_tpca B": critical.F_tpca.B,
+        "F_tpca C": critical.F_tpca.C,
     }
     rows = [
         {

@@ -63,18 +63,18 @@ def variables_of(state: State) -> dict[str, str]:
 
 
 def design_figure(
-    found: Designed, variable: str, objective: str, unit: str, words_of: dict[str, str]
+    designed: Designed, variable: str, objective: str, unit: str, words_of: dict[str, str]
 ) -> Figure:
     """Every point tried, the best marked, the tolerance as a band."""
-    every = found["points"][variable]
+    every = designed["points"][variable]
     words = any(isinstance(item, str) for item in every)
     x = np.array([escape_tags(str(item)) for item in every]) if words else np.array(every, float)
     size, name = (1.0, "") if words else readable_unit(float(np.max(np.abs(x))), unit)
     x = x if words else x / size
-    y = np.array(found["points"][objective], float)
-    good = np.array(found["points"]["feasible"], np.bool_)
+    y = np.array(designed["points"][objective], float)
+    good = np.array(designed["points"]["feasible"], np.bool_)
     order = np.argsort(x)
-    best = found["values"][variable]
+    best = designed["values"][variable]
     best = escape_tags(best) if isinstance(best, str) else best / size
     traces: list[Part] = [
         line([], y[order], "all points", 0, line={"width": 1.5}) | {"x": x[order].tolist()},
@@ -90,7 +90,7 @@ def design_figure(
             "type": "scatter",
             "mode": "markers",
             "x": [best],
-            "y": [found["objectives"][objective]],
+            "y": [designed["objectives"][objective]],
             "name": "best",
             "marker": {"symbol": "star", "size": 16, "color": "#D55E00"},
         },
@@ -103,7 +103,7 @@ def design_figure(
         xlog=not words and bool(x.min() > 0),
         height=420,
     )
-    if ends := found["tolerance"].get(variable):
+    if ends := designed["tolerance"].get(variable):
         made["layout"]["shapes"] = [band(ends[0] / size, ends[1] / size, "#009E73", 0.18)]
     return made
 
@@ -166,8 +166,8 @@ class Search:
     def _key(self) -> object:
         """What a design belongs to: the study, and the form."""
         form = (self.which, self.low, self.high, self.of, self.aim, self.over)
-        asked = [str(each.value) for each in (*form, self.limit, self.most, self.least)]
-        return self.state.answer, self.state.get("design"), asked
+        entries = [str(entry.value) for entry in (*form, self.limit, self.most, self.least)]
+        return self.state.answer, self.state.get("design"), entries
 
     async def _update_range(self) -> None:
         self._set_range()
@@ -192,23 +192,23 @@ class Search:
         """What the form asks, as the table [design] of a study."""
         ends = {"low": _value(self.low), "high": _value(self.high)}
         wanted = {"of": self.of.value, "aim": self.aim.value, "over_loads": self.over.value}
-        asked: dict[str, object] = {"objective": wanted, "vary": {str(self.which.value): ends}}
+        table: dict[str, object] = {"objective": wanted, "vary": {str(self.which.value): ends}}
         if self.limit.value:
             ends = {"most": _value(self.most), "least": _value(self.least)}
-            known = {key: value for key, value in ends.items() if value is not None}
-            asked["limits"] = [{"of": self.limit.value} | known]
+            limits = {key: value for key, value in ends.items() if value is not None}
+            table["limits"] = [{"of": self.limit.value} | limits]
         if (answer := self.state.answer) is not None:
             name = answer.load if answer.load != "d" else "F_star"
             same = name == answer.load
             values = answer.loads if same else await self.state.ask(loads_as, name)
             first, last = float(values.min()), float(values.max())
-            asked[name] = {"from": first, "to": last, "points": LOADS}
-        return asked
+            table[name] = {"from": first, "to": last, "points": LOADS}
+        return table
 
     async def _ask(self) -> Asked:
         await self.state.settle()
-        own = {} if self.which.value == WRITTEN else {"design": await self._table()}
-        return {"study": self.state.study | own, "folder": str(self.state.folder)}
+        changes = {} if self.which.value == WRITTEN else {"design": await self._table()}
+        return {"study": self.state.study | changes, "folder": str(self.state.folder)}
 
     def _show(self, result: Designed) -> None:
         objective, variable = next(iter(result["objectives"])), next(iter(result["values"]))
@@ -232,18 +232,18 @@ class Search:
         self.plot.set_visibility(self.work.done is not None or self.work.trying)
 
 
-def _little(asked: Asked) -> Asked:
+def _little(request: Asked) -> Asked:
     """Fewer loads, where the form says which."""
-    study = asked["study"]
+    study = request["study"]
     assert isinstance(study, dict)
     table = study.get("design")
     if not isinstance(table, dict):
-        return asked
+        return request
     few = {
         key: value | {"points": FEW} if isinstance(value, dict) and "points" in value else value
         for key, value in table.items()
     }
-    return asked | {"study": study | {"design": few}}
+    return request | {"study": study | {"design": few}}
 
 
 def in_words(study: dict[str, object], fields: list[str]) -> dict[str, str]:
@@ -255,8 +255,11 @@ def in_words(study: dict[str, object], fields: list[str]) -> dict[str, str]:
     mean asperity radius R
     hardness H (surfaces.first)
     """
-    known = {e.field: e.quantity for e in inputs_of(study) if e.quantity}
-    said = {field: f"{each['meaning']} {each['symbol']}" for field, each in known.items()}
+    quantities = {e.field: e.quantity for e in inputs_of(study) if e.quantity}
+    said = {
+        field: f"{quantity['meaning']} {quantity['symbol']}"
+        for field, quantity in quantities.items()
+    }
     out = {}
     for field in fields:
         first = field.partition("+")[0]
@@ -305,12 +308,14 @@ def _value(entry: ui.input) -> object:
 
 def _names(state: State) -> dict[str, str]:
     """What may change, an input or what the study says, and how the menu calls it."""
-    known = {e.name: e.quantity for e in inputs_of(state.study) if e.quantity}
-    said = {name: f"{each['meaning']} {each['symbol']}" for name, each in known.items()}
-    told = {}
+    quantities = {e.name: e.quantity for e in inputs_of(state.study) if e.quantity}
+    said = {
+        name: f"{quantity['meaning']} {quantity['symbol']}" for name, quantity in quantities.items()
+    }
+    menu = {}
     for name in variables_of(state):
         first = name.partition("+")[0]
         several = list(said.values()).count(said[first]) > 1
-        told[name] = said[first] + (f" ({first})" if several else "")
-        told[name] += WITH_SPREAD if name == SIZE else ""
-    return ({WRITTEN: WRITTEN} if state.get("design") else {}) | told
+        menu[name] = said[first] + (f" ({first})" if several else "")
+        menu[name] += WITH_SPREAD if name == SIZE else ""
+    return ({WRITTEN: WRITTEN} if state.get("design") else {}) | menu

@@ -33,7 +33,7 @@ def dust_facts(dust: tb.Particles) -> list[tuple[str, str]]:
     """One population in numbers."""
     sizes = dust.diameter
     low, middle, high = (float(sizes.ppf(q)) for q in (0.05, 0.5, 0.95))
-    each = sizes.moment(3) * np.pi / 6 * dust.areal_density
+    volume = sizes.moment(3) * np.pi / 6 * dust.areal_density
     return [
         ("particles per area", value_of(dust.areal_density, "1/m^2")),
         ("mean distance", value_of(dust.areal_density**-0.5, "m")),
@@ -43,7 +43,7 @@ def dust_facts(dust: tb.Particles) -> list[tuple[str, str]]:
             ", ".join(value_of(size, "m") for size in (low, middle, high)),
         ),
         ("covered area", percent(dust.coverage)),
-        ("volume per area", value_of(each, "m")),
+        ("volume per area", value_of(volume, "m")),
     ]
 
 
@@ -83,7 +83,7 @@ def restart_population(table: dict[str, object], key: str, value: str) -> dict[s
         return table | {key: value}
     kept = {name: table[name] for name in KEPT if name in table}
     start = STARTS[key]
-    return kept | {name: table.get(name, own) for name, own in start.items()} | {key: value}
+    return kept | {name: table.get(name, default) for name, default in start.items()} | {key: value}
 
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
@@ -121,8 +121,8 @@ class Dust:
         )
 
     def _particles(self) -> dict[str, object]:
-        given = self.state.get(*Inputs.first_population(self.state))
-        return given if isinstance(given, dict) else {"material": "SiO2"}
+        table = self.state.get(*Inputs.first_population(self.state))
+        return table if isinstance(table, dict) else {"material": "SiO2"}
 
     def _set_particles(self, table: dict[str, object]) -> None:
         self.state.set(*Inputs.first_population(self.state), table, whole=True)
@@ -136,21 +136,23 @@ class Dust:
         self.chooser.reset()
         try:
             name = await take(self.state, event)
-            found = await ask_for_page(counter_bins, str(self.state.folder / name))
+            bins = await ask_for_page(counter_bins, str(self.state.folder / name))
         except InvalidValue as error:
             self.wrong.set_text(as_shown(without_paths("; ".join(error.problems))))
             return
         kept = {k: v for k, v in self._particles().items() if k in (*KEPT, "areal_density")}
         kept.setdefault("areal_density", "1e9 / m^2")
-        few = len(found["edges"]) <= MOST_NUMBERS
+        few = len(bins["edges"]) <= MOST_NUMBERS
         # in the study itself they are in its address, so that a reload keeps them
-        self._set_particles(kept | {"sizes": found if few else name})
+        self._set_particles(kept | {"sizes": bins if few else name})
 
     async def draw(self) -> None:
-        given = self._particles()
-        self.code.set_value(text_of(given.get("iso4406")))
-        known = given.get("test_dust")
-        self.test.set_value(known if isinstance(known, str) and known in DUSTS else None)
+        table = self._particles()
+        self.code.set_value(text_of(table.get("iso4406")))
+        dust_name = table.get("test_dust")
+        self.test.set_value(
+            dust_name if isinstance(dust_name, str) and dust_name in DUSTS else None
+        )
         mine = [text for text in self.state.problems if about_of(text).startswith("particles")]
         self.wrong.set_text(as_shown(" ".join(mine)))
         answer = self.state.answer
@@ -159,11 +161,11 @@ class Dust:
         if none:
             self.table.clear()
             return
-        drawn, told = await self.state.ask(_figure_and_rows)
+        drawn, populations = await self.state.ask(_figure_and_rows)
         self.plot.update_figure(drawn)
         self.table.clear()
         with self.table:
-            for name, numbers in told:
+            for name, numbers in populations:
                 ui.label(name).classes("subhead")
                 with ui.row().classes("facts w-full"):
                     facts(numbers)
@@ -174,5 +176,7 @@ def _figure_and_rows(
 ) -> tuple[Figure, list[tuple[str, list[tuple[str, str]]]]]:
     """The figure, and the numbers of each population."""
     contact = answer.contact
-    told = [(dust.name or dust.material.name, dust_facts(dust)) for dust in contact.populations]
-    return size_figure(contact), told
+    populations = [
+        (dust.name or dust.material.name, dust_facts(dust)) for dust in contact.populations
+    ]
+    return size_figure(contact), populations

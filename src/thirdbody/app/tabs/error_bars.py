@@ -68,16 +68,16 @@ def assumed_ranges(state: State) -> dict[str, dict[str, object]]:
     """Ranges to begin with, where neither study nor library states any; else none."""
     if state.answer is None or state.get("uncertainty", "inputs") or _ranges(state):
         return {}
-    found: dict[str, dict[str, object]] = {}
-    for each in inputs_of(state.study):
-        if each.name not in LIKELY or each.idle or each.quantity is None:
+    ranges: dict[str, dict[str, object]] = {}
+    for one_input in inputs_of(state.study):
+        if one_input.name not in LIKELY or one_input.idle or one_input.quantity is None:
             continue
-        value = number_of(state.get(*each.name.split(".")), each.quantity)
+        value = number_of(state.get(*one_input.name.split(".")), one_input.quantity)
         if value > 0:
-            unit = str(each.quantity["unit"])
-            ends = (engineering(value * (1 + part), unit) for part in (-PART, PART))
-            found[each.name] = dict(zip(("low", "high"), ends, strict=True))
-    return found
+            unit = str(one_input.quantity["unit"])
+            ends = (engineering(value * (1 + share), unit) for share in (-PART, PART))
+            ranges[one_input.name] = dict(zip(("low", "high"), ends, strict=True))
+    return ranges
 
 
 def label_of(name: str) -> str:
@@ -97,12 +97,12 @@ def results_of(state: State) -> dict[str, str]:
     }
 
 
-def band_figure(found: Bands, load: str) -> Figure:
+def band_figure(bands: Bands, load: str) -> Figure:
     """Bands between outer and inner quantiles, the median, and the study's own numbers."""
-    band = np.array(found["bands"], float)
+    band = np.array(bands["bands"], float)
     scale = SCALES.get(load, 1.0)
-    x = np.array(found["loads"]) * scale
-    q = found["probabilities"]
+    x = np.array(bands["loads"]) * scale
+    q = bands["probabilities"]
     order = np.argsort(q)
     traces: list[Part] = []
     pairs = len(order) // 2
@@ -128,28 +128,28 @@ def band_figure(found: Bands, load: str) -> Figure:
         )
     if len(order) % 2:
         traces.append(line(x, band[:, order[pairs]], "median", 0))
-    nominal = np.array(found["nominal"], float)
-    own = {"color": GREY, "dash": "dash"}
-    traces.append(line(x, nominal, "this study", 1, line=own))
-    positive = bool(np.nanmin(band) > 0) and not are_bounded([found["of"]])
+    nominal = np.array(bands["nominal"], float)
+    style = {"color": GREY, "dash": "dash"}
+    traces.append(line(x, nominal, "this study", 1, line=style))
+    positive = bool(np.nanmin(band) > 0) and not are_bounded([bands["of"]])
     made = figure(
         traces,
         x=AXES[load],
-        y=label_of(found["of"]),
+        y=label_of(bands["of"]),
         title="Bands",
         xlog=load != "d",
         ylog=positive,
         height=420,
     )
-    made["layout"]["shapes"] = [mark(found["at"] * scale, "", dash="solid")[0]]
+    made["layout"]["shapes"] = [mark(bands["at"] * scale, "", dash="solid")[0]]
     return made
 
 
-def critical_figure(found: Bands) -> Figure:
+def critical_figure(bands: Bands) -> Figure:
     """Each critical load as an interval, its median and the study's own; the load as a line."""
-    names = [n if row[-1] else f"{n} (none)" for n, row in found["critical"].items()]
-    rows = list(found["critical"].values())
-    q = found["probabilities"]
+    names = [n if row[-1] else f"{n} (none)" for n, row in bands["critical"].items()]
+    rows = list(bands["critical"].values())
+    q = bands["probabilities"]
     traces: list[Part] = []
     for k in range(len(q) // 2):
         low, high = (np.array([row[i] for row in rows], float) for i in (k, len(q) - 1 - k))
@@ -189,14 +189,14 @@ def critical_figure(found: Bands) -> Figure:
         hovermode="closest",
     )  # fmt: skip
     made["layout"]["yaxis"] |= {"autorange": "reversed", "type": "category"}
-    made["layout"]["shapes"] = [mark(found["F_star_at"], "", dash="solid")[0]]
+    made["layout"]["shapes"] = [mark(bands["F_star_at"], "", dash="solid")[0]]
     return made
 
 
-def tornado_figure(found: Bands) -> Figure:
+def tornado_figure(bands: Bands) -> Figure:
     """One bar an input, from its 5th to its 95th percentile; the strongest on top."""
-    middle = found["nominal_at"]
-    labels = list(found["tornado"])
+    middle = bands["nominal_at"]
+    labels = list(bands["tornado"])
     traces: list[Part] = []
     for side, (name, colour, pattern) in enumerate(
         (
@@ -204,23 +204,23 @@ def tornado_figure(found: Bands) -> Figure:
             ("high end of the input", OKABE_ITO["orange"], "/"),
         )
     ):
-        ends = [found["tornado"][label][side] for label in labels]
+        ends = [bands["tornado"][label][side] for label in labels]
         traces.append(
             {
                 "type": "bar",
                 "orientation": "h",
-                "y": [wrap_text(found["words"][label], WIDE) for label in labels],
+                "y": [wrap_text(bands["words"][label], WIDE) for label in labels],
                 "x": [None if v is None or middle is None else v - middle for v in ends],
                 "base": middle,
                 "name": name,
                 "marker": {"color": colour, "pattern": {"shape": pattern}},
-                "customdata": [found["ends"][label][side] for label in labels],
+                "customdata": [bands["ends"][label][side] for label in labels],
                 "hovertemplate": "%{y}: %{customdata}<extra></extra>",
             }
         )
     made = figure(
         traces,
-        x=label_of(found["of"]),
+        x=label_of(bands["of"]),
         y="",
         title="One input at a time, at the operating load",
         xlog=False,
@@ -266,7 +266,7 @@ class ErrorBars:
             "Without any entry the ranges of the materials library count, where it states some."
         ).classes("hint")
         self.inputs = Inputs(state, self._refresh_entries)
-        self.known = self._inputs_and_ranges()
+        self.shown_inputs = self._inputs_and_ranges()
         """What the entries show."""
         self._entries()
 
@@ -332,8 +332,8 @@ class ErrorBars:
         self.said.set_visibility(True)
 
     async def draw(self) -> None:
-        if self._inputs_and_ranges() != self.known:
-            self.known = self._inputs_and_ranges()
+        if self._inputs_and_ranges() != self.shown_inputs:
+            self.shown_inputs = self._inputs_and_ranges()
             self._refresh_entries()
         self.inputs.show_mistakes()
         options, of = results_of(self.state), self.of
@@ -348,46 +348,50 @@ class ErrorBars:
         self.said.set_visibility(self.work.done is not None)
 
 
-def _little(asked: Asked) -> Asked:
-    return asked | {"loads": np.array(asked["loads"])[::4].tolist(), "samples": 128}
+def _little(request: Asked) -> Asked:
+    return request | {"loads": np.array(request["loads"])[::4].tolist(), "samples": 128}
 
 
 def words_of_inputs(state: State, names: Iterable[str]) -> list[str]:
     """What inputs are, by meaning and symbol."""
-    known = {each.name: each.quantity for each in inputs_of(state.study) if each.quantity}
-    return [f"{known[name]['meaning']} {known[name]['symbol']}" for name in names]
+    quantities = {
+        one_input.name: one_input.quantity
+        for one_input in inputs_of(state.study)
+        if one_input.quantity
+    }
+    return [f"{quantities[name]['meaning']} {quantities[name]['symbol']}" for name in names]
 
 
 def _ranges(state: State) -> dict[str, dict[str, float]]:
     """Ranges of the materials library, as a study file writes them."""
     if state.answer is None:
         return {}
-    found = stated_ranges(state.answer.contact)
+    stated = stated_ranges(state.answer.contact)
     return {
         name: dict(zip(KINDS[u.kind], (u.first, u.second), strict=True))
-        for name, u in found.items()
+        for name, u in stated.items()
     }
 
 
 def _offer(inputs: Inputs, state: State) -> None:
     """The ranges of the library: what they are, and a button that writes them into the study."""
-    ranges, own = _ranges(state), state.get("uncertainty", "inputs")
+    ranges, written = _ranges(state), state.get("uncertainty", "inputs")
     if not ranges or state.answer is None:
         said = "The materials library states no range for the materials of this study."
         ui.label(said).classes("hint")
         return
     contact = state.answer.contact
-    counts = "is not used, as the study has entries of its own" if own else "counts"
+    counts = "is not used, as the study has entries of its own" if written else "counts"
     ui.label(f"What the materials library states {counts}:").classes("hint")
     for name, ends in ranges.items():
         low, high = (value_of(end, unit_of(contact, name)) for end in ends.values())
         ui.label(f"{words_of(contact, name)} between {low} and {high}").classes("hint")
-    known = own if isinstance(own, dict) else {}
+    kept = written if isinstance(written, dict) else {}
     set_attributes(
         ui.button(
             "Take these ranges into the study",
             icon="input",
-            on_click=lambda: inputs.change("uncertainty", "inputs", known | ranges),
+            on_click=lambda: inputs.change("uncertainty", "inputs", kept | ranges),
         ).props("flat dense no-caps"),
         {"data-take": "ranges"},
     )

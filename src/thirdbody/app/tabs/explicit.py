@@ -41,13 +41,13 @@ def _circles(x: ArrayLike, y: ArrayLike, size: ArrayLike) -> tuple[np.ndarray, n
     return across.ravel(), along.ravel()
 
 
-def pressure_figure(found: Pressing) -> Figure:
+def pressure_figure(pressing: Pressing) -> Figure:
     """Pressure on the surface, and the particles that carry in true size."""
-    pressed = np.array(found["pressure"], float)
+    pressed = np.array(pressing["pressure"], float)
     top = max(float(pressed.max()), 1.0)
     shown, unit = readable_unit(top, "Pa")
     pressed *= shown / top
-    step = 1e6 * found["spacing"]
+    step = 1e6 * pressing["spacing"]
     rows = [[round(v, 4) if v > 0 else None for v in row] for row in pressed.tolist()]
     traces: list[Part] = [
         {
@@ -64,7 +64,7 @@ def pressure_figure(found: Pressing) -> Figure:
             "hovertemplate": f"%{{z:.3g}} {unit}<extra></extra>",
         }
     ]
-    carrying = found["carrying"]
+    carrying = pressing["carrying"]
     if carrying["force"]:
         most = np.argsort(carrying["force"])[::-1][:MOST_CIRCLES]
         x, y, size = (1e6 * np.array(carrying[name])[most] for name in ("x", "y", "diameter"))
@@ -81,14 +81,14 @@ def pressure_figure(found: Pressing) -> Figure:
     return made
 
 
-def section_figure(found: Pressing) -> Figure:
+def section_figure(pressing: Pressing) -> Figure:
     """Through the particle that carries most: the deformed ground, and the flat above."""
-    section = found["section"]
+    section = pressing["section"]
     along, before, deformed = (
-        1e9 * np.array(each, float)
-        for each in (section["along"], section["height"], section["deformed"])
+        1e9 * np.array(column, float)
+        for column in (section["along"], section["height"], section["deformed"])
     )
-    flat = np.full(len(along), 1e9 * found["h"])
+    flat = np.full(len(along), 1e9 * pressing["h"])
     traces = [
         line(along, flat, "the flat", 0, line={"dash": "solid"}),
         line(along, deformed, "deformed", 2, line={"dash": "solid"}),
@@ -110,11 +110,11 @@ def section_figure(found: Pressing) -> Figure:
     return made
 
 
-def force_figure(found: Pressing) -> Figure:
+def force_figure(pressing: Pressing) -> Figure:
     """How many particles carry how much of the load."""
     trace: Part = {
         "type": "histogram",
-        "x": [100 * share for share in found["carrying"]["share"]],
+        "x": [100 * share for share in pressing["carrying"]["share"]],
         "nbinsx": 30,
         "marker": {"color": INKS[1]},
         "name": "particles that carry",
@@ -124,7 +124,7 @@ def force_figure(found: Pressing) -> Figure:
         [trace], x="part of the load on one [%]", y="particles", title=title, xlog=False
     )  # fmt: skip
     made["layout"]["showlegend"] = False
-    if len(found["carrying"]["share"]) <= FEW_CARRY:  # numbers of particles are whole
+    if len(pressing["carrying"]["share"]) <= FEW_CARRY:  # numbers of particles are whole
         made["layout"]["yaxis"]["dtick"] = 1
     return made
 
@@ -149,7 +149,7 @@ class Explicit:
             self._show,
             SECONDS,
             key=self._key,
-            little=lambda asked: asked | {"points": FEW},
+            little=lambda request: request | {"points": FEW},
         )
         self.box = ui.column().classes("w-full")
         with self.box:
@@ -178,20 +178,20 @@ class Explicit:
             self.work.fail("the study has a mistake; see its entries")
             return None
         load = await self.state.ask(_load, self.state.operating_load)
-        asked = {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}
-        return asked | {"points": POINTS}
+        request = {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}
+        return request | {"points": POINTS}
 
-    def _show(self, found: Pressing) -> None:
-        self.words.set_text(as_shown(found["headline"].replace("`", "")))
+    def _show(self, pressing: Pressing) -> None:
+        self.words.set_text(as_shown(pressing["headline"].replace("`", "")))
         self.table.clear()
         with self.table:
-            each = found["compared"].items()
-            facts(((name, f"{a}; statistically {b}") for name, (a, b) in each), "explicit ")
-        self.state.note("explicit", found["warnings"])
+            compared = pressing["compared"].items()
+            facts(((name, f"{a}; statistically {b}") for name, (a, b) in compared), "explicit ")
+        self.state.note("explicit", pressing["warnings"])
         draws = {"pressure": pressure_figure, "section": section_figure, "forces": force_figure}
         for name, draw in draws.items():
-            self.plots[name].update_figure(draw(found))
-        self.plots["forces"].set_visibility(bool(found["carrying"]["force"]))
+            self.plots[name].update_figure(draw(pressing))
+        self.plots["forces"].set_visibility(bool(pressing["carrying"]["force"]))
 
     async def draw(self) -> None:
         await self.work.update_preview(self.state)

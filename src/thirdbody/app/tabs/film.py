@@ -106,12 +106,12 @@ def oil_of(answer: Answer, fine: str) -> Oil | None:
     return Oil(sentences, ("", "before", "after the filter"), oil_words.filter_rows(oil, filtered))
 
 
-def film_figures(found: FilmResult, i: int) -> dict[str, Figure]:
+def film_figures(result: FilmResult, i: int) -> dict[str, Figure]:
     """Three figures over speed, with the regimes behind the curves and the speed i marked."""
-    states = found.states
+    states = result.states
     u = np.asarray(states["speed"], float)
     shapes, notes = [], []
-    for low, high, word in bands_of(u, found.regime_speeds):
+    for low, high, word in bands_of(u, result.regime_speeds):
         shapes.append(band(low, high, GREY, SHADE[word]) | {"layer": "below"})
         notes.append(log_title(mark(float(np.sqrt(low * high)), word)[1]))
     shapes.append(mark(float(u[i]), "", dash="solid")[0])
@@ -119,7 +119,7 @@ def film_figures(found: FilmResult, i: int) -> dict[str, Figure]:
     for name, curves in CURVES.items():
         traces = []
         for column, (label, number) in curves.items():
-            if column in OF_PARTICLES and not found.passing:
+            if column in OF_PARTICLES and not result.passing:
                 continue
             y = np.asarray(states[column], float)
             style = {"color": GREY, "dash": "solid"} if column == "mu" else {}
@@ -156,7 +156,7 @@ class Film:
         """Whose film is shown."""
         self.start: tuple[Answer, Answer | None] | None = None
         """A study without a film, and its answer with one to begin with."""
-        self.found: FilmResult | None = None
+        self.result: FilmResult | None = None
         """What was found for the answer."""
         self.i = 0
         """The speed that is shown."""
@@ -204,22 +204,22 @@ class Film:
 
     async def _show(self) -> None:
         """Facts and figures at the speed of the slider."""
-        found, i = self.found, self.i
-        if found is None:
+        result, i = self.result, self.i
+        if result is None:
             return
-        said = f"speed {value_of(found.states['speed'][i], 'm/s')}"
+        said = f"speed {value_of(result.states['speed'][i], 'm/s')}"
         self.said.set_text(said)
         self.slider.speak(said)
-        every = point(found, i).items()
+        every = point(result, i).items()
         self.facts.show((name, said) for name, said in every if said != UNKNOWN)
-        known = bool(np.isfinite(found.states["mu"][i]))
-        self.plots["film friction"].widget.set_visibility(known)
-        made = film_figures(found, i)
+        has_friction = bool(np.isfinite(result.states["mu"][i]))
+        self.plots["film friction"].widget.set_visibility(has_friction)
+        made = film_figures(result, i)
         await show_figures((plot, made[name]) for name, plot in self.plots.items())
 
     def _follow_slider(self) -> None:
         i = int(self.slider.value or 0)
-        if self.found is not None and i != self.i:
+        if self.result is not None and i != self.i:
             self.i = i
             self.soon()
 
@@ -232,24 +232,24 @@ class Film:
         self.grid.classes(**{"remove" if has_entries else "add": "alone"})
         self.inputs.show_mistakes()
         answer = await self._with_film()
-        for part in (self.words, self.beside):
-            part.set_visibility(answer is not None)
+        for element in (self.words, self.beside):
+            element.set_visibility(answer is not None)
         if answer is None:
             self.dents.set_visibility(False)
         if answer is None or answer is self.answer:
             return
-        before = self.found
-        found, middle = await ask_for_page(_solve_film_curve, answer)
-        kept = before is not None and np.array_equal(before.states["speed"], found.states["speed"])
-        self.answer, self.found = answer, found
+        before = self.result
+        result, middle = await ask_for_page(_solve_film_curve, answer)
+        kept = before is not None and np.array_equal(before.states["speed"], result.states["speed"])
+        self.answer, self.result = answer, result
         self.i = self.i if kept else middle
-        set_attributes(self.slider, {"max": len(found.states["speed"]) - 1})
+        set_attributes(self.slider, {"max": len(result.states["speed"]) - 1})
         self.slider.set_value(self.i)
         if not self.dents.visible:  # the oil had no particles, and hardly has now
-            self._say(found, [])
+            self._say(result, [])
         drawing = asyncio.ensure_future(self._show())  # while the oil is asked for
         try:
-            await self._show_answer(answer, found)
+            await self._show_answer(answer, result)
         finally:
             await drawing
 
@@ -262,13 +262,13 @@ class Film:
             return answer
         if self.start is None or self.start[0] is not answer:
             study, surface = state.study | {"film": START}, state.surfaces
-            known = surface.get(surface_key(study, state.folder))
-            found, problems, _ = await ask_for_page(look, study, state.folder, known)
-            self.start = (answer, found)
+            measured = surface.get(surface_key(study, state.folder))
+            begun, problems, _ = await ask_for_page(look, study, state.folder, measured)
+            self.start = (answer, begun)
             self.wrong.set_text(as_shown("; ".join(problems)))
         return self.start[1]
 
-    async def _show_answer(self, answer: Answer, found: FilmResult) -> None:
+    async def _show_answer(self, answer: Answer, result: FilmResult) -> None:
         """The answer in sentences: what the particles of the oil do, then the film."""
         wrong = ""
         try:
@@ -282,8 +282,8 @@ class Film:
         set_attributes(self.fine, {"hint": hint})
         # a filter with a mistake stays where it can be mended
         self.dents.set_visibility(oil is not None or bool(self.fine.value and wrong))
-        self.state.note("film", found.run_warnings)
-        self._say(found, [] if oil is None else oil.sentences)
+        self.state.note("film", result.run_warnings)
+        self._say(result, [] if oil is None else oil.sentences)
         self.oil_rows.clear()
         if oil is not None:
             with self.oil_rows:
@@ -291,12 +291,12 @@ class Film:
                 rows = [dict(zip(heads, row, strict=True)) for row in oil.rows]
                 shown_table("oil", heads, rows)
 
-    def _say(self, found: FilmResult, sentences: list[str]) -> None:
+    def _say(self, result: FilmResult, sentences: list[str]) -> None:
         """The answer: what is said of the oil, and of the film the rest; else of the film."""
-        if self.spoken == (found, sentences):
+        if self.spoken == (result, sentences):
             return
-        self.spoken = found, sentences
-        said, more = sentences, summary(found)
+        self.spoken = result, sentences
+        said, more = sentences, summary(result)
         if not said:
             said, more = more[:1], more[1:]
         self.words.clear()
@@ -312,9 +312,9 @@ class Film:
                 ui.label(as_shown(text)).classes("hint")
 
     async def _show_filter(self) -> None:
-        if self.answer is not None and self.found is not None:
+        if self.answer is not None and self.result is not None:
             self.wrong.set_text("")
-            await self._show_answer(self.answer, self.found)
+            await self._show_answer(self.answer, self.result)
 
 
 def _entries(inputs: Inputs, state: State) -> None:
@@ -326,21 +326,21 @@ def _entries(inputs: Inputs, state: State) -> None:
             'no-caps data-path="film.add"'
         )
         return
-    own = {field.name: field for field in fields_of(FilmConditions)}
+    fields = {field.name: field for field in fields_of(FilmConditions)}
     if state.get("body") is None or "conjunction" in table:
-        inputs.field(("film",), own["load"])
+        inputs.field(("film",), fields["load"])
         _bodies(inputs, table)
     else:
         ui.label("Bodies and load are those at the side.").classes("hint")
     if "speed" in table or state.get("body", "shaft_speed") is None:
         _speed(inputs, table.get("speed"))
-    inputs.field(("film",), own["slide_roll"])
+    inputs.field(("film",), fields["slide_roll"])
     ui.label("oil").classes("subhead")
     for field in fields_of(OilProperties):
         inputs.field(("film", "oil"), field)
     with ui.expansion("more").classes("w-full"), ui.column().classes("w-full gap-2"):
         for name in ("hertz", "few", "most"):
-            inputs.field(("film",), own[name])
+            inputs.field(("film",), fields[name])
         if isinstance(table.get("entrainment"), dict):
             for field in fields_of(Entrainment):
                 inputs.field(("film", "entrainment"), field)

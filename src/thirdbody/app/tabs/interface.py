@@ -67,7 +67,7 @@ def headline(point: tb.Equilibrium, held: float = math.inf) -> str:
         return f"At {load} {mode_of(None)}."
     if point.contact.two_body:
         return f"At {load} {two_bodies()}."
-    parts = {part.name: _one(part.load_share) for part in point.populations}
+    parts = {population.name: _one(population.load_share) for population in point.populations}
     share = particle_share_text(_one(point.particle_load_share), parts if len(parts) > 1 else None)
     mode = str(point.mode) or None
     if is_rare(mode, held):
@@ -96,8 +96,8 @@ def facts_of(point: tb.Equilibrium, held: float = math.inf) -> list[tuple[str, s
             contact = point.contact.replace(outputs=(tb.outputs.Counts(),))
             counted = tb.solve(contact, d=_one(point.d)).outputs
         at.append(_loaded_row(point.contact, _one(counted["n_sa"])))
-    for part in point.populations:
-        at.append((f"{part.name} carries", percent(_one(part.load_share))))
+    for population in point.populations:
+        at.append((f"{population.name} carries", percent(_one(population.load_share))))
     return at
 
 
@@ -106,10 +106,10 @@ def _loaded_row(contact: tb.Contact, n: float) -> tuple[str, str]:
 
     Pieces bear beside whole particles, and so they are no part of those that came.
     """
-    each = n / sum(dust.areal_density for dust in contact.populations)
+    share = n / sum(dust.areal_density for dust in contact.populations)
     if any(dust.strength and dust.strength.fragments != "gone" for dust in contact.populations):
-        return ("whole particles and pieces loaded", f"{number(each, 3)} for each particle")
-    return ("particles loaded", percent(each))
+        return ("whole particles and pieces loaded", f"{number(share, 3)} for each particle")
+    return ("particles loaded", percent(share))
 
 
 def abouts() -> dict[str, str]:
@@ -156,12 +156,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         force.draw()
         answer.classes(**{"add" if state.answer.study.forces is not None else "remove": "second"})
         film.set_visibility(state.answer.study.film is not None)
-        bad, found = await state.ask(drawing_of, state.operating_load, seed["now"])
+        bad, drawing = await state.ask(drawing_of, state.operating_load, seed["now"])
         status.set_text(bad)
         status.set_visibility(bool(bad))
         if bad:
             return
-        svg, says, names, pairs, sentence = found
+        svg, says, names, pairs, sentence = drawing
         answer.set_text(as_shown(sentence))
         picture.set_content(svg)
         caption.set_text(as_shown(says))
@@ -208,20 +208,20 @@ class Force:
         answer = self.state.answer
         assert answer is not None
         whole = "forces" in answer.__dict__
-        found = answer.forces if whole else at_once(answer)
-        self.box.set_visibility(bool(found))
-        if not found:
+        forces = answer.forces if whole else at_once(answer)
+        self.box.set_visibility(bool(forces))
+        if not forces:
             return
-        follows = not whole and found[0].kind != "flat"
-        first, rest = first_and_rest(force_sentences(found))
+        follows = not whole and forces[0].kind != "flat"
+        first, rest = first_and_rest(force_sentences(forces))
         self.said.set_text(as_shown(first))
         self.rest.set_text(as_shown(rest))
-        self.fold.set_visibility(bool(rest) or found[0].kind != "flat")
+        self.fold.set_visibility(bool(rest) or forces[0].kind != "flat")
         self.first.set_visibility(follows)
-        warned = [text for each in found for text in each.warnings]
+        warned = [text for force in forces for text in force.warnings]
         self.warned.set_text(f"Warning: {'; '.join(warned)}." if warned else "")
         self.warned.set_visibility(bool(warned))
-        self.place.set_visibility(found[0].kind != "flat" and answer.has_one_force)
+        self.place.set_visibility(forces[0].kind != "flat" and answer.has_one_force)
         self.drawn = time.perf_counter()
         if follows and self.later is None and not self.running:
             self._wait(RESTS)

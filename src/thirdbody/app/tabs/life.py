@@ -67,61 +67,63 @@ def _start() -> AskedLife:
     return read_tables({"life": START}, Path(), oil_of, lambda t: t.name in NEEDED)
 
 
-def _scale_oil(asked: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:
+def _scale_oil(request: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:
     """The oil with its sliders where they are: factors on what the study says."""
-    circuit = asked.circuit
+    circuit = request.circuit
     changes: dict[str, object] = {}
-    for i, each in enumerate(circuit.filters):
-        assert each.flow is not None
-        changes[f"filters.{i}.flow"] = flow * each.flow
-        changes[f"filters.{i}.service"] = service * each.service
+    for i, oil_filter in enumerate(circuit.filters):
+        assert oil_filter.flow is not None
+        changes[f"filters.{i}.flow"] = flow * oil_filter.flow
+        changes[f"filters.{i}.service"] = service * oil_filter.service
     entering = tuple(
-        each.replace(
+        source.replace(
             **{
-                name: ingress * getattr(each, name)
+                name: ingress * getattr(source, name)
                 for name in ("rate", "steady")
-                if getattr(each, name) is not None
+                if getattr(source, name) is not None
             }
         )
-        for each in circuit.ingress
+        for source in circuit.ingress
     )
     circuit = circuit.replace(ingress=entering, **changes)
-    return AskedLife(title=asked.title, circuit=circuit, duration=asked.duration, until=asked.until)
+    return AskedLife(
+        title=request.title, circuit=circuit, duration=request.duration, until=request.until
+    )
 
 
 def _oil_of(answer: Answer) -> AskedLife | None:
     """The oil of a study; None where it has none, or asks for a dry contact."""
-    asked = answer.study.life
-    return asked if isinstance(asked, AskedLife) else None
+    request = answer.study.life
+    return request if isinstance(request, AskedLife) else None
 
 
 def contents_of(
     answer_of_study: Answer, flow: float = 1.0, service: float = 1.0, ingress: float = 1.0
 ) -> LifeShown:
     """The answer in words, numbers, the course of the code, and the flows of dirt."""
-    asked = _scale_oil(_oil_of(answer_of_study) or _start(), flow, service, ingress)
-    times = np.concatenate([[0.0], np.geomspace(1e-5, 1.0, POINTS) * asked.duration])
-    times[-1] = asked.duration
+    request = _scale_oil(_oil_of(answer_of_study) or _start(), flow, service, ingress)
+    times = np.concatenate([[0.0], np.geomspace(1e-5, 1.0, POINTS) * request.duration])
+    times[-1] = request.duration
     history = run_oil_history(
-        asked.circuit, duration=asked.duration, until=asked.until, times=times
+        request.circuit, duration=request.duration, until=request.until, times=times
     )
-    found = LifeResult(asked=asked, history=history)
+    result = LifeResult(asked=request, history=history)
     return LifeShown(
-        answer=words_of(found),
+        answer=words_of(result),
         facts=list(facts(history).items()),
         history=_course(history),
         flows=_flows(history),
-        labels=_labels(asked),
+        labels=_labels(request),
         notes=[*events(history), *history.warnings],
     )
 
 
-def _labels(asked: AskedLife) -> dict[str, str]:
+def _labels(request: AskedLife) -> dict[str, str]:
     """What the sliders say."""
-    circuit = asked.circuit
-    flow = sum(each.flow or 0.0 for each in circuit.filters)
+    circuit = request.circuit
+    flow = sum(oil_filter.flow or 0.0 for oil_filter in circuit.filters)
     service = circuit.filters[0].service if circuit.filters else 1.0
-    rates = [each.mass_rate for each in circuit.ingress]
+    rates = [source.mass_rate for source in circuit.ingress]
     entering = flow_of(float(np.nansum(rates))) if rates else "none"
     return {
         "flow": f"filter flow = {number(flow / LITRE_PER_MINUTE, 3)} L/min",

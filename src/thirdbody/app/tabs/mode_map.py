@@ -40,23 +40,23 @@ NM, MPA = 1e9, 1e-6
 """A map is drawn in these."""
 
 
-def axes_of(found: ModeMap) -> tuple[np.ndarray, np.ndarray]:
+def axes_of(mode_map: ModeMap) -> tuple[np.ndarray, np.ndarray]:
     """Sizes [m] and pressures [Pa] of a map."""
-    sizes = found["sigma"] * np.array(found["sizes"], float)
-    return sizes, found["E_ss"] * np.array(found["loads"], float)
+    sizes = mode_map["sigma"] * np.array(mode_map["sizes"], float)
+    return sizes, mode_map["E_ss"] * np.array(mode_map["loads"], float)
 
 
-def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
+def map_figure(mode_map: ModeMap, here: tuple[float, float] | None) -> Figure:
     """The map as plain data, and where the study is: its mean size [m] and pressure [Pa]."""
     sizes, loads = (
-        (scale * each).tolist() for scale, each in zip((NM, MPA), axes_of(found), strict=True)
+        (scale * axis).tolist() for scale, axis in zip((NM, MPA), axes_of(mode_map), strict=True)
     )
     colours = [MODE_FILLS[name] for name in MODES]
     scale = []
     for number, colour in enumerate(colours):
         scale += [[number / 3, colour], [(number + 1) / 3, colour]]
-    index = [[None if v < 0 else v for v in row] for row in found["mode"]]
-    names = [[None if v < 0 else MODES[v] for v in row] for row in found["mode"]]
+    index = [[None if v < 0 else v for v in row] for row in mode_map["mode"]]
+    names = [[None if v < 0 else MODES[v] for v in row] for row in mode_map["mode"]]
     flipped = [list(column) for column in zip(*index, strict=True)]
     traces: list[Part] = [
         {
@@ -80,7 +80,7 @@ def map_figure(found: ModeMap, here: tuple[float, float] | None) -> Figure:
             "type": "contour",
             "x": sizes,
             "y": loads,
-            "z": [list(column) for column in zip(*found["share"], strict=True)],
+            "z": [list(column) for column in zip(*mode_map["share"], strict=True)],
             "contours": {"start": 0.5, "end": 0.5, "size": 1, "coloring": "none"},
             "line": {"color": "#222222", "dash": "dash", "width": 2},
             "showscale": False,
@@ -134,11 +134,11 @@ def reach(here: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     return made[0], made[1]
 
 
-def lies_inside(found: ModeMap, here: tuple[float, float] | None) -> bool:
+def lies_inside(mode_map: ModeMap, here: tuple[float, float] | None) -> bool:
     """Whether the study lies on the map."""
     if here is None:
         return True
-    axes = zip(axes_of(found), here, strict=True)
+    axes = zip(axes_of(mode_map), here, strict=True)
     return all(axis[0] <= value <= axis[-1] for axis, value in axes)
 
 
@@ -231,12 +231,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     return draw_tab
 
 
-def _little(asked: Asked) -> Asked:
+def _little(request: Asked) -> Asked:
     few = {}
     for name in ("sizes", "loads"):
-        every = np.array(asked[name], float)
+        every = np.array(request[name], float)
         few[name] = np.geomspace(every[0], every[-1], POINTS // LITTLE).tolist()
-    return asked | few
+    return request | few
 
 
 def _pressure(answer: Answer, at: float) -> float:

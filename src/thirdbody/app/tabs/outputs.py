@@ -75,8 +75,8 @@ def output_figures(answer: Answer, at: float) -> dict[str, Figure]:
     out: dict[str, Figure] = {}
     for output in answer.contact.outputs:
         units: dict[str, list[str]] = {}
-        for column, told in output.columns.items():
-            units.setdefault(told.unit, []).append(column)
+        for column, declared in output.columns.items():
+            units.setdefault(declared.unit, []).append(column)
         for unit, columns in units.items():
             what = quantity_of(columns, unit)
             title = str(output.title) if len(units) == 1 else f"{output.title}: {what}"
@@ -104,15 +104,15 @@ def _figure(answer: Answer, columns: list[str], unit: str, what: str, title: str
     matters = upper_decades(values)
     wide = len(every) > 0 and every.min() > 0 and matters.max() > WIDE_FROM * matters.min()
     names = [f"{symbol(about(c).symbol)}: {escape_tags(about(c).meaning)}" for c in columns]
-    names = [_fold_name(each) for each in names]
+    names = [_fold_name(text) for text in names]
     return figure(
-        [line(x, y / size, each, i) for i, (y, each) in enumerate(zip(values, names, strict=True))],
+        [line(x, y / size, text, i) for i, (y, text) in enumerate(zip(values, names, strict=True))],
         x=AXES[against],
         title=title,
         y=wrap_text(what + (f" [{name}]" if name else ""), WIDE),
         xlog=against != "d",
         ylog=bool(wide) and not are_bounded(columns),
-        height=HEIGHT + LINE * sum(each.count("<br>") + 1 for each in names),
+        height=HEIGHT + LINE * sum(text.count("<br>") + 1 for text in names),
     )
 
 
@@ -124,8 +124,8 @@ def are_bounded(columns: list[str]) -> bool:
     >>> [are_bounded(c) for c in (["mu", "mu_ss", "rolling_share"], ["n_ss"], ["wear", "wear_K"])]
     [True, False, False]
     """
-    told = [about_result(column) for column in columns]
-    return all(each.unit == "1" and BOUNDED.search(each.meaning) for each in told)
+    abouts = [about_result(column) for column in columns]
+    return all(entry.unit == "1" and BOUNDED.search(entry.meaning) for entry in abouts)
 
 
 def quantity_of(columns: list[str], unit: str) -> str:
@@ -135,7 +135,7 @@ def quantity_of(columns: list[str], unit: str) -> str:
     ('mean load', 'number per area')
     """
     every = zip(*(about(column).meaning.split() for column in columns), strict=False)
-    words = [each[0] for each in takewhile(lambda each: len(set(each)) == 1, every)]
+    words = [at_place[0] for at_place in takewhile(lambda at_place: len(set(at_place)) == 1, every)]
     while len(columns) > 1 and words and words[-1] in LINKS:
         words = words[:-1]
     return " ".join(words).rstrip(":,") or QUANTITIES.get(unit, "value")
@@ -148,8 +148,8 @@ def _fold_name(name: str) -> str:
 
 def names_of_outputs(state: State) -> list[str]:
     """Names of the outputs that the study asks for."""
-    given = state.get("outputs")
-    return list(given) if isinstance(given, dict) else []
+    outputs = state.get("outputs")
+    return list(outputs) if isinstance(outputs, dict) else []
 
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
@@ -172,7 +172,7 @@ class Outputs:
 
     def __init__(self, state: State) -> None:
         self.state = state
-        self.asked = names_of_outputs(state)
+        self.shown_names = names_of_outputs(state)
         """What the entries show."""
         self.inputs = Inputs(state, self._refresh_tab)
         self._switches()
@@ -187,7 +187,7 @@ class Outputs:
         self._numbers()
 
     def _refresh_tab(self) -> None:
-        self.asked = names_of_outputs(self.state)
+        self.shown_names = names_of_outputs(self.state)
         self.inputs.shown.clear()
         self._switches.refresh()
         self._numbers.refresh()
@@ -207,7 +207,7 @@ class Outputs:
     async def draw(self) -> None:
         """The outputs of the study as it is now, or some to begin with."""
         state = self.state
-        if names_of_outputs(state) != self.asked:  # undone, or another study
+        if names_of_outputs(state) != self.shown_names:  # undone, or another study
             self._refresh_tab()
         self.inputs.show_mistakes()
         made, rows = await state.ask(_figures_and_rows, state.operating_load)
@@ -244,7 +244,7 @@ def _figures_and_rows(answer: Answer, at: float) -> tuple[dict[str, Figure], lis
 def _with_first_outputs(answer: Answer) -> Answer:
     """The answer with outputs that need no number of their own."""
     contact = answer.contact
-    fitting = tuple(each for each in BEGUN if not each.problems(contact))
+    fitting = tuple(output for output in BEGUN if not output.problems(contact))
     made = dataclasses.replace(answer.study, contact=contact.replace(outputs=fitting))
     return Answer(made)
 

@@ -30,8 +30,8 @@ GRAIN = Field(
 
 def _question_of(answer: Answer) -> AskedPlate:
     """What the study asks, or the start where it has no such table."""
-    if (own := answer.study.plate) is not None:
-        return own
+    if (request := answer.study.plate) is not None:
+        return request
     contact = answer.contact
     chuck = Chuck(
         thickness=775e-6,
@@ -45,9 +45,9 @@ def _question_of(answer: Answer) -> AskedPlate:
 
 def contents_of(answer_of_study: Answer) -> Shown:
     """The answer in words, numbers and a curve over the size of the particle."""
-    asked = _question_of(answer_of_study)
-    found, chuck = run_plate(asked), asked.chuck
-    sizes, kinds = found.curve()
+    request = _question_of(answer_of_study)
+    result, chuck = run_plate(request), request.chuck
+    sizes, kinds = result.curve()
     traces = []
     for i, (name, heights) in enumerate(kinds):
         seen = np.where(heights < ATOM, np.nan, heights)
@@ -57,11 +57,11 @@ def contents_of(answer_of_study: Answer) -> Shown:
         level = np.full(2, 1e9 * chuck.limit)
         traces.append(line(1e6 * sizes[[0, -1]], level, "limit", 3))
     return Shown(
-        answer=answer(found),
-        facts=list(facts(found).items()),
-        notes=[*uncertainty(found), *(f"Note: {text}" for text in found.run_warnings)],
-        heads=heads(found),
-        rows=rows(found),
+        answer=answer(result),
+        facts=list(facts(result).items()),
+        notes=[*uncertainty(result), *(f"Note: {text}" for text in result.run_warnings)],
+        heads=heads(result),
+        rows=rows(result),
         figure=figure(
             traces,
             x="diameter of the particle [µm]",
@@ -77,7 +77,7 @@ QUESTION = Question(
     about="How high does a wafer, film or plate stand over a particle on its chuck? The plate is "
     "the first surface at the side, the chuck the second, and the particles are those there.",
     kind=Chuck,
-    own=(GRAIN,),
+    first_entries=(GRAIN,),
     start=START,
     left_out=("law",),
     contents=contents_of,

@@ -47,12 +47,16 @@ def options_from(texts: dict[str, str]) -> Reading:
             try:
                 out[name] = to_si(texts[name], "m")
             except InvalidValue as error:
-                problems += [Problem(name, f"= {each}", code=each.code) for each in error.problems]
+                problems += [
+                    Problem(name, f"= {problem}", code=problem.code) for problem in error.problems
+                ]
     if texts.get("spacing"):
         try:
-            out["spacing"] = [to_si(part, "m") for part in texts["spacing"].split(",")]
+            out["spacing"] = [to_si(text, "m") for text in texts["spacing"].split(",")]
         except InvalidValue as error:
-            problems += [Problem("spacing", f"= {each}", code=each.code) for each in error.problems]
+            problems += [
+                Problem("spacing", f"= {problem}", code=problem.code) for problem in error.problems
+            ]
     for name in ("detrend", "unit", "channel"):
         if texts.get(name):
             out[name] = texts[name]
@@ -83,7 +87,7 @@ class Surface:
     def __init__(self, state: State, again: Callable[[], None]) -> None:
         self.state, self.again = state, again
         self.file = "example"
-        self.asked: dict[str, str] = {}
+        self.read_as: dict[str, str] = {}
         """How the file was read that is shown."""
         self.result: Found | None = None
         self.followed: dict[str, str] = {}
@@ -169,20 +173,20 @@ class Surface:
 
     def draw(self) -> None:
         """Read again what the address tells, after a reload and on the way back."""
-        told = self.state.surface
-        if not told and not self.begun:
+        reading = self.state.surface
+        if not reading and not self.begun:
             self.begun = True
             background_tasks.create(self._begin())
-        if not told or told == self.followed:
+        if not reading or reading == self.followed:
             return
-        self.followed = told
-        self._choose_file(told["file"])
+        self.followed = reading
+        self._choose_file(reading["file"])
         for name, entry in self.texts.items():
-            text = told.get(name, "")
+            text = reading.get(name, "")
             entry.set_value(text if name != "detrend" or text in FORMS else "")
         self._hide()
-        if told["file"] != "example" and not Path(self.file).is_file():
-            self.work.fail(missing(told["file"]))
+        if reading["file"] != "example" and not Path(self.file).is_file():
+            self.work.fail(missing(reading["file"]))
             return
         background_tasks.create(self._read())
 
@@ -190,9 +194,9 @@ class Surface:
         """The example of the library, until a file is dropped."""
         with self.box, contextlib.suppress(InvalidValue):
             example: dict[str, object] = {"file": "example", "options": {}}
-            found = await ask_for_page(in_little, "surface", example)
+            result = await ask_for_page(in_little, "surface", example)
             if self.result is None and self.file == "example" and not self.box.is_deleted:
-                self._show(cast(Found, found))
+                self._show(cast(Found, result))
 
     async def _read(self) -> None:
         with self.box:
@@ -216,7 +220,7 @@ class Surface:
             self.work.said.set_text("; ".join(error.problems))
             return None
         self._hide()
-        self.asked = self._texts_written()
+        self.read_as = self._texts_written()
         self.state.surface = self.followed = self._reading()
         self.state.announce_change()
         return {"file": self.file, "options": options}
@@ -240,8 +244,8 @@ class Surface:
         used = self.result["used"]
         if what == "file":
             # as it was read, not as it may be written by now
-            asked = {name: value_from(text) for name, text in self.asked.items()}
-            kept = {k: v for k, v in asked.items() if v and k != "resolution"}
+            options = {name: value_from(text) for name, text in self.read_as.items()}
+            kept = {k: v for k, v in options.items() if v and k != "resolution"}
             rough: dict[str, object] = {"topography": Path(self.file).name} | kept
         else:
             rough = {k: v for k, v in used.items() if k in ("sigma", "R", "alpha", "eta")}
@@ -265,9 +269,9 @@ def surface_numbers(result: Found) -> dict[str, str]:
     }
 
 
-def height_figure(found: Found) -> Figure:
+def height_figure(surface: Found) -> Figure:
     """Heights as a map or a line."""
-    picture = found["picture"]
+    picture = surface["picture"]
     heights = np.array(picture["heights"], dtype=float) * 1e9
     steps = [1e6 * step for step in picture["spacing"]]
     if heights.ndim == 1:
@@ -300,20 +304,20 @@ LABELS = {
 }
 
 
-def cutoff_figure(found: Found, name: str) -> Figure:
+def cutoff_figure(surface: Found, name: str) -> Figure:
     """One quantity against the cut-off, the cut-off used marked."""
     label, columns, size = LABELS[name]
-    curve = found["curve"]
+    curve = surface["curve"]
     x = np.array(curve["cutoff"], float)
-    known = x > 0
+    positive = x > 0
     traces = []
     for i, column in enumerate(columns):
         y = np.array(curve[column], float) / size
         words = "counted" if column.endswith("_counted") else "from moments"
         traces.append(
-            line(x[known] * 1e6, y[known], words, i, mode="lines+markers", marker={"size": 7})
+            line(x[positive] * 1e6, y[positive], words, i, mode="lines+markers", marker={"size": 7})
         )
     made = figure(traces, x="cut-off [µm]", y=label, title=label.split(" [")[0], ylog=True)
-    if cutoff := found["used"]["cutoff"]:
+    if cutoff := surface["used"]["cutoff"]:
         made["layout"]["shapes"] = [mark(1e6 * cutoff, "")[0]]
     return made

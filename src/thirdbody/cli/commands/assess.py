@@ -51,14 +51,14 @@ def command(options: Options) -> None:
     if asks_for_bands(options.study, options.settings or ()):
         _assess_life(options)
         return
-    asked = read_study(options.study, options.settings, writes=[options.html])
-    if asked.life is not None:
+    study = read_study(options.study, options.settings, writes=[options.html])
+    if study.life is not None:
         warn(
             "[life] is not assessed without [life.uncertainty]: the answer is of the contact alone"
         )
     need_places([(options.html, "page")], force=options.force)
-    answer = assess_study(asked, progress=True)
-    shown = replace(answer, title=asked.heading) if asked.settings else answer
+    answer = assess_study(study, progress=True)
+    shown = replace(answer, title=study.heading) if study.settings else answer
     if options.html is not None:
         write_text(options.html, page(shown))
         tell_written(options.html)
@@ -80,14 +80,14 @@ def _assess_life(options: Options) -> None:
         rule = "--html writes no page on [life.uncertainty]; thirdbody report writes one with it"
         raise InvalidValue(rule, code=Mistake.MISSING)
     files = TableFiles(json=STDOUT if options.as_json else None)
-    asked = read_question(load_life, options.study, options.settings, files, force=options.force)
+    question = read_question(load_life, options.study, options.settings, files, force=options.force)
     with resumable("assess", options.keep):
-        found = assess_life(asked, progress=True, keep=options.keep)
+        result = assess_life(question, progress=True, keep=options.keep)
     give_answer(
-        found,
+        result,
         files,
         settings=options.settings,
-        answer=words.answer(found),
-        table=WordTable(words.HEADS, words.rows(found), words.MEANS),
-        last=words.last_words(found),
+        answer=words.answer(result),
+        table=WordTable(words.HEADS, words.rows(result), words.MEANS),
+        last=words.last_words(result),
     )

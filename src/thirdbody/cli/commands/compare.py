@@ -93,28 +93,28 @@ def command(options: Options) -> None:
     if problems:
         raise InvalidValue(*problems)
     files = TableFiles(options.csv, options.xlsx, options.parquet)
-    asked = read_study(options.study, options.settings, writes=[*files, *_of_folder(options.out)])
+    study = read_study(options.study, options.settings, writes=[*files, *_of_folder(options.out)])
     files.need(force=options.force)
     if not options.force:
         refuse_strangers(options.out, "compare.csv", "compare.png", "compare.svg")
     with heartbeat("compare"):
-        found = comparison_of(asked.contact, **_equal_loads(asked), laws=_words(options.names))
-    warn_of(filter(None, found.attrs["warnings"].splitlines()))
-    reasons = found.columns["status"]
-    of_laws = [law != Persson.name for law in found.laws]
+        comparison = comparison_of(study.contact, **_equal_loads(study), laws=_words(options.names))
+    warn_of(filter(None, comparison.attrs["warnings"].splitlines()))
+    reasons = comparison.columns["status"]
+    of_laws = [law != Persson.name for law in comparison.laws]
     if not (reasons[of_laws] == "ok").any():
         raise NoEquilibrium(f"{reasons[0, 0]} (and so under every law)")
-    order = found.loads["F_star"].argsort()
+    order = comparison.loads["F_star"].argsort()
     index = int(order[{"start": 0, "middle": len(order) // 2, "end": -1}[options.at]])
     # the files first: a table on the screen says that all is done
     written: list[Path] = []
     if options.out is not None:
         from ...views.comparison import save
 
-        written = save(found.dataset(), options.out, at=index, force=options.force)
-    files.write(*found.flat(), sheets=partial(_sheets, asked, found, index))
+        written = save(comparison.dataset(), options.out, at=index, force=options.force)
+    files.write(*comparison.flat(), sheets=partial(_sheets, study, comparison, index))
     written += files.paths
-    _show_comparison(asked.heading if asked.settings else asked.title, found, index)
+    _show_comparison(study.heading if study.settings else study.title, comparison, index)
     tell_written(*written)
 
 
@@ -133,83 +133,85 @@ def _words(names: str | None) -> list[str] | None:
     return list(asperity.REGISTRY) if words == ["all"] else words
 
 
-def _equal_loads(asked: Study) -> ForceLoad[NDArray[np.float64]]:
+def _equal_loads(study: Study) -> ForceLoad[NDArray[np.float64]]:
     """The loads of a study; F* under its own law where it gives separations."""
     import numpy as np
 
     from ...equilibrium.load import as_force_load
 
-    if asked.load != "separation":
-        return as_force_load(asked.load, asked.values)
-    loads = np.asarray(asked.solve().F_star)
+    if study.load != "separation":
+        return as_force_load(study.load, study.values)
+    loads = np.asarray(study.solve().F_star)
     loads = loads[np.isfinite(loads) & (loads > 0)]
     if not len(loads):
         raise NoEquilibrium("no load at the separations of the study, so there is none to compare")
     warn(
-        f"laws are compared at equal loads: those of {asked.contact.asperity_law.name} at the "
+        f"laws are compared at equal loads: those of {study.contact.asperity_law.name} at the "
         "separations of the study"
     )
     return {"F_star": loads}
 
 
-def _sheets(asked: Study, found: Comparison, index: int) -> list[Sheet]:
+def _sheets(study: Study, comparison: Comparison, index: int) -> list[Sheet]:
     from ...contact.evaluation import bodies_of
     from ...equilibrium.columns import COLUMNS
     from ...views.question_sheets import inputs_of, question_sheets
 
-    heads, rows, notes = _table(found, index)
-    told = [f"{i + 1} {text}" for i, text in enumerate(notes)]
-    title = f"{asked.heading}: {_at_load(found, index)}"
-    columns, units = found.flat()
+    heads, rows, notes = _table(comparison, index)
+    numbered_notes = [f"{i + 1} {text}" for i, text in enumerate(notes)]
+    title = f"{study.heading}: {_at_load(comparison, index)}"
+    columns, units = comparison.flat()
     meanings = {name: COLUMNS[name].meaning for name in columns if name in COLUMNS}
     return question_sheets(
         title,
-        _answer(found, index),
+        _answer(comparison, index),
         (heads, rows),
-        told,
+        numbered_notes,
         states=(columns, units),
         meanings=meanings,
-        inputs=inputs_of({"": asked.contact}, bodies_of(asked.contact)),
-        warnings=[*filter(None, found.attrs["warnings"].splitlines())],
-        citations=[*filter(None, found.attrs["citations"].splitlines())],
+        inputs=inputs_of({"": study.contact}, bodies_of(study.contact)),
+        warnings=[*filter(None, comparison.attrs["warnings"].splitlines())],
+        citations=[*filter(None, comparison.attrs["citations"].splitlines())],
     )
 
 
-def _at_load(found: Comparison, index: int) -> str:
-    load = load_of(*(float(found.loads[name][index]) for name in ("pressure", "F_star")))
-    return f"every law at {load}, differences against {found.attrs['own_law']}"
+def _at_load(comparison: Comparison, index: int) -> str:
+    load = load_of(*(float(comparison.loads[name][index]) for name in ("pressure", "F_star")))
+    return f"every law at {load}, differences against {comparison.attrs['own_law']}"
 
 
-def _answer(found: Comparison, index: int) -> list[str]:
+def _answer(comparison: Comparison, index: int) -> list[str]:
     """Between what the laws say of the area, and of who carries."""
-    columns = {name: each[:, index] for name, each in found.columns.items()}
-    known = [i for i, status in enumerate(columns["status"]) if status == "ok"]
-    laws = list(found.laws)
-    own = laws.index(found.attrs["own_law"])
+    columns = {name: column[:, index] for name, column in comparison.columns.items()}
+    solved = [i for i, status in enumerate(columns["status"]) if status == "ok"]
+    laws = list(comparison.laws)
+    study_law = laws.index(comparison.attrs["own_law"])
 
     def ends(name: str) -> tuple[int, int]:
-        by = sorted(known, key=lambda i: float(columns[name][i]))
+        by = sorted(solved, key=lambda i: float(columns[name][i]))
         return by[0], by[-1]
 
     low, high = ends("A_t")
-    told = [f"{percent(columns['A_t'][i])} ({laws[i]})" for i in (low, high)]
-    out = f"By the choice of a law the real area is between {' and '.join(told)} of the nominal one"
-    if own in known:
+    areas = [f"{percent(columns['A_t'][i])} ({laws[i]})" for i in (low, high)]
+    out = (
+        f"By the choice of a law the real area is between {' and '.join(areas)} of the nominal one"
+    )
+    if study_law in solved:
         away = [signed_number(columns["A_t_difference"][i], 1, "%") for i in (low, high)]
-        out += f", {' to '.join(away)} about {laws[own]}"
+        out += f", {' to '.join(away)} about {laws[study_law]}"
     if "particle_load_share" not in columns:
         return [f"{out}."]
     shares = [percent(columns["particle_load_share"][i]) for i in ends("particle_load_share")]
     return [f"{out}.", f"Particles carry {' to '.join(dict.fromkeys(shares))} of the load."]
 
 
-def _show_comparison(title: str, found: Comparison, index: int) -> None:
+def _show_comparison(title: str, comparison: Comparison, index: int) -> None:
     """One row a law, at one load; what is to be said of a law stands below, numbered."""
     console = terminal()
-    console.print(f"{title or 'Study'}: {_at_load(found, index)}")
-    for sentence in _answer(found, index):
+    console.print(f"{title or 'Study'}: {_at_load(comparison, index)}")
+    for sentence in _answer(comparison, index):
         console.print(sentence)
-    heads, rows, notes = _table(found, index)
+    heads, rows, notes = _table(comparison, index)
     more = "--csv FILE has all of it"
     shown = Table(heads, right=True, words=["law"], drop=DROP, more=more, legend=MEANS)
     for row in rows:
@@ -219,15 +221,15 @@ def _show_comparison(title: str, found: Comparison, index: int) -> None:
         console.print(f"{i + 1} {note}")
 
 
-def _table(found: Comparison, index: int) -> tuple[list[str], list[list[str]], list[str]]:
+def _table(comparison: Comparison, index: int) -> tuple[list[str], list[list[str]], list[str]]:
     """Heads, a row a law at one load, and what is to be said of laws, which rows number."""
-    particles = "particle_load_share" in found.columns
-    own = found.attrs["own_law"]
+    particles = "particle_load_share" in comparison.columns
+    study_law = comparison.attrs["own_law"]
 
     def cells(law: str, value: dict[str, Any], note: str) -> list[str]:
         if value["status"] != "ok":
             return [law, *["-"] * (9 if particles else 8), note]
-        first = law == own
+        first = law == study_law
         out = [
             law,
             number(value["A_t"]),
@@ -244,9 +246,9 @@ def _table(found: Comparison, index: int) -> tuple[list[str], list[list[str]], l
     heads += ["elastic", "el.-plastic"]
     heads += ["plastic", "particles' load"] if particles else ["plastic"]
     rows, notes = [], []
-    for i, (law, text) in enumerate(zip(found.laws, found.notes, strict=True)):
+    for i, (law, text) in enumerate(zip(comparison.laws, comparison.notes, strict=True)):
         if text:
             notes.append(f"{law}: {text}")
-        values = {name: column[i, index].item() for name, column in found.columns.items()}
+        values = {name: column[i, index].item() for name, column in comparison.columns.items()}
         rows.append(cells(law, values, str(len(notes)) if text else ""))
     return [*heads, "note"], rows, notes

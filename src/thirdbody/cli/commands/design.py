@@ -57,21 +57,21 @@ def command(options: Options) -> None:
         _choose_for_oil(options)
         return
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
+    study = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
     files.need(options.figure, force=options.force)
     if options.figure is not None:
         figure_format(options.figure)  # refused before long work
     bar = sys.stderr.isatty()
     with nullcontext() if bar else heartbeat("design"):
-        best = design_study(asked, progress=bar)
+        best = design_study(study, progress=bar)
     warn_of(best.warnings)
-    columns = {name: each.values.tolist() for name, each in best.of_points.items()}
-    units = {name: each.about.get("units", "") for name, each in best.of_points.items()}
+    columns = {name: column.values.tolist() for name, column in best.of_points.items()}
+    units = {name: column.about.get("units", "") for name, column in best.of_points.items()}
     files.write(
         columns,
         units,
-        sheets=partial(_sheets, asked, best, columns, units),
-        data=lambda: {"title": asked.title, **best.to_dict()},
+        sheets=partial(_sheets, study, best, columns, units),
+        data=lambda: {"title": study.title, **best.to_dict()},
     )
     tell_written(*files.paths)
     if options.figure is not None:
@@ -79,7 +79,7 @@ def command(options: Options) -> None:
 
         write_figure(options.figure, plot_trials(best))
     if options.json != STDOUT:
-        _page(asked, best)
+        _page(study, best)
 
 
 def _choose_for_oil(options: Options) -> None:
@@ -94,48 +94,50 @@ def _choose_for_oil(options: Options) -> None:
             "--figure draws the points of [design]; [life.design] has none", code=Mistake.MISSING
         )
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_question(load_oil, options.study, options.settings, files, force=options.force)
+    question = read_question(load_oil, options.study, options.settings, files, force=options.force)
     with heartbeat("design"):
-        found = design_life(asked)
+        result = design_life(question)
     give_answer(
-        found,
+        result,
         files,
         settings=options.settings,
-        answer=words.answer(found),
-        table=WordTable(words.heads(found), words.rows(found), words.MEANS),
-        last=words.last_words(found),
+        answer=words.answer(result),
+        table=WordTable(words.heads(result), words.rows(result), words.MEANS),
+        last=words.last_words(result),
     )
 
 
 def _sheets(
-    asked: Study, best: Best, columns: dict[str, list[object]], units: dict[str, str]
+    study: Study, best: Best, columns: dict[str, list[object]], units: dict[str, str]
 ) -> list[Sheet]:
     from ...contact.citations import cite
     from ...contact.evaluation import bodies_of
     from ...study.toml import heading_of
     from ...views.question_sheets import inputs_of, question_sheets
 
-    said = _Words(asked, best)
+    said = _Words(study, best)
     return question_sheets(
-        heading_of(asked.title or "design", asked.settings),
+        heading_of(study.title or "design", study.settings),
         said.answer(),
         said.chosen_rows(),
         [f"limits in force: {said.limits('; '.join(best.active)) or 'none'}"],
         states=(columns, units),
-        meanings={name: each.about.get("long_name", "") for name, each in best.of_points.items()},
+        meanings={
+            name: column.about.get("long_name", "") for name, column in best.of_points.items()
+        },
         inputs=inputs_of({"": best.contact}, bodies_of(best.contact)),
         warnings=best.warnings,
         citations=cite(best.contact).splitlines(),
     )
 
 
-def _page(asked: Study, best: Best) -> None:
+def _page(study: Study, best: Best) -> None:
     from ...analysis.design.design import FLAT
     from ...study.toml import heading_of
 
     out = terminal()
-    out.print(heading_of(asked.title or "design", asked.settings))
-    said = _Words(asked, best)
+    out.print(heading_of(study.title or "design", study.settings))
+    said = _Words(study, best)
     for sentence in said.answer():
         out.print(sentence)
     front = best.of_points["front"].values
@@ -171,7 +173,7 @@ def _page(asked: Study, best: Best) -> None:
         names = [*map(said.name, best.values), *map(said.objective, best.objectives)]
         table = Table(names, right=True, wrap=True)
         for i in some(len(chosen)):
-            one = {name: each.values[chosen[i]].item() for name, each in every.items()}
+            one = {name: points.values[chosen[i]].item() for name, points in every.items()}
             cells = [said.amount(name, one[name]) for name in best.values]
             cells += [said.metric(name, one[name]) for name in best.objectives]
             table.add_row(*cells)
@@ -181,13 +183,13 @@ def _page(asked: Study, best: Best) -> None:
 class _Words:
     """Names and amounts of a design as its reader knows them."""
 
-    def __init__(self, asked: Study, best: Best) -> None:
+    def __init__(self, study: Study, best: Best) -> None:
         from ...study.analyses import arguments
 
         self.contact, self.best = best.contact, best
-        given = arguments(asked)
-        self.fluid, self.asked = given.get("suspension"), given.get("limits", ())
-        self.own = {each.label: each for each in given["objective"]}
+        keywords = arguments(study)
+        self.fluid, self.study_limits = keywords.get("suspension"), keywords.get("limits", ())
+        self.study_objectives = {objective.label: objective for objective in keywords["objective"]}
 
     def name(self, name: str) -> str:
         from ...analysis.inputs import words_of
@@ -243,28 +245,28 @@ class _Words:
     def about(self, of: str) -> tuple[str, str]:
         """Unit and meaning of a number of the states."""
         if of in self.best.of_states:
-            told = self.best.of_states[of].about
-            return told["units"], told["long_name"]
+            about = self.best.of_states[of].about
+            return about["units"], about["long_name"]
         return "1", of
 
     def objective(self, label: str) -> str:
-        each = self.own[label]
+        objective = self.study_objectives[label]
         how = " ".join(label.split(":")[1:])
-        return f"{self.about(each.of)[1]} {each.of}" + (f" ({how})" if how else "")
+        return f"{self.about(objective.of)[1]} {objective.of}" + (f" ({how})" if how else "")
 
     def metric(self, label: str, value: float) -> str:
-        each = self.own[label]
-        unit = "1" if each.aim == "window" else self.about(each.of)[0]
+        objective = self.study_objectives[label]
+        unit = "1" if objective.aim == "window" else self.about(objective.of)[0]
         return value_of(value, unit)
 
     def limits(self, text: str) -> str:
         """Limits in words, in the order in which they stand."""
-        for limit in self.asked:
+        for limit in self.study_limits:
             unit, meaning = self.about(limit.of)
             said = [
-                f"{word} {value_of(bound, unit)}"
-                for word, bound in (("at least", limit.least), ("at most", limit.most))
-                if bound is not None
+                f"{word} {value_of(value, unit)}"
+                for word, value in (("at least", limit.least), ("at most", limit.most))
+                if value is not None
             ]
             text = text.replace(str(limit), f"{meaning} {' and '.join(said)}")
         return text.replace("A_t <", "real contact area over the nominal area <")
@@ -272,7 +274,7 @@ class _Words:
 
 def _against_load(out: Console, best: Best, said: _Words) -> None:
     """Numbers against the loads."""
-    units = {name: each.about["units"] for name, each in best.of_states.items()}
+    units = {name: column.about["units"] for name, column in best.of_states.items()}
     legend = {
         name: said.about(name)[1] + (", no unit" if unit == "1" else "")
         for name, unit in units.items()
@@ -282,8 +284,8 @@ def _against_load(out: Console, best: Best, said: _Words) -> None:
     table = Table((head, *units), right=True, legend=legend, wrap=True)
     count = len(best.loads)
     for i in some(count):
-        each = best.of_states.items()
-        cells = (value_of(column.values[i].item(), units[name]) for name, column in each)
+        columns = best.of_states.items()
+        cells = (value_of(column.values[i].item(), units[name]) for name, column in columns)
         table.add_row(value_of(float(best.loads[i]), unit), *cells)
     out.print(table)
     if count > MOST_ROWS:

@@ -72,19 +72,19 @@ def command(options: Options) -> None:
         "spacing": options.spacing,
         "seats": options.seats,
     }
-    own = [
+    explicit_settings = [
         f"explicit.{name}={json.dumps(value)}" for name, value in short.items() if value is not None
     ]
-    asked = read_study(options.study, [*(options.settings or ()), *own])
+    study = read_study(options.study, [*(options.settings or ()), *explicit_settings])
     if options.out is not None:
-        claim_results(options.out, asked, maps=options.maps)
+        claim_results(options.out, study, maps=options.maps)
     kept = None if options.out is None else options.out / "surfaces"
     # a measured surface is one: nothing counts it
-    bar = sys.stderr.isatty() and len(asked.faces) != 1
+    bar = sys.stderr.isatty() and len(study.faces) != 1
     try:
         with nullcontext() if bar else heartbeat("explicit"):
             result = run_explicit(
-                asked,
+                study,
                 folder=kept,
                 workers=options.workers,
                 scheduler=options.scheduler,
@@ -95,13 +95,13 @@ def command(options: Options) -> None:
         if options.out is not None:
             release_folder(options.out)
         raise
-    warn_of(result.data["warnings"][len(asked.notes) :])
+    warn_of(result.data["warnings"][len(study.notes) :])
     if options.out is not None:
         _write(options.out, result)
     if options.as_json:
         print_json(plain_data(result.data))
     else:
-        _show(result.data, asked.heading)
+        _show(result.data, study.heading)
     if not result.converged:
         warn("some states did not converge to the certificate asked for; see states.csv")
         raise typer.Exit(NO_ANSWER)

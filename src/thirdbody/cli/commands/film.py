@@ -78,35 +78,35 @@ def command(options: Options) -> None:
 
     fine = None if options.filter_text is None else read_filter(options.filter_text)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
+    study = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
     if fine is not None:
-        need_particles(asked)
-    fine = fine or asked.filter
+        need_particles(study)
+    fine = fine or study.filter
     files.need(options.figure, force=options.force)
     if options.figure is not None:
         figure_format(options.figure)  # refused before long work
     with heartbeat("film"):
-        result = run_film(asked)
-        oil = dirty_oil(asked)
-        filtered = None if fine is None else dirty_oil(asked, filter=fine)
-        what_ifs = () if oil is None else what_ifs_of_oil(asked, oil)
+        result = run_film(study)
+        oil = dirty_oil(study)
+        filtered = None if fine is None else dirty_oil(study, filter=fine)
+        what_ifs = () if oil is None else what_ifs_of_oil(study, oil)
     warn_of(result.run_warnings)
-    found = _Found(result, oil, filtered, what_ifs)
+    film = _Found(result, oil, filtered, what_ifs)
     drawn = None
     if options.figure is not None:
         from ...views.film_figure import draw_film
 
         drawn = draw_film(result)
     files.write(
-        *found.table(),
-        sheets=partial(_sheets, found),
-        data=partial(_data, found),
+        *film.table(),
+        sheets=partial(_sheets, film),
+        data=partial(_data, film),
     )
     tell_written(*files.paths)
     if options.figure is not None and drawn is not None:
         write_figure(options.figure, drawn)
     if options.json != STDOUT:
-        _show(found)
+        _show(film)
 
 
 class _Found(NamedTuple):
@@ -137,8 +137,8 @@ class _Found(NamedTuple):
     def table(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns, a row a speed, and their units."""
         columns, units = self.result.table()
-        for each in self.oil_columns():
-            columns[each.name], units[each.name] = list(each.values), each.unit
+        for column in self.oil_columns():
+            columns[column.name], units[column.name] = list(column.values), column.unit
         return columns, units
 
     def oil_table(self) -> tuple[Sequence[str], list[list[str]]]:
@@ -163,48 +163,46 @@ class _Found(NamedTuple):
         return summary(self.result)[self.oil is None :]
 
 
-def _data(found: _Found) -> dict[str, object]:
-    oils = {"oil": found.oil, "oil_filtered": found.filtered}
-    out: dict[str, object] = {
-        name: each.to_dict() for name, each in oils.items() if each is not None
-    }
-    if found.what_ifs:
-        out["what_ifs"] = [each.to_dict() for each in found.what_ifs]
-    return found.result.to_dict() | out
+def _data(film: _Found) -> dict[str, object]:
+    oils = {"oil": film.oil, "oil_filtered": film.filtered}
+    out: dict[str, object] = {name: oil.to_dict() for name, oil in oils.items() if oil is not None}
+    if film.what_ifs:
+        out["what_ifs"] = [what_if.to_dict() for what_if in film.what_ifs]
+    return film.result.to_dict() | out
 
 
-def _sheets(found: _Found) -> list[Sheet]:
+def _sheets(film: _Found) -> list[Sheet]:
     from ...views import bearing_words, oil_words
     from ...views.film_words import bodies
     from ...views.printed_tables import grid_of_words
     from ...views.study_sheets import film_sheets
 
-    told: list[str | Grid] = [*found.answer()]
-    if found.oil is not None:
-        told.append(grid_of_words(*found.oil_table()))
-    told += [*oil_words.uncertainty(found.what_ifs), *found.natures()]
-    if bearing_words.shares_load(study := found.result.study):
-        told += [
+    content: list[str | Grid] = [*film.answer()]
+    if film.oil is not None:
+        content.append(grid_of_words(*film.oil_table()))
+    content += [*oil_words.uncertainty(film.what_ifs), *film.natures()]
+    if bearing_words.shares_load(study := film.result.study):
+        content += [
             bearing_words.sharing(study),
             grid_of_words(bearing_words.HEADS, bearing_words.rows(study)),
         ]
-    told += [bodies(found.result), *found.rest()]
-    meanings = {each.name: each.meaning for each in found.oil_columns()}
-    return film_sheets(found.result, told, found.table(), meanings)
+    content += [bodies(film.result), *film.rest()]
+    meanings = {column.name: column.meaning for column in film.oil_columns()}
+    return film_sheets(film.result, content, film.table(), meanings)
 
 
-def _show(found: _Found) -> None:
+def _show(film: _Found) -> None:
     """The result for a reader: the answer, what the oil does, the point or the curve, the rest."""
     from ...views.film_words import bodies, point
     from ...views.oil_words import uncertainty
 
-    console, result = terminal(), found.result
+    console, result = terminal(), film.result
     console.print(f"{result.heading} (thirdbody {__version__})")
-    for sentence in found.answer():
+    for sentence in film.answer():
         console.print(sentence)
-    if found.oil is not None:
-        console.print(_oil_table(found))
-    for sentence in [*uncertainty(found.what_ifs), *found.natures()]:
+    if film.oil is not None:
+        console.print(_oil_table(film))
+    for sentence in [*uncertainty(film.what_ifs), *film.natures()]:
         console.print(sentence)
     _show_bearing(console, result)
     states, sigma = result.states, result.study.contact.roughness.sigma
@@ -220,16 +218,16 @@ def _show(found: _Found) -> None:
         console.print(_curve(result))
     if total > MOST_ROWS:
         console.print(f"{MOST_ROWS} of {total} speeds shown; --csv FILE writes all\n")
-    for sentence in found.rest():
+    for sentence in film.rest():
         console.print(sentence)
 
 
-def _oil_table(found: _Found) -> Table:
+def _oil_table(film: _Found) -> Table:
     """What the particles of the oil do."""
     from ...views import oil_words as words
 
-    heads, rows = found.oil_table()
-    if found.filtered is None:
+    heads, rows = film.oil_table()
+    if film.filtered is None:
         table = Table(
             heads, right=True, words=heads[:1], drop=words.DROP, more=ALL, legend=words.MEANS
         )
@@ -258,9 +256,9 @@ def _curve(result: FilmResult) -> object:
     from ...views.columns import film_columns
 
     states, columns = result.states, film_columns(result)
-    heads = [*(each.head for each in columns), "regime"]
+    heads = [*(column.head for column in columns), "regime"]
     table = Table(heads, right=True, drop=DROP, more=ALL, legend=MEANS)
     for i in some(len(states["speed"])):
-        cells = (each.words(float(states[each.name][i])) for each in columns)
+        cells = (column.words(float(states[column.name][i])) for column in columns)
         table.add_row(*cells, states["regime"][i])
     return table

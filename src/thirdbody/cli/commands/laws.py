@@ -38,14 +38,14 @@ def command(
         return
 
     kinds = {"asperity": asperity.REGISTRY, "particle": particle.REGISTRY}
-    found = {
+    laws = {
         kind: [_about_law(law) for law in registry.values()] for kind, registry in kinds.items()
     }
     if as_json:
-        print_json(found)
+        print_json(laws)
         return
     console = terminal()
-    for kind, entries in found.items():
+    for kind, entries in laws.items():
         heads = ("name", "law", "valid range", "citation")
         table = Table(heads, words=heads[1:], drop=["citation", "valid range"], more=JSON)
         for entry in entries:
@@ -72,24 +72,27 @@ def _about_law(law: type) -> dict[str, Any]:
 
     about = ("name", "title", "year", "citation", "doi", "provenance", "valid_range")
     usual = law()
-    options = [_about_option(each, getattr(usual, each.name)) for each in declarations(law)]
+    options = [
+        _about_option(declaration, getattr(usual, declaration.name))
+        for declaration in declarations(law)
+    ]
     return {key: getattr(law, key) for key in about} | {"options": options}
 
 
-def _about_option(each: Declaration, default: object) -> dict[str, object]:
+def _about_option(declaration: Declaration, default: object) -> dict[str, object]:
     from ...quantities.units import say
 
     default = getattr(default, "name", default)
-    about = each.quantity or {"symbol": "", "unit": ""}
-    allowed = each.allowed or ", ".join(map(say, each.options))
-    if each.kind == "switch":
+    about = declaration.quantity or {"symbol": "", "unit": ""}
+    allowed = declaration.allowed or ", ".join(map(say, declaration.options))
+    if declaration.kind == "switch":
         allowed = "true, false"
-    elif each.declared == "AbstractAsperityLaw":
+    elif declaration.declared == "AbstractAsperityLaw":
         allowed = "name of an asperity law, or a table with its options"
     return {
-        "key": each.name,
+        "key": declaration.name,
         "default": default,
         "allowed": allowed,
         "unit": about["unit"],
-        "meaning": f"{each.meaning} {about['symbol']}".rstrip(),
+        "meaning": f"{declaration.meaning} {about['symbol']}".rstrip(),
     }

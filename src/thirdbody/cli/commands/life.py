@@ -99,7 +99,7 @@ def _tell_history(options: Options) -> None:
         read_iso4406(options.flow_for)
     fine = None if options.filter_text is None else read_filter(options.filter_text)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_question(
+    question = read_question(
         load_life,
         options.study,
         options.settings,
@@ -107,22 +107,22 @@ def _tell_history(options: Options) -> None:
         figure=options.figure,
         force=options.force,
     )
-    if isinstance(asked, AskedDry):
+    if isinstance(question, AskedDry):
         if options.flow_for is not None:
             raise InvalidValue(
                 "--flow-for sizes the filters of an oil; [life.dry] has none", code=Mistake.IDLE
             )
         if fine is not None:
             raise InvalidValue("--filter is of an oil; [life.dry] has none", code=Mistake.IDLE)
-    elif fine is not None and (asked.rolling is None or not asked.circuit.filters):
-        lacks = _missing(options) if asked.rolling is None else []
-        lacks += [] if asked.circuit.filters else ["[[life.filters]]"]
+    elif fine is not None and (question.rolling is None or not question.circuit.filters):
+        lacks = _missing(options) if question.rolling is None else []
+        lacks += [] if question.circuit.filters else ["[[life.filters]]"]
         raise InvalidValue(
             f"--filter asks for dents with another filter; the study lacks {join_words(lacks)}",
             code=Mistake.MISSING,
         )
-    bands = bool(asked.uncertainty)
-    contact = isinstance(asked, AskedDry) or asked.contact is not None
+    bands = bool(question.uncertainty)
+    contact = isinstance(question, AskedDry) or question.contact is not None
     if options.keep is not None and not (bands or contact):
         raise InvalidValue(
             "--keep keeps many histories, or a long one with a contact; the study has neither "
@@ -131,21 +131,21 @@ def _tell_history(options: Options) -> None:
         )
     of = "histories" if bands else "steps"
     with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep, of=of):
-        found = run_life(asked, progress=bands, keep=options.keep, filter=fine)
-    words: Any = life_dry_words if isinstance(found, DryResult) else life_words
+        result = run_life(question, progress=bands, keep=options.keep, filter=fine)
+    words: Any = life_dry_words if isinstance(result, DryResult) else life_words
     sized = []
-    if options.flow_for is not None and isinstance(found, LifeResult):
-        sized = life_words.least_flow_words(found, options.flow_for)
+    if options.flow_for is not None and isinstance(result, LifeResult):
+        sized = life_words.least_flow_words(result, options.flow_for)
     give_answer(
-        found,
+        result,
         files,
         settings=options.settings,
-        answer=[*words.answer(found), *sized],
-        table=WordTable(words.HEADS, words.rows(found), words.MEANS),
-        last=words.last_words(found),
-        times=found.history.times.tolist(),
-        more=tables_of_dents(found.dents) if isinstance(found, LifeResult) else (),
-        draw=partial(_draw, found.history),
+        answer=[*words.answer(result), *sized],
+        table=WordTable(words.HEADS, words.rows(result), words.MEANS),
+        last=words.last_words(result),
+        times=result.history.times.tolist(),
+        more=tables_of_dents(result.dents) if isinstance(result, LifeResult) else (),
+        draw=partial(_draw, result.history),
         figure=options.figure,
     )
 
@@ -175,14 +175,16 @@ def _tell_reports(options: Options, reports: Path) -> None:
             "--figure draws a history; with --reports there is none", code=Mistake.CLASH
         )
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_question(load_circuit, options.study, options.settings, files, force=options.force)
+    question = read_question(
+        load_circuit, options.study, options.settings, files, force=options.force
+    )
     with heartbeat("life"):
-        found = reports_of(asked, reports)
+        result = reports_of(question, reports)
     give_answer(
-        found,
+        result,
         files,
         settings=options.settings,
-        answer=report_answer(found.reports),
-        table=WordTable(REPORT_HEADS, report_rows(found.reports), REPORT_MEANS),
+        answer=report_answer(result.reports),
+        table=WordTable(REPORT_HEADS, report_rows(result.reports), REPORT_MEANS),
         last=[],
     )

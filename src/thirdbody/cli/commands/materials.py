@@ -26,7 +26,7 @@ def command(
             show_default=False,
         ),
     ] = None,
-    own: Annotated[
+    files: Annotated[
         list[Path] | None,
         typer.Option(
             "--file",
@@ -48,17 +48,17 @@ def command(
 
     if as_json and as_table:
         raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
-    library = materials.load(*own) if own else materials
-    asked = " ".join(query or [])
+    library = materials.load(*files) if files else materials
+    search_words = " ".join(query or [])
     every = library.entries()
-    entries = {name: every[name] for name in library.search(asked)}
+    entries = {name: every[name] for name in library.search(search_words)}
     if as_json:
         print_json(entries)
         return
     if not entries:
         kinds = dict.fromkeys(entry.get("kind", "") for entry in every.values())
         raise InvalidValue(
-            f"no material has {asked!r} in its name or description; "
+            f"no material has {search_words!r} in its name or description; "
             f"there are kinds {', '.join(filter(None, kinds))}",
             code=Mistake.UNKNOWN,
         )
@@ -115,6 +115,8 @@ def _materials_in_markdown(entries: dict[str, dict[str, Any]]) -> str:
     for name, entry in entries.items():
         doi = entry.get("doi")
         source = entry["source"] + (f", [{doi}](https://doi.org/{doi})" if doi else "")
-        elsewhere = "; ".join(f"**{key}** {told}" for key, told in entry.get("sources", {}).items())
+        elsewhere = "; ".join(
+            f"**{key}** {origin}" for key, origin in entry.get("sources", {}).items()
+        )
         lines.append(f"| `{name}` | {entry.get('standing', '')} | {source} | {elsewhere} |")
     return "\n".join(lines)

@@ -59,22 +59,22 @@ def command(
     from ...views.plate_words import MEANS, answer, heads, rows, uncertainty
 
     files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    asked = read_question(load_plate, study, settings, files, figure=figure, force=force)
+    question = read_question(load_plate, study, settings, files, figure=figure, force=force)
     with heartbeat("plate"):
-        found = run_plate(asked)
+        result = run_plate(question)
     give_answer(
-        found,
+        result,
         files,
         settings=settings,
-        answer=answer(found),
-        table=WordTable(heads(found), rows(found), MEANS),
-        last=uncertainty(found),
-        draw=partial(_draw, found),
+        answer=answer(result),
+        table=WordTable(heads(result), rows(result), MEANS),
+        last=uncertainty(result),
+        draw=partial(_draw, result),
         figure=figure,
     )
 
 
-def _draw(found: PlateResult) -> Figure:
+def _draw(result: PlateResult) -> Figure:
     from ...views.plot.questions import draw_heights
 
-    return draw_heights(found)
+    return draw_heights(result)

@@ -54,22 +54,22 @@ def command(
     from ...views.connector_words import HEADS, MEANS, answer, rows, uncertainty
 
     files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
-    asked = read_question(load_connector, study, settings, files, figure=figure, force=force)
+    question = read_question(load_connector, study, settings, files, figure=figure, force=force)
     with heartbeat("probability"):
-        found = run_connector(asked)
+        result = run_connector(question)
     give_answer(
-        found,
+        result,
         files,
         settings=settings,
-        answer=answer(found),
-        table=WordTable(HEADS, rows(found), MEANS),
-        last=uncertainty(found),
-        draw=partial(_draw, found),
+        answer=answer(result),
+        table=WordTable(HEADS, rows(result), MEANS),
+        last=uncertainty(result),
+        draw=partial(_draw, result),
         figure=figure,
     )
 
 
-def _draw(found: ConnectorResult) -> Figure:
+def _draw(result: ConnectorResult) -> Figure:
     from ...views.plot.questions import draw_failures
 
-    return draw_failures(found)
+    return draw_failures(result)

@@ -57,30 +57,32 @@ def command(
 
     fine = None if filter_text is None else read_filter(filter_text)
     target = out if pdf_file is not None else out or USUAL
-    asked = read_study(study, settings, writes=[target, pdf_file])
+    loaded_study = read_study(study, settings, writes=[target, pdf_file])
     if fine is not None:
-        need_particles(asked)
-    fine = fine or asked.filter
+        need_particles(loaded_study)
+    fine = fine or loaded_study.filter
     need_places([(target, "page"), (pdf_file, "PDF")], force=force)
     if pdf_file is not None:
         need_browser()  # refused before long work
     text = read_bytes(study, "a study file").decode("utf-8-sig")
     over = [*(settings or ())]
     if over:  # the head tells what was set
-        over.append(f"title={in_toml(heading_of(asked.title or UNTITLED, asked.settings))}")
+        over.append(
+            f"title={in_toml(heading_of(loaded_study.title or UNTITLED, loaded_study.settings))}"
+        )
     if filter_text is not None:
         over.append(f"film.filter={in_toml(filter_text)}")
     with stages("report", len(PARTS)) as progress:
         file = text_with(text, over).rstrip() + "\n"
-        found = report(asked, file=file, progress=progress, filter=fine)
+        document = report(loaded_study, file=file, progress=progress, filter=fine)
         progress(PARTS[-1])
-        page = found.html()
+        page = document.html()
     written = {} if target is None else {target: page.encode()}
     if pdf_file is not None:
         written[pdf_file] = pdf_of(page)
-    warn_of(found.result.run_warnings)
+    warn_of(document.result.run_warnings)
     write_together({path: partial(Path.write_bytes, data=held) for path, held in written.items()})
     console = terminal()
-    for sentence in found.lead:
+    for sentence in document.lead:
         console.print(sentence)
     tell_written(*written)

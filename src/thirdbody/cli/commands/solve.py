@@ -86,10 +86,10 @@ def command(options: Options) -> None:
     from ...study import run_study
 
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
-    asked = read_study(options.study, options.settings, writes=files.paths)
+    study = read_study(options.study, options.settings, writes=files.paths)
     files.need(force=options.force)
     with heartbeat("solve"):
-        result = run_study(asked)
+        result = run_study(study)
     warn_of(result.run_warnings)
     if not result.solved_states:  # no file without a number
         files = TableFiles(json=STDOUT if options.json == STDOUT else None)
@@ -127,8 +127,8 @@ def _show(result: StudyResult) -> None:
         console.print(sentence)
 
     columns: Columns = {
-        each.head: partial(_cell, each, getattr(states, each.name))
-        for each in state_columns(contact)
+        column.head: partial(_cell, column, getattr(states, column.name))
+        for column in state_columns(contact)
     }
     loads = {head: columns[head] for head in ("F*", "pressure")}
     if not contact.two_body:
@@ -175,9 +175,9 @@ def _population_columns(populations: Iterable[PopulationShare]) -> Columns:
         return lambda i: percent(values[i])
 
     out: Columns = {}
-    for part in populations:
-        out[f"{part.name}: load"] = share(part.load_share)
-        out[f"{part.name}: area"] = share(part.area_share)
+    for population in populations:
+        out[f"{population.name}: load"] = share(population.load_share)
+        out[f"{population.name}: area"] = share(population.area_share)
     return out
 
 
@@ -187,14 +187,14 @@ def _output_table(states: Any) -> Table:
     loads = [value_of(value, "Pa") for value in states.pressure]
     if len(loads) == 1:
         table = Table(("", loads[0], "unit", "meaning"), words=["meaning"], more=ALL)
-        for name, (told, values) in outputs.items():
-            table.add_row(name, number(values[0]), unit_of(told.unit) or "none", told.meaning)
+        for name, (about, values) in outputs.items():
+            table.add_row(name, number(values[0]), unit_of(about.unit) or "none", about.meaning)
         return table
     heads = {
-        f"{name} [{unit}]" if (unit := unit_of(told.unit)) else name: (
-            told.meaning + ("" if unit else ", no unit")
+        f"{name} [{unit}]" if (unit := unit_of(about.unit)) else name: (
+            about.meaning + ("" if unit else ", no unit")
         )
-        for name, (told, _) in outputs.items()
+        for name, (about, _) in outputs.items()
     }
     table = Table(["pressure", *heads], right=True, wrap=True, legend=heads)
     for i in some(len(loads)):

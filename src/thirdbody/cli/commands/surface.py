@@ -91,39 +91,43 @@ def command(options: Options) -> None:
     files.need(force=options.force)
     if not options.force:
         refuse_strangers(options.out, "surface.json", "surface.png", "surface.svg")
-    found = from_topography(
+    topography = from_topography(
         options.file, detrend=options.detrend, unit=options.unit, channel=options.channel, **lengths
     )
-    result = found.to_dict()
-    warn_of(found.warnings)
+    result = topography.to_dict()
+    warn_of(topography.warnings)
     files.write(
         plain_data(result["curve"]),
         result["units"],
-        sheets=partial(_sheets, found, result),
+        sheets=partial(_sheets, topography, result),
         data=lambda: plain_data(result),
     )
     written = files.paths + (
-        [] if options.out is None else _write_surface(options.out, found, result, options.force)
+        []
+        if options.out is None
+        else _write_surface(options.out, topography, result, options.force)
     )
     if options.json != STDOUT:
-        _show_surface(found, result)
+        _show_surface(topography, result)
     tell_written(*written)
 
 
-def _sheets(found: Topography, result: dict[str, Any]) -> list[Sheet]:
+def _sheets(topography: Topography, result: dict[str, Any]) -> list[Sheet]:
     from ...views.question_sheets import question_sheets
 
-    sentence = _in_one_sentence(found, result["cutoff"]["used"])
-    read = [("what was read", "", line, "", "file", "") for line in _what_was_read(found, result)]
+    sentence = _in_one_sentence(topography, result["cutoff"]["used"])
+    read = [
+        ("what was read", "", line, "", "file", "") for line in _what_was_read(topography, result)
+    ]
     return question_sheets(
-        found.source,
+        topography.source,
         [sentence],
         None,
         [],
         states=(plain_data(result["curve"]), result["units"]),
         meanings=MEANS,
         inputs=read,
-        warnings=found.warnings,
+        warnings=topography.warnings,
         citations=[],
     )
 
@@ -143,12 +147,12 @@ def _lengths(
     }
     if spacing is not None:
         parts = spacing.split(",")
-        lengths["spacing"] = tuple(metres("--spacing", part, problems) for part in parts)
+        lengths["spacing"] = tuple(metres("--spacing", step, problems) for step in parts)
     return lengths
 
 
 def _write_surface(
-    folder: Path, found: Topography, result: dict[str, object], force: bool
+    folder: Path, topography: Topography, result: dict[str, object], force: bool
 ) -> list[Path]:
     import matplotlib as mpl
 
@@ -162,7 +166,7 @@ def _write_surface(
         refuse_replaced(folder, {"surface.json": text, "surface.png": None, "surface.svg": None})
     make_folder(folder)
     out = _of_folder(folder)
-    drawing = draw(found)
+    drawing = draw(topography)
     with whole(out[0]) as png, whole(out[1]) as svg:
         save_figure(drawing, png, "png", dpi=200)
         with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
@@ -171,16 +175,16 @@ def _write_surface(
     return out
 
 
-def _show_surface(found: Topography, result: dict[str, Any]) -> None:
+def _show_surface(topography: Topography, result: dict[str, Any]) -> None:
     """What was read, the answer at the cut-off used, and its course with the cut-off."""
     console = terminal()
-    console.print(_in_one_sentence(found, result["cutoff"]["used"]))
+    console.print(_in_one_sentence(topography, result["cutoff"]["used"]))
     console.print()
-    for line in _what_was_read(found, result):
+    for line in _what_was_read(topography, result):
         console.print(line)
     console.print()
-    console.print(_answer(found, result["cutoff"]["used"]))
-    console.print(_course(found, plain_data(result["curve"])))
+    console.print(_answer(topography, result["cutoff"]["used"]))
+    console.print(_course(topography, plain_data(result["curve"])))
     console.print(
         f"skewness {number(result['skewness'], 3)}, kurtosis {number(result['kurtosis'], 3)}, "
         "mean square slopes "
@@ -188,41 +192,43 @@ def _show_surface(found: Topography, result: dict[str, Any]) -> None:
     )
 
 
-def _in_one_sentence(found: Topography, cutoff: float) -> str:
+def _in_one_sentence(topography: Topography, cutoff: float) -> str:
     """The roughness that a contact takes, and what it owes to the cut-off."""
-    curve, one = found.curve(), found.moments
+    curve, one = topography.curve(), topography.moments
     at = "as sampled" if cutoff == 0 else f"at a cut-off of {value_of(cutoff, 'm')}"
     change = curve.per_octave("R")
     near = int(abs(curve["cutoff"] - cutoff).argmin())
-    told = (
+    sentence = (
         f"RMS height sigma = {value_of(one.sigma, 'm')} and mean asperity radius R = "
         f"{value_of(one.R, 'm')} {at}"
     )
     if change[near] != change[near]:
-        return f"{told}."
-    return f"{told}; twice the cut-off changes R by {signed_number(100 * change[near], 0, '%')}."
+        return f"{sentence}."
+    return (
+        f"{sentence}; twice the cut-off changes R by {signed_number(100 * change[near], 0, '%')}."
+    )
 
 
-def _what_was_read(found: Topography, result: dict[str, Any]) -> list[str]:
+def _what_was_read(topography: Topography, result: dict[str, Any]) -> list[str]:
     """Points, moments as sampled, the limit of the instrument and the cut-off recommended."""
     points = " x ".join(map(str, result["points"]))
     sides = " x ".join(value_of(side, "m") for side in result["size"])
-    kind = "map" if found.dim == 2 else "profile"
+    kind = "map" if topography.dim == 2 else "profile"
     sampled, used = result["as_sampled"], result["cutoff"]
     limit = (
         "" if used["instrument_limit"] is None else value_of(used["instrument_limit"], "m") + ", "
     )
     return [
-        f"{found.source}: {kind} of {points} points, {sides}",
+        f"{topography.source}: {kind} of {points} points, {sides}",
         f"as sampled: RMS height {value_of(sampled['rms_height'], 'm')}, RMS "
-        f"{'gradient' if found.dim == 2 else 'slope'} {number(sampled['rms_slope'])}, RMS "
+        f"{'gradient' if topography.dim == 2 else 'slope'} {number(sampled['rms_slope'])}, RMS "
         f"curvature {value_of(sampled['rms_curvature'], '1/m')}",
         f"limit of the instrument: {limit}{used['instrument_limit_reason']}",
         f"recommended cut-off: {value_of(used['recommended'], 'm')}: {used['reason']}",
     ]
 
 
-def _answer(found: Topography, cutoff: float) -> Table:
+def _answer(topography: Topography, cutoff: float) -> Table:
     """Moments and asperities at the cut-off, by differences, spectrum and counted summits."""
     at = "as sampled" if cutoff == 0 else f"at {value_of(cutoff, 'm')}"
     drop = ("eta R sigma", "y_s", "alpha")
@@ -245,28 +251,28 @@ def _answer(found: Topography, cutoff: float) -> Table:
         )
 
     for label, one in (
-        ("differences", found.moments),
-        ("spectrum", found.moments_at(method="spectrum")),
+        ("differences", topography.moments),
+        ("spectrum", topography.moments_at(method="spectrum")),
     ):
         add(label, one, one.sigma, one.eta, number(one.alpha))
-    if found.dim == 2 and found.summits.count > 1:
-        counted = found.summits
-        add(f"{counted.count} summits", counted, found.moments.sigma, counted.density, "-")
+    if topography.dim == 2 and topography.summits.count > 1:
+        counted = topography.summits
+        add(f"{counted.count} summits", counted, topography.moments.sigma, counted.density, "-")
     return answer
 
 
-def _course(found: Topography, curve: dict[str, Any]) -> Table:
+def _course(topography: Topography, curve: dict[str, Any]) -> Table:
     """The same against the cut-off."""
     heads = ["cut-off", "sigma", "gradient", "alpha", "R", "R counted", "eta", "eta counted"]
     heads.append("R per octave")
     gone = ("eta counted", "R counted", "alpha", "gradient")
-    told = {
+    meanings = {
         "gradient": "RMS of the slope, no unit",
         "eta counted": "as R counted, of the summits found one by one",
         "R per octave": "change of R for twice the cut-off",
     }
-    course = Table(heads, right=True, drop=gone, more=ALL, legend=told)
-    change = found.curve().per_octave("R")
+    course = Table(heads, right=True, drop=gone, more=ALL, legend=meanings)
+    change = topography.curve().per_octave("R")
     for i, cut in enumerate(curve["cutoff"]):
         course.add_row(
             value_of(cut, "m"),

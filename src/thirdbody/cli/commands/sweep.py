@@ -141,7 +141,9 @@ def _table(data: xarray.Dataset) -> tuple[dict[str, list[object]], dict[str, str
     for name, words in {"mode": (None, *MODES), "status": CODES["status"]}.items():
         if name in columns:
             columns[name] = [words[code] for code in columns[name]]
-    units = {str(name): each.attrs.get("units", "") for name, each in data.variables.items()}
+    units = {
+        str(name): variable.attrs.get("units", "") for name, variable in data.variables.items()
+    }
     return columns, units
 
 
@@ -152,7 +154,7 @@ def _sheets(data: xarray.Dataset, study: Path) -> list[Sheet]:
 
     columns, units = _table(data)
     abouts = {name: data[name].attrs for name in columns if name in data.variables}
-    told = [
+    meanings = [
         (name, unit_of(about.get("units", "")), about.get("long_name", ""))
         for name, about in abouts.items()
     ]
@@ -162,7 +164,9 @@ def _sheets(data: xarray.Dataset, study: Path) -> list[Sheet]:
     return [
         Sheet("Answer", tuple(_answer(data)), title=title),
         sheet_of_table("States", columns, units),
-        Sheet("Notes", (Grid(("column", "unit", "meaning"), told), Grid(("note", "", ""), notes))),
+        Sheet(
+            "Notes", (Grid(("column", "unit", "meaning"), meanings), Grid(("note", "", ""), notes))
+        ),
     ]
 
 
@@ -174,9 +178,9 @@ def _check(folder: Path, *, alone: bool) -> None:
         raise InvalidValue(
             "--check DIR stands alone, without STUDY.toml and --out", code=Mistake.CLASH
         )
-    found, *rest = check_folder(folder, progress=True).splitlines()
+    verdict, *rest = check_folder(folder, progress=True).splitlines()
     warn_of(rest)
-    print(found)
+    print(verdict)
 
 
 def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Plan:
@@ -194,8 +198,8 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
     if workers < 1:
         problems.append(Problem("", f"--workers {workers} must be at least 1", code=Mistake.RANGE))
     try:
-        asked = load_study(study, settings or ())
-        if asked.sweep is None:
+        loaded_study = load_study(study, settings or ())
+        if loaded_study.sweep is None:
             problems.append(
                 Problem(
                     "",
@@ -208,14 +212,14 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
         problems += error.problems
     if problems:
         raise InvalidValue(*problems)
-    tell_notes(asked)
-    assert asked.sweep is not None
-    return asked.sweep
+    tell_notes(loaded_study)
+    assert loaded_study.sweep is not None
+    return loaded_study.sweep
 
 
 def _answer(data: xarray.Dataset) -> list[str]:
     """Between what the columns lie over all states, the ones that most ask for."""
-    told = []
+    ranges = []
     for name, words, say in (
         ("particle_load_share", "particles carry {} of the load", percent),
         ("A_t", "the real contact area is {} of the nominal one", percent),
@@ -224,12 +228,12 @@ def _answer(data: xarray.Dataset) -> list[str]:
         column = data.get(name, data.get(f"{name}_mean"))
         if column is None:
             continue
-        ends = [float(each) for each in (column.min(), column.max())]
+        ends = [float(end) for end in (column.min(), column.max())]
         if all(map(math.isfinite, ends)):
-            told.append(words.format(" to ".join(dict.fromkeys(map(say, ends)))))
+            ranges.append(words.format(" to ".join(dict.fromkeys(map(say, ends)))))
     over = f"Over {plural(math.prod(data.sizes.values()), 'state')}"
     over = over if "h" in data else "On average over what is drawn"
-    return [f"{over}, {join_words(told)}."] if told else []
+    return [f"{over}, {join_words(ranges)}."] if ranges else []
 
 
 def _tell_warnings(folder: Folder) -> None:

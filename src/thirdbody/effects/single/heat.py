@@ -399,9 +399,9 @@ def sphere_resistance(
     '5.872; series: 5.858'
     """
     if isinstance(ends, (list, dict, set, np.ndarray)) or ends not in _SPHERE_END:
-        known = ", ".join(map(repr, _SPHERE_END))
+        allowed = ", ".join(map(repr, _SPHERE_END))
         shown = f"{ends!r:.60}"
-        raise InvalidValue(Problem("ends", f"must be one of {known}", shown, code=Mistake.OPTION))
+        raise InvalidValue(Problem("ends", f"must be one of {allowed}", shown, code=Mistake.OPTION))
     gamma, epsilon = _SPHERE_END[ends]
     body = (np.log(4 * r / a_1) + np.log(4 * r / a_2) - 2 - 2 * epsilon) / (4 * math.pi * r)
     return (gamma * (1 / a_1 + 1 / a_2) + body) / k

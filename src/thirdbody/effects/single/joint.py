@@ -104,10 +104,10 @@ def cooper_mikic_yovanovich(pressure: Number, *, H: float, k: float, m: float, s
     >>> round(float(cooper_mikic_yovanovich(0.01, H=1, k=1, m=1, sigma=1)), 5)
     0.01561
     """
-    part = pressure / H
-    lam = -special.ndtri(part)
+    share = pressure / H
+    lam = -special.ndtri(share)
     height = np.exp(-(lam**2) / 2) / (2 * math.sqrt(2 * math.pi))
-    return k * m / sigma * height / (1 - np.sqrt(part)) ** 1.5
+    return k * m / sigma * height / (1 - np.sqrt(share)) ** 1.5
 
 
 @takes_units

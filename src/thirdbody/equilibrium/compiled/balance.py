@@ -151,18 +151,18 @@ def _root(state, target, h, row):
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def solve_states(
-    interfaces, parts, panels, edges, inverses, rules, work, scan, which, target, h, given, count,
-    fate, rows,
+    interfaces, parts, panels, edges, inverses, rules, work, scan, which, target, h, h_is_fixed,
+    count, fate, rows,
 ):  # fmt: skip
     """Solve states i of interfaces which[i] for the loads target[i] [Pa].
 
     Fills ``h``, the evaluations ``count``, the ``fate`` and the columns ``rows`` (N, 10). With
-    ``given``, h is taken as it is; the states of one interface may share a scan.
+    ``h_is_fixed``, h is taken as it is; the states of one interface may share a scan.
     """
     for i in range(len(which)):
         state = state_of(which[i], interfaces, parts, panels, edges, inverses, rules, work)
         row = row_of(rows, i)
-        if given:
+        if h_is_fixed:
             count[i], fate[i] = 1, OK
             contact(state, h[i], YES, NO, row)
         else:

@@ -82,18 +82,18 @@ def threads() -> int:
     InvalidValue
         The variable is no such number.
     """
-    if given := os.environ.get("THIRDBODY_THREADS", "").strip():
-        if not (given.isascii() and given.isdecimal() and 0 < int(given) <= MOST_THREADS):
+    if text := os.environ.get("THIRDBODY_THREADS", "").strip():
+        if not (text.isascii() and text.isdecimal() and 0 < int(text) <= MOST_THREADS):
             raise InvalidValue(
                 Problem(
                     "THIRDBODY_THREADS",
                     f"must be a whole number from 1 to {MOST_THREADS}: how many threads share "
                     "the states; remove it for one each processor",
-                    repr(given),
+                    repr(text),
                     code=Mistake.KIND,
                 )
             )
-        return int(given)
+        return int(text)
     usable = getattr(os, "sched_getaffinity", None)
     return len(usable(0)) if usable else os.cpu_count() or 1
 
@@ -112,14 +112,14 @@ class _Batch:
         from .kernels import FIELDS
 
         count = len(which)
-        given = h is not None
+        h_is_fixed = h is not None
         h = np.array(h) if h is not None else np.empty(count)
         target = np.zeros(count) if target is None else np.ascontiguousarray(target)
         evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
         rows = np.full((count, len(FIELDS)), np.nan)  # of states that are not solved
 
         scan = np.zeros((0, 3))
-        if not given and len(self.rows.interfaces) == 1 and count >= SCANNED:
+        if not h_is_fixed and len(self.rows.interfaces) == 1 and count >= SCANNED:
             scan = self._scan(target)
 
         def solve_part(start: int) -> None:
@@ -128,7 +128,7 @@ class _Batch:
                 *self.rows.arrays,
                 np.empty(1, WORK),
                 scan,
-                *(which[here], target[here], h[here], given),
+                *(which[here], target[here], h[here], h_is_fixed),
                 *(evaluations[here], fate[here], rows[here]),
             )
 
@@ -211,18 +211,18 @@ class States(_Batch):
         centre, sigma_s = self.rows.interfaces["centre"], self.rows.interfaces["sigma_s"]
         E, rough = self.rows.varied.E_ss, self.rows.varied.roughness
         target = None if load == "d" else loads * E if load == "F_star" else loads
-        given = (loads - centre) / sigma_s if target is None else None
-        h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, given)
-        if given is not None:
-            deep = given < -GaussianSum.DEEPEST
+        separations = (loads - centre) / sigma_s if target is None else None
+        h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, separations)
+        if separations is not None:
+            deep = separations < -GaussianSum.DEEPEST
             fate[deep], iterations[deep] = Status.TOO_DEEP, 0
         h[fate != 0] = np.nan
         for values in raw.values():
             values[fate != 0] = np.nan
         d = np.where(fate == 0, loads, np.nan) if target is None else centre + sigma_s * h
-        given = loads if load == "F_star" else None
+        F_star = loads if load == "F_star" else None
         columns = as_columns(
-            raw, d, rough.y_s - centre, rough.sigma, E, target=target, F_star=given
+            raw, d, rough.y_s - centre, rough.sigma, E, target=target, F_star=F_star
         )
         doubt = np.full(len(loads), "", dtype=object)
         balanced = (columns["residual"] <= RESIDUAL) & np.isfinite(raw["A_t"])
@@ -261,19 +261,19 @@ class States(_Batch):
         H = np.minimum(sides[0][1], sides[1][1])
         yields = np.inf
         for ratio in (float(np.min(H / E)), float(np.max(H / E))):
-            bound = law.law.bound(R=law.tip_radius, E_star=1.0, H=ratio, nu=body.nu)
-            if bound.jumps:
+            law_in_contact = law.law.bound(R=law.tip_radius, E_star=1.0, H=ratio, nu=body.nu)
+            if law_in_contact.jumps:
                 return np.zeros(len(target), bool)
-            p_over_H = bound.reduced("force", 1.0) / bound.reduced("area", 1.0)
+            p_over_H = law_in_contact.reduced("force", 1.0) / law_in_contact.reduced("area", 1.0)
             yields = min(yields, float(p_over_H))
         p = target / (1 - c)
         return (p <= 0.5 * yields * H) & (c * (0.5 * math.pi * p / E) ** 2 <= RISE)
 
 
-def batch(bound: Interface) -> Interfaces:
+def batch(contact_interface: Interface) -> Interfaces:
     """The interface for the compiled engine; `NotCompiled` where only the NumPy engine knows it."""
     if why := unavailable():
         raise NotCompiled(why)
-    if not load_scan(bound).monotone:
+    if not load_scan(contact_interface).monotone:
         raise NotCompiled(NOT_MONOTONE)
-    return Interfaces([bound])
+    return Interfaces([contact_interface])

@@ -51,7 +51,7 @@ def sources() -> str:
     about, here = hashlib.sha256(), Path(str(files(__package__)))
     laws = here.parents[1] / "laws"
     others = (here.parent / "engine", laws / "asperity", laws / "particle")
-    paths = [*here.glob("*.py"), *(path for each in others for path in each.glob("*.py"))]
+    paths = [*here.glob("*.py"), *(path for folder in others for path in folder.glob("*.py"))]
     for path in sorted(paths):
         about.update(path.read_bytes())
     return about.hexdigest()
@@ -116,7 +116,7 @@ class Cached:
     def _signature(args: tuple[object, ...]) -> tuple[Type, ...]:
         from numba import typeof
 
-        return tuple(typeof(each) for each in args)
+        return tuple(typeof(argument) for argument in args)
 
     def is_cached(self, signature: tuple[Type, ...]) -> bool:
         """Whether code for these types lies ready; where numba does not tell, it does."""
@@ -136,7 +136,7 @@ class Cached:
         types = base64.b64encode(pickle.dumps(signature)).decode()
         python: Callable[..., object] = self.function.py_func
         command = [sys.executable, "-c", COMPILE, python.__module__, python.__name__, types]
-        path = os.pathsep.join(each for each in sys.path if each)
+        path = os.pathsep.join(folder for folder in sys.path if folder)
         try:
             subprocess.run(
                 command,
@@ -160,7 +160,7 @@ def _remember_types() -> None:
         from numba.core.types import functions
 
         base: Any = functions.BaseFunction
-        look_up, known = base.get_call_type, {}
+        look_up, looked_up = base.get_call_type, {}
 
         def get_call_type(
             operator: Any,
@@ -169,12 +169,12 @@ def _remember_types() -> None:
             named: Mapping[str, Type],
         ) -> Signature | None:
             key = operator, args, tuple(named.items())
-            if key not in known:
+            if key not in looked_up:
                 signature = look_up(operator, context, args, named)
                 if signature is None:
                     return None
-                known[key] = signature, operator._impl_keys[signature.args]
-            signature, implementation = known[key]
+                looked_up[key] = signature, operator._impl_keys[signature.args]
+            signature, implementation = looked_up[key]
             operator._impl_keys[signature.args] = implementation
             return signature
 
@@ -183,14 +183,14 @@ def _remember_types() -> None:
 
 def _below(library: CodeLibrary) -> list[CodeLibrary]:
     """Code libraries that one needs, each once."""
-    found: dict[CodeLibrary, None] = {}
+    libraries: dict[CodeLibrary, None] = {}
     rest = [library]
     while rest:
-        for each in rest.pop()._linking_libraries:
-            if each not in found:
-                found[each] = None
-                rest.append(each)
-    return list(found)
+        for linked in rest.pop()._linking_libraries:
+            if linked not in libraries:
+                libraries[linked] = None
+                rest.append(linked)
+    return list(libraries)
 
 
 def _kind(value: object) -> object:

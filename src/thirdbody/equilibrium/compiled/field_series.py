@@ -85,11 +85,11 @@ def _kinks(columns: Callable[[Array], Array], low: float, high: float) -> Array:
         return 2 * (elastic <= 0).astype(int) + (plastic <= 0)
 
     h = np.linspace(low, high, GRID)
-    found = formula(h)
-    cells = np.flatnonzero(found[1:] != found[:-1])
+    formulas = formula(h)
+    cells = np.flatnonzero(formulas[1:] != formulas[:-1])
     if not 0 < len(cells) <= MOST_KINKS:
         return np.empty(0)
-    left, right, first = h[cells], h[cells + 1], found[cells]
+    left, right, first = h[cells], h[cells + 1], formulas[cells]
     for _ in range(HALVINGS):
         middle = 0.5 * (left + right)
         same = formula(middle) == first
@@ -103,18 +103,18 @@ def beside_gaussian(series: PiecewiseChebyshev) -> Array:
 
 
 @lru_cache(maxsize=64)
-def grounded_series(part: GroundedPart) -> PiecewiseChebyshev | None:
+def grounded_series(component: GroundedPart) -> PiecewiseChebyshev | None:
     """The seven columns per factor over the gap in the size of the particles.
 
     None where nothing is carried at any separation.
     """
-    skin, h = part.ground.field, part.separations
+    skin, h = component.ground.field, component.separations
     if not len(h):
         return None
 
     def columns(gap: Array) -> Array:
-        return part.reduced_columns(part.scale * gap - part.offset)
+        return component.reduced_columns(component.scale * gap - component.offset)
 
     d = skin.sigma * h - skin.rough.y_s + skin.centre
-    edges = (d + part.offset) / part.scale
+    edges = (d + component.offset) / component.scale
     return PiecewiseChebyshev(columns, edges, tolerance=TOLERANCE, max_depth=DEPTH, kinds=KINDS)

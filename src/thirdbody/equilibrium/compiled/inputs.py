@@ -59,8 +59,8 @@ def fineness(arrays: Mapping[str, Array]) -> Array:
 def size_factor(sizes: Distribution, arrays: Mapping[str, Array]) -> Array | float | None:
     """Factor on every length of the sizes (N,), or None where their shape varies."""
     prefix = "particles.diameter."
-    given = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
-    changed = {name: v for name, v in given.items() if np.any(v != getattr(sizes, name, np.nan))}
+    varied = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
+    changed = {name: v for name, v in varied.items() if np.any(v != getattr(sizes, name, np.nan))}
     if not changed:
         return 1.0
     fields = dataclasses.fields(sizes)  # type: ignore[arg-type]
@@ -69,7 +69,7 @@ def size_factor(sizes: Distribution, arrays: Mapping[str, Array]) -> Array | flo
     if set(changed) != lengths:
         return None
     first, *others = (changed[name] / getattr(sizes, name) for name in sorted(lengths))
-    alike = all(np.allclose(each, first, rtol=1e-14, atol=0) for each in others)
+    alike = all(np.allclose(ratio, first, rtol=1e-14, atol=0) for ratio in others)
     return first if alike else None
 
 
@@ -79,16 +79,16 @@ def common_law(
     """The law bound to its contact, where all states bind it alike."""
     first, second = surfaces.first, surfaces.second
     nu = np.where(first.H <= second.H, first.nu, second.nu)
-    given = [np.ravel(values) for values in (rough.R, surfaces.E_star, surfaces.H, nu)]
-    one = [float(values[0]) for values in given]
+    quantities = [np.ravel(values) for values in (rough.R, surfaces.E_star, surfaces.H, nu)]
+    one = [float(values[0]) for values in quantities]
     # bound alike where nothing varies, and where the extremes of what varies change nothing
     rows = [one]
-    for i, values in enumerate(given):
+    for i, values in enumerate(quantities):
         rows += [[*one[:i], float(v), *one[i + 1 :]] for v in {values.min(), values.max()}]
     try:
-        bound = {law.bound(R=R, E_star=E, H=H, nu=v) for R, E, H, v in rows}
+        laws = {law.bound(R=R, E_star=E, H=H, nu=v) for R, E, H, v in rows}
     except InvalidValue as error:  # of no state perhaps; said better, one contact at a time
         raise NotCompiled("the law does not know all of these inputs") from error
-    if len(bound) > 1:
+    if len(laws) > 1:
         raise NotCompiled("the law binds differently from state to state")
-    return bound.pop()
+    return laws.pop()

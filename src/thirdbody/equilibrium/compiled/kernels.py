@@ -268,28 +268,33 @@ def _add_weighted(rule, nodes, moments, inverse, shadow, every, out):
 
 
 @exact
-def _gaps(state, part, fewer):
+def _gaps(state, component, fewer):
     """The rule over gaps of a part, or the one with fewer."""
-    begin = part.few_gaps.begin if fewer else part.gaps.begin
-    nodes = part.few_gaps.nodes if fewer else part.gaps.nodes
+    begin = component.few_gaps.begin if fewer else component.gaps.begin
+    nodes = component.few_gaps.nodes if fewer else component.gaps.nodes
     return ahead(state.rules, begin), nodes
 
 
 @inlined
-def _rough_nodes(state, part, gap, shadow, every, few, out, each):
+def _rough_nodes(state, component, gap, shadow, every, few, out, of_size):
     """Particles on a rough seat by the sum over sizes and over local gaps in their size.
 
     A seat near all sizes weighs the same gaps for all of them, so they are summed first.
     """
-    top, bottom, width, inverse = part.top, part.bottom, part.width, 1 / part.width
-    begin = part.few_sizes.begin if few else part.sizes.begin
-    count = part.few_sizes.nodes if few else part.sizes.nodes
+    top, bottom, width, inverse = (
+        component.top,
+        component.bottom,
+        component.width,
+        1 / component.width,
+    )
+    begin = component.few_sizes.begin if few else component.sizes.begin
+    count = component.few_sizes.nodes if few else component.sizes.nodes
     weights, sizes = ahead(state.rules, begin), ahead(state.rules, begin + count)
     for k in range(7):
         out[k] = 0.0
-    near = part.near * width
+    near = component.near * width
     if near > 0 and max(gap - sizes[0] * top, sizes[count - 1] * bottom - gap) < near:
-        rule, nodes = _gaps(state, part, YES)
+        rule, nodes = _gaps(state, component, YES)
         moments = numbers(record(state.work, 0), "sums")
         _spread(ahead(rule, AT * nodes), nodes, weights, sizes, count, gap, inverse, moments)
         _add_weighted(rule, nodes, moments, inverse, shadow, every, out)
@@ -297,15 +302,15 @@ def _rough_nodes(state, part, gap, shadow, every, few, out, each):
         for n in range(count):
             size = sizes[n]
             fewer = max(gap - size * top, size * bottom - gap) < near if near > 0 else few
-            rule, nodes = _gaps(state, part, fewer)
+            rule, nodes = _gaps(state, component, fewer)
             at = ahead(rule, AT * nodes)
             # far above the largest particles the many below them carry the load
             low = _below(at, 0, nodes, (gap - 2 * SEAT_REACH * width) / size)
             high = _below(at, low, nodes, (gap + SEAT_REACH * width) / size)
-            _seat_nodes(rule, nodes, low, high, gap, width, size, shadow, every, each)
+            _seat_nodes(rule, nodes, low, high, gap, width, size, shadow, every, of_size)
             for k in range(7):
-                out[k] += weights[n] * each[k]
-    floor = numbers(part, "floor")
+                out[k] += weights[n] * of_size[k]
+    floor = numbers(component, "floor")
     s0, s1, s2 = _below_bottom(bottom, weights, sizes, count, gap, inverse)
     for k in range(7 if every else 2):
         if every:
@@ -327,9 +332,9 @@ def _power(u, n):
 
 
 @exact
-def _rise(part, u, shadow, every, out):
+def _rise(component, u, shadow, every, out):
     """From series in u = √(top − gap) without their leading power to columns and derivatives."""
-    powers = numbers(part, "powers")
+    powers = numbers(component, "powers")
     if every:
         for k in range(7):
             out[k] *= _power(u, powers[k])
@@ -348,46 +353,46 @@ def _rise(part, u, shadow, every, out):
 
 
 @exact
-def _particles(state, d, every, few, total, out, each):
+def _particles(state, d, every, few, total, out, of_size):
     """Load [Pa] and shadow with two derivatives in d, or ``every`` one of the seven columns."""
     interface = record(state.interface, 0)
     shadow = max(interface.shadow, 0)
     for k in range(7):
         total[k] = 0.0
     for p in range(state.count):
-        part = record(state.parts, p)
-        if part.kind == ABSENT:
+        component = record(state.parts, p)
+        if component.kind == ABSENT:
             continue
-        gap = (d + part.offset) / part.size
-        if gap >= part.reach:
+        gap = (d + component.offset) / component.size
+        if gap >= component.reach:
             continue
-        if part.kind == ROUGH_NODES:
-            _rough_nodes(state, part, gap, shadow, every, few, out, each)
-        elif gap < part.least:
-            floor = numbers(part, "floor")
+        if component.kind == ROUGH_NODES:
+            _rough_nodes(state, component, gap, shadow, every, few, out, of_size)
+        elif gap < component.least:
+            floor = numbers(component, "floor")
             for k in range(7):
                 out[k] = floor[k] if every else 0.0
             if not every:
                 out[0], out[3] = floor[0], floor[shadow]
         else:
-            begin, end = part.upper.begin, part.upper.end
+            begin, end = component.upper.begin, component.upper.end
             x, rise = gap, False
-            if part.kind == PLANE:
-                rise = gap >= part.join
+            if component.kind == PLANE:
+                rise = gap >= component.join
                 if rise:
-                    x = math.sqrt(part.top - gap)
+                    x = math.sqrt(component.top - gap)
                 else:
-                    begin, end = part.lower.begin, part.lower.end
+                    begin, end = component.lower.begin, component.lower.end
             panel = record(state.panels, _panel(state.edges, begin, end, x, 1))
             _series(panel, x, _coefficients(panel, every), 7 if every else 6, out)
             if rise:
-                _rise(part, x, shadow, every, out)
-        factor = part.factor
+                _rise(component, x, shadow, every, out)
+        factor = component.factor
         if every:
             for k in range(7):
                 total[k] += factor * out[k]
         else:
-            inverse = 1 / part.size
+            inverse = 1 / component.size
             for k in range(3):
                 total[k] += factor * out[k]
                 total[3 + k] += factor * out[3 + k]
@@ -404,7 +409,7 @@ def contact(state, h, every, few, row):
     With ``every``, the columns `FIELDS` into ``row`` instead.
     """
     interface, work = record(state.interface, 0), record(state.work, 0)
-    total, out, each = numbers(work, "total"), numbers(work, "out"), numbers(work, "each")
+    total, out, of_size = numbers(work, "total"), numbers(work, "out"), numbers(work, "each")
     _asperities(state, h, every, out)
     f, f1, f2 = out[0], out[1], out[2]
     if every:
@@ -414,7 +419,7 @@ def contact(state, h, every, few, row):
         return f, f1, f2
     sigma_s, shadow = interface.sigma_s, interface.shadow
     d = interface.centre + sigma_s * h
-    _particles(state, d, every, few, total, out, each)
+    _particles(state, d, every, few, total, out, of_size)
     if every:
         for k in range(5):
             row[4 + k] = max(total[k], 0.0)  # rounding of the other regimes
@@ -436,9 +441,9 @@ def highest(state):
     interface = record(state.interface, 0)
     high = interface.highest
     for p in range(state.count):
-        part = record(state.parts, p)
-        if part.kind != ABSENT:
-            reach = part.reach * part.size - part.offset
+        component = record(state.parts, p)
+        if component.kind != ABSENT:
+            reach = component.reach * component.size - component.offset
             high = max(high, (reach - interface.centre) / interface.sigma_s)
     return high
 
@@ -448,9 +453,9 @@ def has_few(state):
     """Whether there are few sizes or gaps, quick and close, beside all of them."""
     few = NO
     for p in range(state.count):
-        part = record(state.parts, p)
-        fewer = part.few_sizes.nodes < part.sizes.nodes or part.near < 0
-        few |= part.kind == ROUGH_NODES and fewer
+        component = record(state.parts, p)
+        fewer = component.few_sizes.nodes < component.sizes.nodes or component.near < 0
+        few |= component.kind == ROUGH_NODES and fewer
     return few
 
 
@@ -472,11 +477,11 @@ def alone(state, target):
     log_load = math.log(target / interface.force) + DROP * interface.across
     h = _inverse(record(state.inverses, interface.inverse), log_load)
     for p in range(state.count):
-        part = record(state.parts, p)
-        if part.inverse >= 0:
-            log_load = math.log(target / part.factor)
-            gap = part.size * _inverse(record(state.inverses, part.inverse), log_load)
-            h = max(h, (gap - part.offset - interface.centre) / interface.sigma_s)
+        component = record(state.parts, p)
+        if component.inverse >= 0:
+            log_load = math.log(target / component.factor)
+            gap = component.size * _inverse(record(state.inverses, component.inverse), log_load)
+            h = max(h, (gap - component.offset - interface.centre) / interface.sigma_s)
     return h
 
 

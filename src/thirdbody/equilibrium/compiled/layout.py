@@ -136,7 +136,7 @@ class Panels:
     """Panels of piecewise Chebyshev functions one after another, each function kept once."""
 
     def __init__(self) -> None:
-        self._known: dict[Hashable, tuple[int, int]] = {}
+        self._places: dict[Hashable, tuple[int, int]] = {}
         self._panels: list[Records] = []
         self._inverses: list[Records] = []
         self._count = 0
@@ -145,28 +145,28 @@ class Panels:
         self, key: Hashable, function: PiecewiseChebyshev, load: Array, columns: int
     ) -> tuple[int, int]:
         """Begin and end of a function: what the balance needs of it, and its first columns."""
-        if key not in self._known:
+        if key not in self._places:
             self._append(key, _lay_panels(function, load, function.coefficients[:, :, :columns]))
-        return self._known[key]
+        return self._places[key]
 
     def _append(self, key: Hashable, panels: Records) -> None:
-        self._known[key] = self._count, self._count + len(panels)
+        self._places[key] = self._count, self._count + len(panels)
         self._count += len(panels)
         self._panels.append(panels)
 
     def add_inverse(self, of: GaussianSums | SizeAverage) -> int:
         """Where the separation stands as a function of the load, for first guesses."""
         key = of, "inverse"
-        if key not in self._known:
-            self._known[key] = len(self._inverses), len(self._inverses) + 1
+        if key not in self._places:
+            self._places[key] = len(self._inverses), len(self._inverses) + 1
             self._inverses.append(_inverse(of))
-        return self._known[key][0]
+        return self._places[key][0]
 
     def add_family(self, family: GaussianSums) -> tuple[int, int]:
         """Begin and end of the sums over Gaussian heights for many w."""
-        if family not in self._known:
+        if family not in self._places:
             self._append(family, _family(family))
-        return self._known[family]
+        return self._places[family]
 
     def add_average(self, function: PiecewiseChebyshev, shadow: int) -> tuple[int, int]:
         """Begin and end of particle columns: load and shadow with two derivatives, all seven."""
@@ -219,22 +219,22 @@ class Rules:
     """Quadrature rules one after another, each kept once."""
 
     def __init__(self) -> None:
-        self._known: dict[Hashable, tuple[int, int]] = {}
+        self._places: dict[Hashable, tuple[int, int]] = {}
         self._rules: list[Array] = []
         self._count = 0
-        self.own = 0
+        self.of_single_states = 0
         """Numbers in the rules of single states."""
 
     def add(self, key: Hashable, rows: Array) -> tuple[int, int]:
         """Begin and nodes of a rule (k, n): weighted columns, then increasing abscissae."""
-        if key not in self._known:
-            self._known[key] = self.add_each(rows[None])[0].item()
-        return self._known[key]
+        if key not in self._places:
+            self._places[key] = self.add_each(rows[None])[0].item()
+        return self._places[key]
 
     def add_each(self, rows: Array) -> Records:
         """`RULE` records (M,) of rules (M, k, n), one for each state."""
         count, k, n = rows.shape
-        self.own += rows.size if count > 1 else 0
+        self.of_single_states += rows.size if count > 1 else 0
         out = np.empty(count, RULE)
         out["begin"], out["nodes"] = self._count + k * n * np.arange(count), n
         self._rules.append(rows.ravel())

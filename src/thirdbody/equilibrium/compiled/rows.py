@@ -75,7 +75,7 @@ class Rows:
     def _finish(self) -> None:
         self.panels, self.inverses = self._panels.all_panels()
         self.edges = self.panels["edge"].copy()
-        self.rules, self.own = self._rules.all_rules(), self._rules.own
+        self.rules, self.of_single_states = self._rules.all_rules(), self._rules.of_single_states
 
     @property
     def arrays(self) -> tuple[np.ndarray, ...]:
@@ -93,15 +93,15 @@ class InterfaceRows(Rows):
     """
 
     def __init__(self, interfaces: Sequence[Interface]):
-        particles = [bound.particles for bound in interfaces]
+        particles = [one.particles for one in interfaces]
         if not all(p is None or isinstance(p, SeatedParticles) for p in particles):
             raise NotCompiled("particles that are not Series")
         most = max(len(p.parts) if isinstance(p, SeatedParticles) else 0 for p in particles)
         super().__init__(len(interfaces), most)
-        for m, bound in enumerate(interfaces):
-            self._add_asperities(self.interfaces[m], bound.asperities)
-            if isinstance(bound.particles, SeatedParticles):
-                self._add_particles(self.interfaces[m], self.parts[m], bound.particles)
+        for m, contact_interface in enumerate(interfaces):
+            self._add_asperities(self.interfaces[m], contact_interface.asperities)
+            if isinstance(contact_interface.particles, SeatedParticles):
+                self._add_particles(self.interfaces[m], self.parts[m], contact_interface.particles)
         self._finish()
 
     def _add_asperities(self, row: np.void, asperities: object) -> None:
@@ -128,34 +128,34 @@ class InterfaceRows(Rows):
     def _add_particles(self, row: np.void, parts: Records, particles: SeatedParticles) -> None:
         shadow = row["shadow"] = _column(particles.shadow)
         row["coverage"] = particles.coverage if particles.shadow == "covered" else 0.0
-        for part, source in zip(parts, particles.parts, strict=False):
-            part["inverse"] = NONE
-            part["size"], part["factor"] = source.scale, source.factor
-            part["offset"] = source.offset
+        for component, source in zip(parts, particles.parts, strict=False):
+            component["inverse"] = NONE
+            component["size"], component["factor"] = source.scale, source.factor
+            component["offset"] = source.offset
             if isinstance(source, GroundedPart):
                 if (series := grounded_series(source)) is not None:
-                    part["kind"], part["upper"] = (
+                    component["kind"], component["upper"] = (
                         layout.ROUGH,
                         self._panels.add_average(series, shadow),
                     )
-                    part["least"], part["reach"] = series.edges[[0, -1]]
+                    component["least"], component["reach"] = series.edges[[0, -1]]
                 continue
             average = plane = source.average
             if isinstance(average, SeatAverage):
                 plane = average.average
-                part["kind"], part["width"] = layout.ROUGH, average.width
-                part["upper"] = self._panels.add_average(average.table, shadow)
-                part["least"], part["reach"] = average.table.edges[0], average.high
+                component["kind"], component["width"] = layout.ROUGH, average.width
+                component["upper"] = self._panels.add_average(average.table, shadow)
+                component["least"], component["reach"] = average.table.edges[0], average.high
             elif source.breaks:
                 raise NotCompiled("particles that break, on a plane seat")
             else:
-                part["kind"], part["join"] = layout.PLANE, average.join
-                part["upper"] = self._panels.add_average(average.upper, shadow)
+                component["kind"], component["join"] = layout.PLANE, average.join
+                component["upper"] = self._panels.add_average(average.upper, shadow)
                 if average.lower is not None:
-                    part["lower"] = self._panels.add_average(average.lower, shadow)
-                part["least"], part["reach"] = average.bottom, average.top
-                part["top"], part["powers"] = average.top, average.powers
-            part["floor"] = plane.floor
+                    component["lower"] = self._panels.add_average(average.lower, shadow)
+                component["least"], component["reach"] = average.bottom, average.top
+                component["top"], component["powers"] = average.top, average.powers
+            component["floor"] = plane.floor
 
 
 def _column(shadow: str) -> int:
@@ -236,13 +236,13 @@ class StateRows(Rows):
             raise NotCompiled("the aspect of flakes varies")
         if any(name.startswith(MATERIALS) for name in arrays):
             raise NotCompiled("the materials of the particles vary")
-        own = law.seat == "rough" and own_sizes(contact, arrays)
-        parts = self._part_by_sizes if own else self._averaged_parts
+        by_sizes = law.seat == "rough" and own_sizes(contact, arrays)
+        parts = self._part_by_sizes if by_sizes else self._averaged_parts
         coverage = np.zeros(len(self.parts))
-        for p, (covers, part) in enumerate(parts(contact, arrays)):
+        for p, (covers, fields) in enumerate(parts(contact, arrays)):
             coverage += covers
-            part["offset"] = law.seat_offset(self.varied.roughness)
-            _fill(self.parts[:, p], part)
+            fields["offset"] = law.seat_offset(self.varied.roughness)
+            _fill(self.parts[:, p], fields)
         if np.any(coverage >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
         one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
@@ -282,7 +282,7 @@ class StateRows(Rows):
                 self.steepest += 0.25 * math.pi * one.breadth * factor / size * densest(shape)
             if spreads:
                 self.most = self.most + factor * average.floor[-2:].max()
-            part: Fields = {
+            fields: Fields = {
                 **{"inverse": self._panels.add_inverse(average), "size": size},
                 **{"factor": factor, "width": width},
                 **{"reach": average.top + layout.SEAT_REACH * width},
@@ -291,20 +291,20 @@ class StateRows(Rows):
             if rough:
                 octave = np.broadcast_to(np.frexp(width)[1] - 1, len(self.parts))
                 one_size = self._rules.add("one", np.ones((2, 1)))
-                part |= {
+                fields |= {
                     **{"kind": layout.ROUGH_NODES, "bottom": average.bottom},
                     **self._over_gaps(octave, average),
                     **{"sizes": one_size, "few_sizes": one_size},
                 }
             else:
-                part |= {
+                fields |= {
                     **{"kind": layout.PLANE, "least": average.bottom, "join": average.join},
                     **{"upper": self._panels.add_average(average.upper, shadow)},
                     **{"powers": average.powers},
                 }
                 if average.lower is not None:
-                    part["lower"] = self._panels.add_average(average.lower, shadow)
-            yield math.pi / 4 * factor * shape.moment(2), part
+                    fields["lower"] = self._panels.add_average(average.lower, shadow)
+            yield math.pi / 4 * factor * shape.moment(2), fields
 
     def _over_gaps(self, octave: Index, average: SizeAverage) -> Fields:
         """Rules over gaps for seats whose widths lie in these octaves (N,), as fields of a `PART`.
@@ -354,7 +354,7 @@ class StateRows(Rows):
             most = alone.floor[-2:].max() * np.sum(weight * x**2, axis=-1)
             self.most = self.most + factor * most
         _, shape = particles.diameter.standardised()
-        part = {
+        fields = {
             **{"kind": layout.ROUGH_NODES, "top": alone.top, "bottom": alone.bottom},
             **{"inverse": self._panels.add_inverse(size_average(one, shape))},
             **{"floor": alone.floor, **self._over_gaps(octave, alone)},
@@ -363,20 +363,20 @@ class StateRows(Rows):
             **{"size": size[:, 0], "factor": factor, "width": width[:, 0]},
             "reach": x[:, -1] * alone.top + layout.SEAT_REACH * width[:, 0],
         }
-        yield math.pi / 4 * factor * np.sum(weight * x**2, axis=-1), part
+        yield math.pi / 4 * factor * np.sum(weight * x**2, axis=-1), fields
 
 
 def _fill(rows: Records, fields: Mapping[str, ArrayLike]) -> None:
     """Records from their named fields: those alike for all at once, as one record."""
-    own = {}
+    by_row = {}
     one = np.zeros((), rows.dtype)
     for name, values in fields.items():
         if np.ndim(values) > len(rows.dtype[name].shape) and not isinstance(values, tuple):
-            own[name] = values
+            by_row[name] = values
         else:
             one[name] = values
     rows[...] = one
-    for name, values in own.items():
+    for name, values in by_row.items():
         rows[name] = values
 
 

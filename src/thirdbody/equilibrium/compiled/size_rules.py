@@ -106,14 +106,16 @@ def size_rules(
     return size, partial(_gaussian_sizes, std, np.broadcast_to(varied.n, count)[:, None])
 
 
-def _gaussian_sizes(std: Array, n: Array, width: float, part: float = 1.0) -> tuple[Array, Array]:
+def _gaussian_sizes(
+    std: Array, n: Array, width: float, node_share: float = 1.0
+) -> tuple[Array, Array]:
     """Diameters over the mean and number weights of truncated Gaussians of their own widths."""
     high = np.minimum(n, NORMAL_CUT)
     low = np.maximum(-high, -1 / std)
     # One panel. The load smooths the seats of all gaps; the area of one regime may come from a few
     # of them, and is as steep in the size as one seat: exp(−k²w²/2) falls below 1e-13 at kw = 7.7,
     # and n nodes over a length L resolve k up to 4n/L, so n = 1.9 L/w and some at the ends.
-    count = math.ceil(part * np.max((high - low) / 6 * (20 + 12 * std / width)))
+    count = math.ceil(node_share * np.max((high - low) / 6 * (20 + 12 * std / width)))
     u, weight = panel_rule(np.concatenate([low, high], axis=1), count)
     density = np.exp(-0.5 * u * u) * weight
     return 1 + std * u, density / density.sum(axis=1, keepdims=True)

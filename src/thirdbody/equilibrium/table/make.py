@@ -108,15 +108,15 @@ def table(
     problems = _mistakes(low, high, tolerance, coordinate, columns)
     if problems:
         raise InvalidValue(*problems)
-    bound = interface(contact)
-    shift = bound.mean_plane if coordinate == "h" else 0.0
-    scan = LoadScan(bound)
-    d_high = _upper_end(bound, scan) if high is None else float(high) - shift
-    d_low = _bottom(bound) if low is None else float(low) - shift
-    _check_range(bound, d_low, d_high, shift, coordinate)
+    contact_interface = interface(contact)
+    shift = contact_interface.mean_plane if coordinate == "h" else 0.0
+    scan = LoadScan(contact_interface)
+    d_high = _upper_end(contact_interface, scan) if high is None else float(high) - shift
+    d_low = _bottom(contact_interface) if low is None else float(low) - shift
+    _check_range(contact_interface, d_low, d_high, shift, coordinate)
     if low is None:
-        d_low = _lower_end(bound, d_high)
-    panels = _Panels(bound, shift, columns, coordinate)
+        d_low = _lower_end(contact_interface, d_high)
+    panels = _Panels(contact_interface, shift, columns, coordinate)
     x_low = d_low + shift if low is None else float(low)
     x_high = d_high + shift if high is None else float(high)
     x, parts, error = panels.refine_panels(x_low, x_high, tolerance)
@@ -132,7 +132,7 @@ def table(
         h=x,
         tolerance=float(tolerance),
         warnings=said,
-        error=TableError(**error, above=_above(bound, scan, d_high, p.last)),
+        error=TableError(**error, above=_above(contact_interface, scan, d_high, p.last)),
         _p=p,
         _A=A,
         _shares=dict(zip(columns, shares, strict=True)),
@@ -160,33 +160,35 @@ def _mistakes(
         rule = "must be a list of different names"
         out.append(Problem("columns", rule, repr(columns), code=Mistake.KIND))
     else:
-        known = ", ".join(SHARES)
+        options = ", ".join(SHARES)
         out += [
-            Problem("columns", f": {c!r} must be one of {known}", code=Mistake.OPTION)
+            Problem("columns", f": {c!r} must be one of {options}", code=Mistake.OPTION)
             for c in columns
             if c not in SHARES
         ]
     return out
 
 
-def _upper_end(bound: Interface, scan: LoadScan) -> float:
+def _upper_end(contact_interface: Interface, scan: LoadScan) -> float:
     """The largest d that carries `LEAST_LOAD`, or more where the load jumps over it."""
-    d, _, status = scan.solve_across_jumps(np.array([LEAST_LOAD * bound.contact.E_ss]), "loading")
+    d, _, status = scan.solve_across_jumps(
+        np.array([LEAST_LOAD * contact_interface.contact.E_ss]), "loading"
+    )
     if np.isnan(d[0]):
         raise InvalidValue(f"no table: {status.words[0]}; give high [m]", code=Mistake.MISSING)
     return float(d[0])
 
 
-def _bottom(bound: Interface) -> float:
-    return bound.lowest
+def _bottom(contact_interface: Interface) -> float:
+    return contact_interface.lowest
 
 
-def _lower_end(bound: Interface, d_high: float) -> float:
+def _lower_end(contact_interface: Interface, d_high: float) -> float:
     """The separation of A_t = MOST_AREA, of −3 σ_s, or where the load stops to rise on approach."""
-    bottom = _bottom(bound)
-    d = np.linspace(d_high, bottom, _panel_count(bound, bottom, d_high) * 8)
-    F, F1, _ = bound.load(d).T
-    good = (F > 0) & (F1 < 0) & (bound.fields(d)["A_t"] <= MOST_AREA)
+    bottom = _bottom(contact_interface)
+    d = np.linspace(d_high, bottom, _panel_count(contact_interface, bottom, d_high) * 8)
+    F, F1, _ = contact_interface.load(d).T
+    good = (F > 0) & (F1 < 0) & (contact_interface.fields(d)["A_t"] <= MOST_AREA)
     stop = int(np.argmin(good)) if not good.all() else len(d)
     if stop == 0 and F1[0] < 0 < F[0]:
         raise InvalidValue(
@@ -201,18 +203,18 @@ def _lower_end(bound: Interface, d_high: float) -> float:
     inside, outside = d[stop - 1], d[stop]
     for _ in range(60):
         middle = 0.5 * (inside + outside)
-        if bound.fields(np.array([middle]))["A_t"][0] <= MOST_AREA:
+        if contact_interface.fields(np.array([middle]))["A_t"][0] <= MOST_AREA:
             inside = middle
         else:
             outside = middle
     return float(inside)
 
 
-def _panel_count(bound: Interface, low: float, high: float) -> int:
+def _panel_count(contact_interface: Interface, low: float, high: float) -> int:
     """Panels of the first grid: none wider than half a σ_s, nor too wide to see a narrow size."""
-    width = 0.5 * bound.asperities.sigma_s
-    if not load_scan(bound).monotone and bound.particles is not None:
-        width = min(width, 20 * bound.particles.resolution)
+    width = 0.5 * contact_interface.asperities.sigma_s
+    if not load_scan(contact_interface).monotone and contact_interface.particles is not None:
+        width = min(width, 20 * contact_interface.particles.resolution)
     count = int(np.ceil((high - low) / width))
     if count > MOST_PANELS:
         raise InvalidValue(
@@ -223,15 +225,17 @@ def _panel_count(bound: Interface, low: float, high: float) -> int:
     return max(count, 4)
 
 
-def _check_range(bound: Interface, low: float, high: float, shift: float, name: str) -> None:
+def _check_range(
+    contact_interface: Interface, low: float, high: float, shift: float, name: str
+) -> None:
     """The range must be one in which ln p exists."""
-    bottom = _bottom(bound)
-    if low < bottom - 1e-12 * bound.asperities.sigma_s:
+    bottom = _bottom(contact_interface)
+    if low < bottom - 1e-12 * contact_interface.asperities.sigma_s:
         raise InvalidValue(
             Problem(
                 "low",
                 f": {name} = {low + shift:.6g} m must be >= {bottom + shift:.6g} m, "
-                f"{bound.why_lowest} and the model ends",
+                f"{contact_interface.why_lowest} and the model ends",
                 code=Mistake.RANGE,
             )
         )
@@ -241,8 +245,8 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
             "low and high [m]",
             code=Mistake.ORDER,
         )
-    d = np.linspace(low, high, 8 * _panel_count(bound, low, high))
-    F = bound.load(d)[:, 0]
+    d = np.linspace(low, high, 8 * _panel_count(contact_interface, low, high))
+    F = contact_interface.load(d)[:, 0]
     bad = np.flatnonzero(~(F > LEAST_PRESSURE))
     if len(bad):
         at = d[bad[0]]
@@ -261,19 +265,19 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
         )
 
 
-def _above(bound: Interface, scan: LoadScan, d_high: float, p_last: float) -> float:
+def _above(contact_interface: Interface, scan: LoadScan, d_high: float, p_last: float) -> float:
     """Largest difference from the exponential tail beyond the range [Pa].
 
     Both lie between zero and the last pressure, unless the surfaces attract each other or the
     load rises again.
     """
-    asperities = bound.asperities
+    asperities = contact_interface.asperities
     d = asperities.centre + asperities.sigma_s * np.linspace(asperities.searched, 10, 400)
     pull = 0.0
-    if np.any(bound.load(d)[:, 0] < 0):
-        pull = pull_off(bound.contact)[0] * (1 + 1e-6)
+    if np.any(contact_interface.load(d)[:, 0] < 0):
+        pull = pull_off(contact_interface.contact)[0] * (1 + 1e-6)
     most = p_last
-    if not load_scan(bound).monotone:
+    if not load_scan(contact_interface).monotone:
         beyond = scan.log_F[scan.d > d_high]
         most = max([most, *np.exp(beyond) * 1.1])
     return most + pull
@@ -282,27 +286,29 @@ def _above(bound: Interface, scan: LoadScan, d_high: float, p_last: float) -> fl
 class _Panels:
     """Panels of a growing table: the truth at their samples is computed once."""
 
-    def __init__(self, bound: Interface, shift: float, columns: Sequence[str], name: str):
-        self.bound, self.shift, self.name = bound, shift, name
+    def __init__(
+        self, contact_interface: Interface, shift: float, columns: Sequence[str], name: str
+    ):
+        self.interface, self.shift, self.name = contact_interface, shift, name
         self.columns = tuple(columns)
 
     # ------------------------------------------------------------------ the contact itself
     def truth(self, x: Array) -> Array:
         """p, dp/dx, A_t and the shares: (N, 3 + shares)."""
         d = x - self.shift
-        F, F1, _ = self.bound.load(d).T
-        part = self.bound.fields(d)
+        F, F1, _ = self.interface.load(d).T
+        fields = self.interface.fields(d)
         shares = {
-            "particle_area_share": lambda: part["A_sa"] / part["A_t"],
-            "particle_load_share": lambda: part["F_sa"] / (part["F_ss"] + part["F_sa"]),
+            "particle_area_share": lambda: fields["A_sa"] / fields["A_t"],
+            "particle_load_share": lambda: fields["F_sa"] / (fields["F_ss"] + fields["F_sa"]),
         }
-        return np.column_stack([F, F1, part["A_t"], *(shares[c]() for c in self.columns)])
+        return np.column_stack([F, F1, fields["A_t"], *(shares[c]() for c in self.columns)])
 
     def log_slopes(self, x: Array) -> Array:
         """d ln A_t/dx and slopes of the shares at knots, by differences of fourth order."""
         step = np.diff(x)
         step = np.minimum(np.append(step, step[-1]), np.append(step[0], step))
-        step = np.minimum(0.25 * step, 1e-3 * self.bound.asperities.sigma_s)
+        step = np.minimum(0.25 * step, 1e-3 * self.interface.asperities.sigma_s)
         # steps that the separations can tell
         step = (x + step) - x
         # five places about each knot, at the ends all of them inside the range
@@ -323,8 +329,8 @@ class _Panels:
         self, low: float, high: float, tolerance: float
     ) -> tuple[Array, list[Any], dict[str, float]]:
         """Knots, interpolants of p, A_t and the shares, and their errors."""
-        x = np.linspace(low, high, _panel_count(self.bound, low, high) + 1)
-        reach = [a.reach for a in (self.bound.particles,) if a is not None]
+        x = np.linspace(low, high, _panel_count(self.interface, low, high) + 1)
+        reach = [a.reach for a in (self.interface.particles,) if a is not None]
         x = np.unique([*x, *(r + self.shift for r in reach if low < r + self.shift < high)])
         at_knots = self.truth(x)
         inside = self._samples(x[:-1], x[1:])
@@ -390,8 +396,8 @@ class _Panels:
                 slope / inside[..., 1] - 1,
                 A.left[:, None] * np.exp(cubic(A.c)) / inside[..., 2] - 1,
             ]
-        for j, part in enumerate(shares):
-            columns.append(part[:, :1] + cubic(part[:, 1:]) - inside[..., 3 + j])
+        for j, share in enumerate(shares):
+            columns.append(share[:, :1] + cubic(share[:, 1:]) - inside[..., 3 + j])
         errors = np.stack([np.abs(column).max(axis=1) for column in columns], axis=1)
         self._must_fall(x, inside, at_knots)
         # the derivative of a cubic is largest at an end or at its vertex
@@ -416,11 +422,11 @@ class _Panels:
     def _give_up(
         self, x: Array, bad: NDArray[np.intp], at_knots: Array, stated: Array, tolerance: float
     ) -> None:
-        narrow = 1e-13 * np.maximum(np.abs(x[bad]), self.bound.contact.roughness.sigma)
+        narrow = 1e-13 * np.maximum(np.abs(x[bad]), self.interface.contact.roughness.sigma)
         stuck = bad[np.diff(x)[bad] < narrow]
         if len(stuck):
             i = int(stuck[0])
-            near = at_knots[np.abs(x - x[i]) <= 1e-9 * self.bound.asperities.sigma_s]
+            near = at_knots[np.abs(x - x[i]) <= 1e-9 * self.interface.asperities.sigma_s]
             spread = near.max(axis=0) - near.min(axis=0)
             jumps = {"p": spread[0] / near[0, 0], "A_t": spread[2] / near[0, 2]}
             jumps |= dict(zip(self.columns, spread[3:], strict=True))

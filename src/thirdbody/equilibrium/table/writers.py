@@ -137,7 +137,7 @@ class ContactTable:
     def share(self, name: str, h: ArrayLike) -> Number:
         """A share [1] that was asked for in ``columns``; constant beyond the ends."""
         if name not in self._shares:
-            known = ", ".join(self._shares) or "none; " + Advice(
+            names = ", ".join(self._shares) or "none; " + Advice(
                 "give columns=... when the table is made",
                 "this command makes tables without shares",
             )
@@ -145,7 +145,7 @@ class ContactTable:
                 Problem(
                     "share",
                     f"{name!r} is not in this table",
-                    hint="it has " + known,
+                    hint="it has " + names,
                     code=Mistake.UNKNOWN,
                 )
             )

@@ -212,15 +212,17 @@ def _mesh(depth: int) -> _Mesh:
     marks = np.clip(points[:, None] + steps, 0.0, 1.0)
     marks = np.concatenate([marks, np.broadcast_to(edges, (len(points), len(edges)))], axis=1)
     marks.sort(axis=1)
-    s, ds = (part.reshape(len(points), -1, NODES) for part in panel_rule(marks, NODES))
+    s, ds = (array.reshape(len(points), -1, NODES) for array in panel_rule(marks, NODES))
     panel = np.searchsorted(edges, 0.5 * (marks[:, 1:] + marks[:, :-1]), side="right") - 1
     panel = np.clip(panel, 0, len(edges) - 2)
     low, high = edges[panel][..., None], edges[panel + 1][..., None]
     local = (2 * s - low - high) / (high - low)
-    own, own_weights = gauss_legendre(NODES)
+    local_nodes, local_weights = gauss_legendre(NODES)
     n = np.arange(NODES)
     to_series = (2 * n[:, None] + 1) / 2
-    to_series = to_series * np.polynomial.legendre.legvander(own, NODES - 1).T * own_weights
+    to_series = (
+        to_series * np.polynomial.legendre.legvander(local_nodes, NODES - 1).T * local_weights
+    )
     values = np.polynomial.legendre.legvander(local, NODES - 1) @ to_series
     return _Mesh(nodes, weights, points, s, ds, values, panel * NODES)
 
@@ -237,10 +239,10 @@ def _solve(layer: ElasticLayer, alpha: float) -> tuple[float, float, float]:
     matrix = np.zeros((len(mesh.points), count))
     columns = mesh.columns[..., None] + np.arange(NODES)
     np.add.at(matrix, (np.arange(len(mesh.points))[:, None, None], columns), parts)
-    known = np.stack([np.ones_like(mesh.points), mesh.points**2], axis=1)
-    own = 1 + layer.indenter
-    chi = np.linalg.solve(own * np.eye(count) + matrix[:-1], known[:-1])
-    at_edge = (known[-1] - matrix[-1] @ chi) / own
+    right_sides = np.stack([np.ones_like(mesh.points), mesh.points**2], axis=1)
+    diagonal = 1 + layer.indenter
+    chi = np.linalg.solve(diagonal * np.eye(count) + matrix[:-1], right_sides[:-1])
+    at_edge = (right_sides[-1] - matrix[-1] @ chi) / diagonal
     punch, curved = mesh.weights @ chi
     Delta = at_edge[1] / at_edge[0]
     return 2 * (Delta * punch - curved), Delta, 2 * punch

@@ -46,8 +46,8 @@ def remainder(h: Array, *, chi: float, alpha: float) -> Array:
     height = remainder_height(chi, alpha)
     density = np.exp(-0.5 * h * h) / math.sqrt(2 * math.pi)
     more = height * np.stack([2 * density, -2 * h * density], axis=-1)
-    own = remainder_at(height, ndtr(-h))[:, None]
-    return np.concatenate([own, np.where(h[:, None] > 0, more, 0.0)], axis=1)
+    value = remainder_at(height, ndtr(-h))[:, None]
+    return np.concatenate([value, np.where(h[:, None] > 0, more, 0.0)], axis=1)
 
 
 def load(surface: FieldSurface, h: Array, *, remains: bool) -> Array:

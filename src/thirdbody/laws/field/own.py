@@ -176,8 +176,8 @@ class OwnSpectrum(Value):
             for face in (first, second)
         ]
         waves = sorted(
-            (q, weight * sigma**2) for own, sigma in faces for q, weight in zip(
-                own.q, own.weight, strict=True)
+            (q, weight * sigma**2) for spectrum, sigma in faces for q, weight in zip(
+                spectrum.q, spectrum.weight, strict=True)
         )  # fmt: skip
         merged: dict[float, float] = {}
         for q, weight in waves:
@@ -187,14 +187,14 @@ class OwnSpectrum(Value):
 
     @classmethod
     def _gaussian(cls, surface: Topography) -> OwnSpectrum:
-        own = cls.of(surface)
-        if len(own.heights) > 1:
+        spectrum = cls.of(surface)
+        if len(spectrum.heights) > 1:
             raise InvalidValue(
                 "the heights of one of two faces are not Gaussian, and those of both together are "
                 "not known; give one face, or leave the spectrum out",
                 code=Mistake.CLASH,
             )
-        return own
+        return spectrum
 
     @property
     def spectrum(self) -> Spectrum:
@@ -258,7 +258,7 @@ def _rank_heights(z: Array, skewness: float, excess: float) -> tuple[Array, tupl
     he = [np.ones(z.size), t]
     for n in range(1, MOST_HEIGHTS):
         he.append((t * he[n] - math.sqrt(n) * he[n - 1]) / math.sqrt(n + 1))
-    G = np.array([np.mean(z.ravel() * each) for each in he[1:]])
+    G = np.array([np.mean(z.ravel() * polynomial) for polynomial in he[1:]])
     grid = np.linspace(-STRAIGHT, STRAIGHT, 161)
     for count in range(MOST_HEIGHTS, 0, -1):
         some = tuple((G[:count] / math.sqrt(float(G[:count] @ G[:count]))).tolist())
@@ -281,13 +281,13 @@ def _rings(q: Array, power: Array) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=32)
-def _spectrum(own: OwnSpectrum) -> Spectrum:
-    q, weight = np.array(own.q), np.array(own.weight)
+def _spectrum(waves: OwnSpectrum) -> Spectrum:
+    q, weight = np.array(waves.q), np.array(waves.weight)
     weight = weight / weight.sum()
     unit = math.sqrt(2 / float(weight @ q**2))
     farthest = min(FARTHEST, math.pi / (q[0] * unit))
     return Spectrum(
-        q=q * unit, weight=weight, farthest=farthest, box=own.box / unit, heights=own.heights
+        q=q * unit, weight=weight, farthest=farthest, box=waves.box / unit, heights=waves.heights
     )
 
 
@@ -301,18 +301,18 @@ def _follow_programme(spectrum: Spectrum, h: Array, t: Array, chi: float, edges:
     G = np.array(spectrum.heights)
     first = np.zeros_like(G)
     first[0] = 1.0
-    for part in PARTS:
-        mixed = part * G + (1 - part) * first
+    for share in PARTS:
+        mixed = share * G + (1 - share) * first
         mixed /= math.sqrt(float(mixed @ mixed))
         nearer = replace(spectrum, heights=tuple(mixed.tolist()))
-        place = nearer.height(t) if part < 1 else h
-        found = solve_programme(nearer.series(TERMS), place, chi, edges)
-        edges = found.edges._replace(elastic=np.zeros(len(h), bool))
-    return found
+        place = nearer.height(t) if share < 1 else h
+        pressed = solve_programme(nearer.series(TERMS), place, chi, edges)
+        edges = pressed.edges._replace(elastic=np.zeros(len(h), bool))
+    return pressed
 
 
 @lru_cache(maxsize=64)
-def own_field(own: OwnSpectrum | RollOff | None, chi: float, alpha: float) -> FieldSurface:
+def own_field(waves: OwnSpectrum | RollOff | None, chi: float, alpha: float) -> FieldSurface:
     """The surface of these waves at χ, solved; of a roll-off by α, that of None from the table.
 
     Raises
@@ -320,9 +320,9 @@ def own_field(own: OwnSpectrum | RollOff | None, chi: float, alpha: float) -> Fi
     InvalidValue
         α outside that of the table, from which the solution starts.
     """
-    if own is None or own == RollOff():
+    if waves is None or waves == RollOff():
         return field_of(chi, alpha)
-    spectrum = own.spectrum_of(alpha) if isinstance(own, RollOff) else own.spectrum
+    spectrum = waves.spectrum_of(alpha) if isinstance(waves, RollOff) else waves.spectrum
     alpha = spectrum.alpha
     start = field_of(chi, alpha)
     high = HIGH if len(spectrum.heights) == 1 else DENSE
@@ -333,24 +333,24 @@ def own_field(own: OwnSpectrum | RollOff | None, chi: float, alpha: float) -> Fi
     if len(spectrum.heights) > 1:  # no point of a map lies higher
         h, t = h[t < STRAIGHT], t[t < STRAIGHT]
         slope = (spectrum.height(t + 1e-4) - spectrum.height(t - 1e-4)) / 2e-4
-        each = np.clip(chi * spectrum.steeper / slope, 1e-3, 1e2)  # χ by the slopes up there
-        near = [(x, field_of(y, alpha)) for x, y in zip(t.tolist(), each.tolist(), strict=True)]
-        known = np.concatenate([f.columns(np.array([max(x, f.lowest)])) for x, f in near])
+        chis = np.clip(chi * spectrum.steeper / slope, 1e-3, 1e2)  # χ by the slopes up there
+        near = [(x, field_of(y, alpha)) for x, y in zip(t.tolist(), chis.tolist(), strict=True)]
+        start_columns = np.concatenate([f.columns(np.array([max(x, f.lowest)])) for x, f in near])
     else:
-        known = start.columns(h)
-    low = t + known[:, EDGE]
-    share = np.clip(known[:, PLASTIC], 1e-12, 1 - 1e-6)
+        start_columns = start.columns(h)
+    low = t + start_columns[:, EDGE]
+    share = np.clip(start_columns[:, PLASTIC], 1e-12, 1 - 1e-6)
     high = -ndtri(share * ndtr(-low))
     width = np.log(np.maximum(high - low, 1e-3))
-    edges = Edges(low, width, np.clip(known[:, TAU], 0.0, 1.0), np.zeros(len(h), bool))
-    found = _follow_programme(spectrum, h, t, chi, edges)
+    edges = Edges(low, width, np.clip(start_columns[:, TAU], 0.0, 1.0), np.zeros(len(h), bool))
+    pressed = _follow_programme(spectrum, h, t, chi, edges)
     rows = np.column_stack(
         [
-            np.log(found.energy / plastic_energy(h, chi)),
-            found.low - h,
-            found.plastic,
-            found.edges.tau,
-            found.moments[:, 1:] / found.moments[:, :1],
+            np.log(pressed.energy / plastic_energy(h, chi)),
+            pressed.low - h,
+            pressed.plastic,
+            pressed.edges.tau,
+            pressed.moments[:, 1:] / pressed.moments[:, :1],
         ]
     )
     return FieldSurface(chi=chi, alpha=alpha, h=h, rows=rows, spectrum=spectrum)

@@ -185,12 +185,12 @@ class _Basis:
         pressure = f @ self.f
 
         def lacks(mode: Array) -> Array:
-            part = 0.5 * span * mode * self.weight
-            moments = np.einsum("im,imn->in", part, he)
-            own = 2 * root2 * last * np.sum(part * he[:, :, 0] * pressure, axis=1)
+            weighted = 0.5 * span * mode * self.weight
+            moments = np.einsum("im,imn->in", weighted, he)
+            last_bent = 2 * root2 * last * np.sum(weighted * he[:, :, 0] * pressure, axis=1)
             bent = 2 * root2 * np.sum(more * a * moments, axis=1)
             lifted = np.sum(weights * moments[:, most], axis=1)
-            return (lifted - h * moments[:, 0] - bent - own) / moments[:, 0]
+            return (lifted - h * moments[:, 0] - bent - last_bent) / moments[:, 0]
 
         rest = np.einsum("ij,ijk,ik->i", f, square, f) - np.sum(a * a, axis=1)
         turn = np.sum(bends * a[:, most], axis=1) - root2 * (
@@ -245,8 +245,8 @@ def _newton_steps(
         step = -(np.linalg.pinv(free) @ np.where(held, 0.0, turns)[..., None])[..., 0]
         size = np.max(np.abs(step), axis=1)
         with np.errstate(divide="ignore"):
-            part = np.min(np.array([0.2, 0.3, 0.15]) / np.abs(step), axis=1)
-        edges = edges.plus(step * np.minimum(part, 1.0)[:, None])
+            allowed = np.min(np.array([0.2, 0.3, 0.15]) / np.abs(step), axis=1)
+        edges = edges.plus(step * np.minimum(allowed, 1.0)[:, None])
         if np.all(size < CLOSE):
             break
         stale = bool(np.any((size > 0.2 * before) & (size > CLOSE)))
@@ -276,25 +276,25 @@ def solve_programme(
         The iteration did not find the edges.
     """
     basis = _Basis(series)
-    each = np.full(len(h), chi)
+    chis = np.full(len(h), chi)
     begun = start.without_slight()
-    edges, miss = _newton_steps(basis, h, each, begun, ENERGY, rounds)
+    edges, miss = _newton_steps(basis, h, chis, begun, ENERGY, rounds)
     slight = edges.without_slight().elastic & ~edges.elastic
     if slight.any():  # the second edge has no hold there
         edges = Edges(*(np.where(slight, a, b) for a, b in zip(begun, edges, strict=True)))
         edges = edges._replace(elastic=edges.elastic | slight)
-        edges, miss = _newton_steps(basis, h, each, edges, ENERGY, rounds)
+        edges, miss = _newton_steps(basis, h, chis, edges, ENERGY, rounds)
     fixed = ~(miss < GOOD) & ~edges.elastic
     if fixed.any():  # it yields so little that the second edge swings; Φ is stationary in it
         edges = Edges(*(np.where(fixed, a, b) for a, b in zip(begun, edges, strict=True)))
-        edges, miss = _newton_steps(basis, h, each, edges, ENERGY, rounds, fixed)
-    found = basis.state(h, each, edges, ENERGY)
-    fine, fine_miss = _newton_steps(basis, h, each, edges, EDGE, rounds)
+        edges, miss = _newton_steps(basis, h, chis, edges, ENERGY, rounds, fixed)
+    state = basis.state(h, chis, edges, ENERGY)
+    fine, fine_miss = _newton_steps(basis, h, chis, edges, EDGE, rounds)
     miss = np.maximum(miss, fine_miss)
     if not np.all(miss < GOOD):
         where = ", ".join(f"{x:.3g}" for x in h[~(miss < GOOD)][:5])
         raise NoEquilibrium(f"the programme of one field did not converge at h = {where} sigma")
     return Pressed(
-        h=h, energy=found.energy, moments=found.moments[:, : MOMENTS + 1], edges=edges,
+        h=h, energy=state.energy, moments=state.moments[:, : MOMENTS + 1], edges=edges,
         low=fine.low, high=fine.high, miss=miss,
     )  # fmt: skip

@@ -84,7 +84,7 @@ class Spectrum:
         if len(self.heights) == 1:
             return t
         norm = [math.sqrt(math.factorial(n)) for n in range(1, len(self.heights) + 1)]
-        series = np.array([0.0, *(G / each for G, each in zip(self.heights, norm, strict=True))])
+        series = np.array([0.0, *(G / scale for G, scale in zip(self.heights, norm, strict=True))])
         near = np.clip(t, -STRAIGHT, STRAIGHT)
         slope = np.polynomial.hermite_e.hermeval(near, np.polynomial.hermite_e.hermeder(series))
         return np.polynomial.hermite_e.hermeval(near, series) + slope * (t - near)
@@ -155,18 +155,18 @@ class Spectrum:
         near = 0.5 * r * (1 + at)
         weight = 0.5 * r * weight
         plain, once, _ = self.correlations(near)
-        own = integrals_of_powers(self._at_nodes[0], self._weights, count) - integrals_of_powers(
-            plain, weight, count
-        )
-        own[1] = self.mean(-1) - float(weight @ plain)
+        plain_integrals = integrals_of_powers(
+            self._at_nodes[0], self._weights, count
+        ) - integrals_of_powers(plain, weight, count)
+        plain_integrals[1] = self.mean(-1) - float(weight @ plain)
         first, second, _ = self._at_nodes
         mixed = integrals_of_powers(
             self.cross_correlation(first, second, tau), self._weights, count
         )
         mixed[:, 1] = self.cross_correlation(self.mean(-1), 1.0, tau)[:, 0]
         mixed -= integrals_of_powers(self.cross_correlation(plain, once, tau), weight, count)
-        own[0], mixed[:, 0] = -r, -r
-        return own, mixed
+        plain_integrals[0], mixed[:, 0] = -r, -r
+        return plain_integrals, mixed
 
     def cross_correlation(self, plain: Array | float, once: Array | float, tau: Array) -> Array:
         """ρ_zs of each filter τ (T,) from ∫C J_0 and ∫C q J_0 at distances (N,): (T, N)."""

@@ -260,13 +260,13 @@ def rows_of(chi: Array, alpha: Array, *, soft: bool, columns: slice = slice(None
     from scipy.interpolate import BSpline
 
     h = separations(soft)
-    known, coefficients = _along_chi(soft)
+    knots, coefficients = _along_chi(soft)
     every = np.ascontiguousarray(coefficients[..., columns])
     size = every.shape[2:]
     every = every.reshape(*every.shape[:2], -1)
     inside = np.log(np.clip(chi, LEAST, MOST))
-    basis = BSpline.design_matrix(inside, known, 3)
-    place, part = basis.indices.reshape(-1, 4), basis.data.reshape(-1, 4)
+    basis = BSpline.design_matrix(inside, knots, 3)
+    place, weights = basis.indices.reshape(-1, 4), basis.data.reshape(-1, 4)
     across = _lagrange(np.log(stored_table()["alpha"]), np.log(alpha))
     # number by number and not by products of matrices, whose last digit hangs on their size
     rows = np.empty((len(chi), every.shape[2]))
@@ -274,7 +274,7 @@ def rows_of(chi: Array, alpha: Array, *, soft: bool, columns: slice = slice(None
         here = slice(begin, begin + AT_ONCE)
         total = np.zeros((len(place[here]), every.shape[2]))
         for of_alpha, weight in zip(every, across[here].T, strict=True):
-            for near, value in zip(place[here].T, part[here].T, strict=True):
+            for near, value in zip(place[here].T, weights[here].T, strict=True):
                 total += (weight * value)[:, None] * of_alpha[near]
         rows[here] = total
     rows = rows.reshape(len(chi), *size)

@@ -84,9 +84,11 @@ class _Run(NamedTuple):
     def root(self, name: str, places: Array) -> Array:
         """Square root of the slope of that logarithm along the table (N,); 0 beyond the run."""
         eps = squeeze_at(places)
-        own = place_of(eps, self.low, self.high)
+        along_run = place_of(eps, self.low, self.high)
         step = place_of(np.array([LAW_ENDS, TABLE_ENDS]), self.low, self.high)
-        root: Array = chebval(own, self.series[name]["root"]) * math.sqrt((step[1] - step[0]) / 2)
+        root: Array = chebval(along_run, self.series[name]["root"]) * math.sqrt(
+            (step[1] - step[0]) / 2
+        )
         return np.where(eps <= self.high * (1 + 1e-9), root, 0.0)
 
     @property
@@ -188,13 +190,13 @@ def _frictions() -> tuple[float, ...]:
 def _at_frictions(friction: Array, values: Array) -> Array:
     """What stands at the friction factors of the runs (nodes, N, terms), at m (N,): (N, terms)."""
     # at the factor of a run it is that run's, to the last digit
-    found, rest = np.empty(values.shape[1:]), np.ones(len(friction), bool)
+    interpolated, rest = np.empty(values.shape[1:]), np.ones(len(friction), bool)
     for i, node in enumerate(_frictions()):
         here = friction == node
-        found[here], rest = values[i, here], rest & ~here
+        interpolated[here], rest = values[i, here], rest & ~here
     if rest.any():
-        found[rest] = _each_at(_frictions(), values[:, rest], friction[rest])
-    return found
+        interpolated[rest] = _each_at(_frictions(), values[:, rest], friction[rest])
+    return interpolated
 
 
 @lru_cache(maxsize=512)
@@ -234,8 +236,8 @@ def _each_at(nodes: Sequence[float], values: Array, at: Array) -> Array:
     at = np.clip(at, ends[0], ends[-1])
     piece = np.clip(np.searchsorted(ends, at, side="right") - 1, 0, len(ends) - 2)
     c, u = cubic.c[:, piece, np.arange(len(at))], (at - ends[piece])[:, None]
-    found: Array = ((c[0] * u + c[1]) * u + c[2]) * u + c[3]
-    return found
+    interpolated: Array = ((c[0] * u + c[1]) * u + c[2]) * u + c[3]
+    return interpolated
 
 
 def _logarithms(x: Array, friction: Array, softness: Array) -> Array:
@@ -297,14 +299,14 @@ def squashed_part(sinks: Array) -> Array:
 
     1 where the surface is rigid, 0 where the particle is.
     """
-    part: Array = 1 - np.minimum(sinks[..., -1] / TABLE_ENDS, 1.0)
-    return np.where(part > LEAST_PART, part, 0.0)
+    share: Array = 1 - np.minimum(sinks[..., -1] / TABLE_ENDS, 1.0)
+    return np.where(share > LEAST_PART, share, 0.0)
 
 
 def _row(run: _Run, places: Array) -> Array:
     """First value, then roots of the slope at places (N,) of the table, of load and of area."""
     parts = [([run.first(name)], run.root(name, places)) for name in ("own", "area")]
-    return np.concatenate([part for both in parts for part in both])
+    return np.concatenate([values for both in parts for values in both])
 
 
 def _change(run: _Run, places: Array) -> Array:

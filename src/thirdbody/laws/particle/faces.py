@@ -73,8 +73,8 @@ class FacedSide(Side):
     def regime(self, delta: Array) -> Index:
         """Regime of the joint, until the contact ends."""
         y = delta / self.delta_1
-        found = Side.regime(self, np.minimum(y, self.joint) * self.delta_1)
-        return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), found)
+        regime = Side.regime(self, np.minimum(y, self.joint) * self.delta_1)
+        return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), regime)
 
 
 @dataclass(frozen=True)

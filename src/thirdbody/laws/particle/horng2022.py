@@ -122,13 +122,13 @@ class Horng2022(AbstractParticleLaw):
     def __init__(self, *, preset: str = "published", **switches: Any):
         fields = {item.name: item for item in dataclasses.fields(type(self))}
         if unknown := [key for key in switches if key not in fields]:
-            known = ", ".join(fields)
+            names = ", ".join(fields)
             raise InvalidValue(
                 *(
                     Problem(
                         "",
                         f"has no switch {key!r}",
-                        hint=f"it has {known}",
+                        hint=f"it has {names}",
                         owner="Horng2022",
                         code=Mistake.UNKNOWN,
                     )

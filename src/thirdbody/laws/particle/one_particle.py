@@ -75,8 +75,8 @@ class Side:
         self.law, self.H, self.R = law.bound(R=R, E_star=E_star, H=H, nu=nu), H, R
         self.delta_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
         # reduced area of the great circle, that is of breadth π/4
-        part = 0.5 if breadth is None else 0.25 * breadth / R
-        self.full = part / self.delta_1
+        great_circle = 0.5 if breadth is None else 0.25 * breadth / R
+        self.full = great_circle / self.delta_1
         self.cap = self._cap()
         self.unit = self.R * math.pi * self.delta_1 * self.H
         self.plateau = self.law.branches[-1].regime == "plastic"
@@ -120,8 +120,8 @@ class Side:
                     "particle is as wide as the particle: its area must grow with the indentation",
                     code=Mistake.RANGE,
                 )
-            found = bracketed_root(excess, low, high, (full[rest],))
-            y[rest] = np.where(excess(high, full[rest]) <= 0, high, found)
+            root = bracketed_root(excess, low, high, (full[rest],))
+            y[rest] = np.where(excess(high, full[rest]) <= 0, high, root)
         for point in self.law.breakpoints:  # where the area jumps past what is asked for
             y = np.where(np.abs(y - point) <= 1e-13 * point, point, y)
         return y

@@ -239,8 +239,8 @@ class Series(SeatedLaw, _OfTips):
     def of_shape(self, shape: Shape) -> Series:
         if not isinstance(shape, Angular):
             return self
-        own = {item.name: getattr(self, item.name) for item in fields(Series)}
-        return _OfAngular(**own, shape=shape)
+        field_values = {item.name: getattr(self, item.name) for item in fields(Series)}
+        return _OfAngular(**field_values, shape=shape)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -116,8 +116,8 @@ class Squash:
                     )
                 )
             return _OfJacksonGreen(self, JG(), E_star, H, nu, R)
-        bound = law.bound(R=R, E_star=E_star, H=H, nu=nu)
-        if bound.branches[-1].regime != "plastic":
+        law_with_parameters = law.bound(R=R, E_star=E_star, H=H, nu=nu)
+        if law_with_parameters.branches[-1].regime != "plastic":
             return None
         return _OfLaw(self, law, E_star, H, nu, R)
 

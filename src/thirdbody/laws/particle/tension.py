@@ -114,15 +114,15 @@ def _bends(nu: float) -> tuple[float, ...]:
     from scipy.optimize import brentq
 
     s = np.linspace(1e-3, 1 - 1e-6, 1000)
-    found: list[float] = []
+    bends: list[float] = []
     for f in (
         lambda s: at_centre(s, nu) - at_equator(s, nu),
         lambda s: np.maximum(at_centre(s, nu), at_equator(s, nu)),
     ):
         values = f(s)
         for i in np.flatnonzero(np.sign(values[1:]) != np.sign(values[:-1])):
-            found.append(float(brentq(lambda x, f=f: float(f(np.array([x]))[0]), s[i], s[i + 1])))
-    return tuple(sorted(found))
+            bends.append(float(brentq(lambda x, f=f: float(f(np.array([x]))[0]), s[i], s[i + 1])))
+    return tuple(sorted(bends))
 
 
 class Held(NamedTuple):
@@ -182,12 +182,12 @@ class Tension:
 
     def now(self, eps: Array, squeezed: Squeezed | None = None) -> Array:
         """σ_t at ε > 0 [Pa]."""
-        found = self.particle.at(eps) if squeezed is None else squeezed
+        state = self.particle.at(eps) if squeezed is None else squeezed
         if self.confinement == "none":
-            return found.load
-        s = [np.minimum(2 * np.sqrt(area / math.pi), 1.0) for area in found.areas]
+            return state.load
+        s = [np.minimum(2 * np.sqrt(area / math.pi), 1.0) for area in state.areas]
         return (
-            found.load * 0.5 * (confined_tension(s[0], self.nu) + confined_tension(s[1], self.nu))
+            state.load * 0.5 * (confined_tension(s[0], self.nu) + confined_tension(s[1], self.nu))
         )
 
     def _find_held(self, edges: Array) -> None:

@@ -60,19 +60,19 @@ def table(E_over_H: float) -> tuple[Array, Array, Array]:
         z = np.where(r2 < 0.25, 1 - 2 * r2, 0.0)
         mean = float(z.mean())
         hardness = np.ones_like(z)
-        found = press(
+        solution = press(
             z - mean, spacing, E_over_H, c=hardness, load=load, tol=1e-7,
             max_iterations=1000,
         )  # fmt: skip
-        if not found.converged:
+        if not solution.converged:
             raise NoEquilibrium(
                 f"the load {load:.3g} H x² on one bump at E*/H = {E_over_H:.3g} is not solved: its "
-                f"certificate is {found.certificate:.1g} after {found.iterations} iterations"
+                f"certificate is {solution.certificate:.1g} after {solution.iterations} iterations"
             )
         side = POINTS * spacing
         images = lattice_constant((side, side)) * load / (math.pi * E_over_H)
-        eps[i] = 1 - (found.h + mean) + images
-        areas[i] = float(np.sum(contact_share(found.p, hardness, 1.0))) * spacing**2
+        eps[i] = 1 - (solution.h + mean) + images
+        areas[i] = float(np.sum(contact_share(solution.p, hardness, 1.0))) * spacing**2
     return eps, loads, np.minimum(areas, FULL)
 
 
@@ -107,8 +107,8 @@ class _Bump(OneParticle):
     def at(self, eps: Array) -> Squeezed:
         from scipy.interpolate import PchipInterpolator
 
-        known, loads, areas = table(self.E_star / self.H)
-        log = np.log(np.append(known, self._last()))
+        squeezes, loads, areas = table(self.E_star / self.H)
+        log = np.log(np.append(squeezes, self._last()))
         x = np.log(np.clip(eps, 1e-300, math.exp(log[-1])))
         load, area = (
             np.exp(PchipInterpolator(log, np.log(np.append(of, FULL)))(np.maximum(x, log[0])))

@@ -139,18 +139,18 @@ class Point:
         """
         if not self.is_off:
             return ""
-        found = self.ratios
-        bare = found["bare_over_bearing"] / self.model_bare
+        ratios = self.ratios
+        bare = ratios["bare_over_bearing"] / self.model_bare
         parts = [
-            (found["particles_over_sum"], "particles carry {} of the sum of their law"),
+            (ratios["particles_over_sum"], "particles carry {} of the sum of their law"),
             (bare, "bare asperities carry {} of the model's"),
-            (found["asperities_with_over_without"], "beside particles asperities carry {}"),
-            (found["bearing_over_gaussian"], "the bearing area drawn is {} of the Gaussian one"),
+            (ratios["asperities_with_over_without"], "beside particles asperities carry {}"),
+            (ratios["bearing_over_gaussian"], "the bearing area drawn is {} of the Gaussian one"),
         ]
-        known = [(abs(math.log(r)), words.format(percent(r, digits=2)))
+        sized_words = [(abs(math.log(r)), words.format(percent(r, digits=2)))
                  for r, words in parts if math.isfinite(r) and r > 0]  # fmt: skip
-        told = [words for size, words in sorted(known, reverse=True) if size > 0.01]
-        return "; ".join(told[:3])
+        phrases = [words for size, words in sorted(sized_words, reverse=True) if size > 0.01]
+        return "; ".join(phrases[:3])
 
 
 def press_case(
@@ -176,22 +176,24 @@ def box_of(contact: Contact, size: int, spacing: float) -> OwnSpectrum:
     return OwnSpectrum.of(surface_of(contact, size=size, spacing=spacing, seed=1), box=True)
 
 
-def by_field(model: Contact, loads: Sequence[float], own: OwnSpectrum | None) -> list[list[float]]:
+def by_field(
+    model: Contact, loads: Sequence[float], waves: OwnSpectrum | None
+) -> list[list[float]]:
     """Share, separation over σ and real area by the law of one field, for each F*: (N, 3)."""
-    contact = model.replace(asperity_law=Field(spectrum=own))
+    contact = model.replace(asperity_law=Field(spectrum=waves))
     with ignore_ranges():
         state = solve(contact, F_star=np.array(loads))
     rows = (state.particle_load_share, np.asarray(state.h) / SIGMA, state.A_t)
     return np.stack([np.asarray(row, dtype=float) for row in rows], axis=-1).tolist()
 
 
-def points_of(case: Case, found: Ensemble, effort: Effort) -> list[Point]:
+def points_of(case: Case, ensemble: Ensemble, effort: Effort) -> list[Point]:
     """Every load of a case."""
-    table, at, state = found.table, found.at_h, found.statistical
+    table, at, state = ensemble.table, ensemble.at_h, ensemble.statistical
     bare = case.contact.replace(particles=None)
     waves = box_of(bare, effort.size, effort.spacing)
-    fields = by_field(found.model, table.F_star.values.tolist(), waves)
-    hardness = found.contact.surfaces.H
+    fields = by_field(ensemble.model, table.F_star.values.tolist(), waves)
+    hardness = ensemble.contact.surfaces.H
 
     def pair(name: str, i: int, scale: float = 1.0) -> tuple[float, float]:
         value, error = (float(table[f"{name}{end}"].values[i]) for end in ("", "_error"))
@@ -203,9 +205,9 @@ def points_of(case: Case, found: Ensemble, effort: Effort) -> list[Point]:
         ratios = {
             name: float(np.interp(h, at.h.values[::-1], at[name].values[::-1])) for name in RATIOS
         }
-        own = float(np.atleast_1d(state.h)[i])
-        bearing = hardness * float(norm.sf(own / SIGMA))
-        carried = float(np.atleast_1d(state.F_ss_star)[i]) * found.contact.E_ss / bearing
+        model_h = float(np.atleast_1d(state.h)[i])
+        bearing = hardness * float(norm.sf(model_h / SIGMA))
+        carried = float(np.atleast_1d(state.F_ss_star)[i]) * ensemble.contact.E_ss / bearing
         out.append(
             Point(
                 case=case,
@@ -214,13 +216,13 @@ def points_of(case: Case, found: Ensemble, effort: Effort) -> list[Point]:
                 share=pair("particle_load_share_cv", i),
                 statistical=float(table["particle_load_share_statistical"].values[i]),
                 h=pair("h_cv", i, SIGMA),
-                h_statistical=own / SIGMA,
+                h_statistical=model_h / SIGMA,
                 area=pair("A_t_cv", i),
                 area_statistical=float(table["A_t_statistical"].values[i]),
                 ratios=ratios,
                 model_bare=carried,
-                surfaces=found.surfaces,
-                zeta=(found.seats.mean, found.seats.std),
+                surfaces=ensemble.surfaces,
+                zeta=(ensemble.seats.mean, ensemble.seats.std),
                 stored=_stored_share(case, load),
                 bounds=(
                     float(table["particle_load_share_cv_least"].values[i]),
@@ -247,6 +249,6 @@ def _stored_share(case: Case, load: float) -> tuple[float, float] | None:
     for point in explicit_particles()["points"]:
         same = math.isclose(point["diameter"], case.diameter, rel_tol=1e-6)
         if same and math.isclose(point["F_star"], load, rel_tol=1e-6):
-            told: dict[str, Any] = point["control_variate"] or point["raw"]
-            return told["load_share"], told["load_share_error"]
+            stored: dict[str, Any] = point["control_variate"] or point["raw"]
+            return stored["load_share"], stored["load_share_error"]
     return None

@@ -82,22 +82,22 @@ def against_stored(
     rows = comparison()
     out = []
     for case in CASES:
-        own = [row for row in rows if row["case"] == case.name]
-        if not own or (cases is not None and case.name not in cases):
+        case_rows = [row for row in rows if row["case"] == case.name]
+        if not case_rows or (cases is not None and case.name not in cases):
             continue
-        seat = {name: own[0][name] for name in ("zeta_mean", "zeta_std")}
+        seat = {name: case_rows[0][name] for name in ("zeta_mean", "zeta_std")}
         model = case.contact.replace(particle_law=case.contact.particle_law.replace(**seat))
-        found = by_field(model, [row["F_star"] for row in own], _own_spectrum(case, endless))
+        fields = by_field(model, [row["F_star"] for row in case_rows], _own_spectrum(case, endless))
         out += [
             State(
                 case=case.name,
                 F_star=row["F_star"],
-                share=(_number(row["share"]), row["share_statistical"], found[i][0]),
-                h=(row["h_over_sigma"], row["h_over_sigma_statistical"], found[i][1]),
-                area=(row["A_t"], row["A_t_statistical"], found[i][2]),
+                share=(_number(row["share"]), row["share_statistical"], fields[i][0]),
+                h=(row["h_over_sigma"], row["h_over_sigma_statistical"], fields[i][1]),
+                area=(row["A_t"], row["A_t_statistical"], fields[i][2]),
                 share_error=_number(row["share_error"]),
             )
-            for i, row in enumerate(own)
+            for i, row in enumerate(case_rows)
         ]
     return tuple(out)
 
@@ -135,13 +135,13 @@ def main(arguments: list[str] | None = None) -> int:
     }
     for words, some in groups.items():
         for field in (False, True):
-            found = errors(some, field=field)
+            errors_of = errors(some, field=field)
             law = "one field" if field else "summits"
             print(
                 f"{words}, {len(some)} states, {law}: worst and RMS: "
-                f"share {100 * found['share'][0]:.1f}, {100 * found['share'][1]:.1f} %; "
-                f"h {found['h'][0]:.3f}, {found['h'][1]:.3f} sigma; "
-                f"area {100 * found['area'][0]:.1f}, {100 * found['area'][1]:.1f} %"
+                f"share {100 * errors_of['share'][0]:.1f}, {100 * errors_of['share'][1]:.1f} %; "
+                f"h {errors_of['h'][0]:.3f}, {errors_of['h'][1]:.3f} sigma; "
+                f"area {100 * errors_of['area'][0]:.1f}, {100 * errors_of['area'][1]:.1f} %"
             )
     return 0 if math.isfinite(sum(state.share[2] for state in states)) else 1
 

@@ -137,11 +137,11 @@ def _find(effort: Effort, folder: Path, report: Progress) -> Summary:
         def tell(done: int, before: int = before) -> None:
             report("surfaces", before + done, total)
 
-        found = press_case(case, effort, folder / "surfaces", tell)
-        left_out += found.left_out
-        if found.left_out:
+        ensemble = press_case(case, effort, folder / "surfaces", tell)
+        left_out += ensemble.left_out
+        if ensemble.left_out:
             lost.append(case.name)
-        points += points_of(case, found, effort)
+        points += points_of(case, ensemble, effort)
     report("surfaces", total, total)
     return Summary(
         out=folder, effort=effort, points=tuple(points), left_out=left_out, lost=tuple(lost)
@@ -156,9 +156,9 @@ def _worst(points: tuple[Point, ...]) -> list[str]:
         ("by the sum over summits", [point.difference for point in some]),
         ("by one field", [point.apart_by_field for point in some]),
     ):
-        if known := [100 * each for each in off if not math.isnan(each)]:
-            rms = math.sqrt(sum(each**2 for each in known) / len(known))
-            worst = max(map(abs, known))
+        if percents := [100 * difference for difference in off if not math.isnan(difference)]:
+            rms = math.sqrt(sum(difference**2 for difference in percents) / len(percents))
+            worst = max(map(abs, percents))
             out.append(f"{words}, F* above 1e-4: off by {worst:.1f} % at most, RMS {rms:.1f} %")
     return out
 
@@ -254,13 +254,15 @@ def _cell(state: dict[str, Any]) -> str:
     assert model is not None
     bold = "**{}**" if state["off"] else "{}"
     if least is not None and most is not None:
-        told = f"{model:.1f}"
-        return f"{_bounds_text(least, most)}, " + bold.format(told) + _field(state, 1)
+        model_text = f"{model:.1f}"
+        return f"{_bounds_text(least, most)}, " + bold.format(model_text) + _field(state, 1)
     assert ours is not None
     decimals = 0 if not error else min(max(0, 1 - math.floor(math.log10(error))), 3)
     spread = f" ± {error:.{decimals}f}" if error else ""
-    told = f"{model:.{max(decimals, 1)}f}"
-    return f"{ours:.{decimals}f}{spread}, " + bold.format(told) + _field(state, max(decimals, 1))
+    model_text = f"{model:.{max(decimals, 1)}f}"
+    return (
+        f"{ours:.{decimals}f}{spread}, " + bold.format(model_text) + _field(state, max(decimals, 1))
+    )
 
 
 def _field(state: dict[str, Any], decimals: int) -> str:
@@ -315,7 +317,7 @@ def figure(points: tuple[Point, ...]) -> Figure:
             ax.plot(load, field, marker="x", markersize=4, linestyle=":", linewidth=0.8, color=ink)
             for point in mine:  # a bar from bound to bound has no mark
                 if point.case.words == words and point.has_bounds_only and point.bounds[0] > 0:
-                    ends = [point.statistical / each for each in point.bounds]
+                    ends = [point.statistical / limit for limit in point.bounds]
                     ax.plot([point.F_star * beside] * 2, ends, color=ink, marker="_", linewidth=1.0)
         ax.set_title(fill(title, 48), fontsize="small", loc="left")
         loads = sorted({point.F_star for point in mine})
@@ -345,7 +347,7 @@ def _explicit(point: Point) -> str:
     """The share, corrected for the random surfaces drawn, or its bounds."""
     if not point.has_bounds_only:
         return _share(point.share)
-    return _bounds_text(*(100 * each for each in point.bounds)) + " %"
+    return _bounds_text(*(100 * limit for limit in point.bounds)) + " %"
 
 
 def _page(summary: Summary, figures: str) -> str:

@@ -61,7 +61,7 @@ add_measures(
 add_measures(
     partial(
         material_measure,
-        lambda found: max(np.concatenate(found), key=lambda ratio: abs(ratio - 1)),
+        lambda ratios: max(np.concatenate(ratios), key=lambda ratio: abs(ratio - 1)),
     ),
     material_area_ratio=lambda silica, steel, loads=RANGE: (steel.A_t / silica.A_t)[
         is_inside(silica, loads)
@@ -118,8 +118,8 @@ def _areas(
     curves: Curves, material: str, sigma: list[float], x_a: list[float], load: float
 ) -> list[float]:
     """Areas at a load of every roughness and, one after the other, every size."""
-    found = [curves(material, s, x) for s, x in product(sigma, x_a)]
-    return [curve.value_at(load, curve.A_t) for curve in found]
+    pair_curves = [curves(material, s, x) for s, x in product(sigma, x_a)]
+    return [curve.value_at(load, curve.A_t) for curve in pair_curves]
 
 
 @measure

@@ -99,9 +99,9 @@ def _over_load(
     for x_a in sizes:
         for material in materials if x_a else ("",):
             curve = curves(material, sigma, x_a)
-            part = (curve.F >= RANGE[0]) & (curve.F <= RANGE[1] * (1 + 1e-9))
-            ys = tuple(ordinate(curve)[part] for ordinate in ordinates)
-            out.append(Line(material, sigma, x_a, curve.F[part], ys, by=x_a))
+            in_range = (curve.F >= RANGE[0]) & (curve.F <= RANGE[1] * (1 + 1e-9))
+            ys = tuple(ordinate(curve)[in_range] for ordinate in ordinates)
+            out.append(Line(material, sigma, x_a, curve.F[in_range], ys, by=x_a))
     return out
 
 
@@ -393,11 +393,11 @@ def table(panel: Panel) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     columns = panel.columns
-    known = [name for name in ("sigma_nm", "x_a_nm") if name not in columns]
-    writer.writerow(["material", *known, *columns])
+    line_names = [name for name in ("sigma_nm", "x_a_nm") if name not in columns]
+    writer.writerow(["material", *line_names, *columns])
     for line in panel.lines:
         value = {"sigma_nm": line.sigma, "x_a_nm": line.x_a}
-        about = [line.material or "none", *(f"{value[name]:g}" for name in known)]
+        about = [line.material or "none", *(f"{value[name]:g}" for name in line_names)]
         for row in zip(line.x, *line.ys, strict=True):
             writer.writerow([*about, *("" if np.isnan(v) else f"{v:.8g}" for v in row)])
     return out.getvalue()

@@ -76,8 +76,8 @@ def turning_point_confined(
     peak: float,
 ) -> Measurement:
     def turns(x_a: float) -> bool:
-        found = interior_peak_of(curves(material, sigma, x_a), turns=True)
-        return found is not None and found[1] > peak
+        load_and_height = interior_peak_of(curves(material, sigma, x_a), turns=True)
+        return load_and_height is not None and load_and_height[1] > peak
 
     wrong = [x for x in without if turns(x)] + [x for x in with_peak if not turns(x)]
     note = f"not so: {', '.join(f'{x:g} nm' for x in wrong)}" if wrong else ""
@@ -129,10 +129,10 @@ def _silica_over_steel(
     load: Load, why: str, curves: Curves, *pairs: tuple[float, float]
 ) -> Measurement:
     """Loads of silica over those of steel, for each pair of σ and x_a."""
-    found = [[load(curves(m, *pair)) for m in (SILICA, STEEL)] for pair in pairs]
-    if not all(math.isfinite(each) for pair in found for each in pair):
+    load_pairs = [[load(curves(m, *pair)) for m in (SILICA, STEEL)] for pair in pairs]
+    if not all(math.isfinite(value) for pair in load_pairs for value in pair):
         return Measurement.absent(why)
-    return Measurement.from_values(*(silica / steel for silica, steel in found))
+    return Measurement.from_values(*(silica / steel for silica, steel in load_pairs))
 
 
 MEASURES |= {

@@ -60,10 +60,10 @@ def is_inside(curve: Curve, loads: Sequence[float] = RANGE) -> NDArray[np.bool_]
 
 def slope(curve: Curve, values: Array, loads: Sequence[float]) -> float:
     """Least-squares slope of ln(values) over ln F*."""
-    part = is_inside(curve, loads) & (values > 0)
-    if part.sum() < 2:
+    inside = is_inside(curve, loads) & (values > 0)
+    if inside.sum() < 2:
         return math.nan
-    return float(np.polyfit(np.log(curve.F[part]), np.log(values[part]), 1)[0])
+    return float(np.polyfit(np.log(curve.F[inside]), np.log(values[inside]), 1)[0])
 
 
 def critical_load_1(curve: Curve) -> float:
@@ -89,8 +89,8 @@ def critical_load_2(curve: Curve) -> float:
 
 def _crossing(F: Array, share: Array, i: int, threshold: float) -> float:
     """Load between grid points i and i + 1 at which the share passes the threshold."""
-    part = (threshold - share[i]) / (share[i + 1] - share[i])
-    return float(F[i] * (F[i + 1] / F[i]) ** part)
+    fraction = (threshold - share[i]) / (share[i + 1] - share[i])
+    return float(F[i] * (F[i + 1] / F[i]) ** fraction)
 
 
 def interior_peak_of(curve: Curve, *, turns: bool) -> tuple[float, float] | None:
@@ -99,8 +99,8 @@ def interior_peak_of(curve: Curve, *, turns: bool) -> tuple[float, float] | None
     With ``turns`` the share must fall below a stated part of its maximum on both sides, as in
     `thirdbody.transitions`; without, any maximum counts that is not at an end.
     """
-    part = is_inside(curve)
-    F, share = curve.F[part], curve.particle_share[part]
+    inside = is_inside(curve)
+    F, share = curve.F[inside], curve.particle_share[inside]
     top = int(np.argmax(share))
     limit = data_of(PAPER)["definitions"]["turn_share"] if turns else 1 - 1e-6
     if not max(share[: top + 1].min(), share[top:].min()) < limit * share[top]:
@@ -124,9 +124,9 @@ def ratios(values: Iterable[float]) -> list[float]:
     """Each value over the one before; NaN where either is missing or both are out of range."""
     out = []
     for before, after in pairwise(values):
-        known = not (math.isnan(before) or math.isnan(after))
-        out.append(after / before if known and not math.isinf(before) else math.nan)
-        if known and math.isinf(before) and math.isfinite(after):
+        both = not (math.isnan(before) or math.isnan(after))
+        out.append(after / before if both and not math.isinf(before) else math.nan)
+        if both and math.isinf(before) and math.isfinite(after):
             out[-1] = 0.0
     return out
 
@@ -153,9 +153,11 @@ def ends(values: ArrayLike) -> tuple[float, float]:
     return float(np.min(values)), float(np.max(values))
 
 
-def _measurement(found: Any) -> Measurement:
+def _measurement(numbers: Any) -> Measurement:
     """Measurement of these numbers; one that is known to be absent stays so."""
-    return found if isinstance(found, Measurement) else Measurement.from_values(*np.ravel(found))
+    return (
+        numbers if isinstance(numbers, Measurement) else Measurement.from_values(*np.ravel(numbers))
+    )
 
 
 def add_measures(family: Callable[..., Measurement], **values: Value) -> None:

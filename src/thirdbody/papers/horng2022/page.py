@@ -205,7 +205,7 @@ def _errata() -> str:
     rows = [
         [
             f"<td class=n>{one.erratum}</td>",
-            *(symbols(part) for part in (one.where, one.printed, one.used, one.why, one.applied)),
+            *(symbols(text) for text in (one.where, one.printed, one.used, one.why, one.applied)),
         ]
         for one in errata()
     ]

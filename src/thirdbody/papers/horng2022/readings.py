@@ -294,14 +294,14 @@ class Curves:
 
     def __init__(self, reading: Reading):
         self.reading = reading
-        self._known: dict[tuple[object, ...], Curve] = {}
+        self._kept: dict[tuple[object, ...], Curve] = {}
 
     def __call__(self, material: str, sigma: float, x_a: float) -> Curve:
         """The curve for a particle material, σ and x_a in nm, at `LOADS`."""
         key = (material if x_a else "", sigma, x_a)
-        if key not in self._known:
-            self._known[key] = self.curve_under(LOADS, material, sigma, x_a)
-        return self._known[key]
+        if key not in self._kept:
+            self._kept[key] = self.curve_under(LOADS, material, sigma, x_a)
+        return self._kept[key]
 
     def two_body(self, sigma: float) -> Curve:
         """The curve without particles."""
@@ -310,9 +310,9 @@ class Curves:
     def state_at(self, load: float, material: str, sigma: float, x_a: float) -> Curve:
         """The single state under one load, kept."""
         key = (material if x_a else "", sigma, x_a, load)
-        if key not in self._known:
-            self._known[key] = self.curve_under(np.array([load]), material, sigma, x_a)
-        return self._known[key]
+        if key not in self._kept:
+            self._kept[key] = self.curve_under(np.array([load]), material, sigma, x_a)
+        return self._kept[key]
 
     def curve_under(self, loads: Array, material: str, sigma: float, x_a: float) -> Curve:
         """The curve at other loads, not kept."""

@@ -25,9 +25,9 @@ class Ledger:
 
     def changed_by_booking(self, name: str) -> tuple[list[str], list[str]]:
         """Claims gained and lost when the particle area is booked as in the paper."""
-        own, booked = self.verdicts[name], self.paper_booking[name]
-        gained = [key for key in own if booked[key].passed and not own[key].passed]
-        lost = [key for key in own if own[key].passed and not booked[key].passed]
+        verdicts, booked = self.verdicts[name], self.paper_booking[name]
+        gained = [key for key in verdicts if booked[key].passed and not verdicts[key].passed]
+        lost = [key for key in verdicts if verdicts[key].passed and not booked[key].passed]
         return gained, lost
 
     def can_meet_both(self, one: str, other: str) -> bool:

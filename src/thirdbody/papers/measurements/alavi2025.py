@@ -62,8 +62,8 @@ def _change() -> Band:
     )
     others = []
     for laws in OTHERS:
-        found = [friction(density, tau, laws) for density in DENSITIES for tau in SHEARED]
-        one = Band.from_values([heavy / light for light, heavy in found])
+        pairs = [friction(density, tau, laws) for density in DENSITIES for tau in SHEARED]
+        one = Band.from_values([heavy / light for light, heavy in pairs])
         others.append(f'deep = "{laws[0]}" with {laws[1]}: {one.text}')
     return Band.from_values(list(ratios.values()), "; ".join([words, *others]))
 

@@ -38,15 +38,15 @@ def pressure(depth: float, deep: Deep) -> tuple[float, ...]:
     >>> round(pressure(0.5, "off")[0], 2)
     2.84
     """
-    found = []
+    pressures = []
     for m in FRICTIONS:
         law = tb.particle.Series(deep=deep, friction_factor=m)
         for E in MODULI:
             soft = tb.Material(E=E, nu=0.33, H=HARDNESS)
             one = law.one(surfaces=tb.MaterialPair(soft, soft), particle=GRAIN)
             squeezed = one.at(np.array([depth]))
-            found.append(float(squeezed.load[0] / squeezed.areas[0][0] / HARDNESS * FULL))
-    return tuple(found)
+            pressures.append(float(squeezed.load[0] / squeezed.areas[0][0] / HARDNESS * FULL))
+    return tuple(pressures)
 
 
 def _rise(deep: Deep) -> Band:
@@ -55,8 +55,8 @@ def _rise(deep: Deep) -> Band:
 
 
 def _band() -> Band:
-    found = _rise("table")
-    return Band(found.low, found.best, found.high, f'deep = "off": {_rise("off").text}')
+    band = _rise("table")
+    return Band(band.low, band.best, band.high, f'deep = "off": {_rise("off").text}')
 
 
 def _limit() -> Band:

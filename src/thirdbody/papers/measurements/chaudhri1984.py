@@ -56,7 +56,7 @@ def pressure(name: str, H: float, E: float) -> tuple[Array, Array]:
 
 
 def _over_materials(name: str, what: str) -> list[float]:
-    found = []
+    values = []
     for H in HARD:
         for E in STIFF:
             wide, hard = pressure(name, H, E)
@@ -67,8 +67,8 @@ def _over_materials(name: str, what: str) -> list[float]:
                 # from the maximum, or from where it was measured, to half the radius
                 "fall": np.interp(0.5, wide, hard) / np.interp(0.28, wide, hard),
             }[what]
-            found.append(float(value))
-    return found
+            values.append(float(value))
+    return values
 
 
 def _band(what: str) -> Band:

@@ -57,14 +57,14 @@ def area(load: Array, breadth: float = BREADTH) -> Array:
 
 
 def _band_at(load: float) -> Band:
-    found = float(area(np.array([load]))[0]) / COMPUTED_AREA[load]
+    ratio = float(area(np.array([load]))[0]) / COMPUTED_AREA[load]
     other = float(persson_area(load, E_star=1.0, g=1.0)) / COMPUTED_AREA[load]
-    return Band(found, found, found, f"Persson: {other:.2f}")
+    return Band(ratio, ratio, ratio, f"Persson: {other:.2f}")
 
 
 def _panel() -> Panel:
     load = np.geomspace(0.003, 0.15, 40)
-    known = np.array(list(COMPUTED_AREA))
+    loads = np.array(list(COMPUTED_AREA))
     return Panel(
         "area",
         "elastic real area of one rough surface",
@@ -72,7 +72,7 @@ def _panel() -> Panel:
         "real area $A/A_n$",
         ("p_over_Eg", "A"),
         (
-            Line("boundary elements", known, np.array(list(COMPUTED_AREA.values())), colour=-1),
+            Line("boundary elements", loads, np.array(list(COMPUTED_AREA.values())), colour=-1),
             Line("asperities (model)", load, area(load)),
             Line("Persson", load, persson_area(load, E_star=1.0, g=1.0), colour=1, dash=1),
         ),
@@ -88,13 +88,13 @@ ROW = row_of(
     statements=tuple(
         statement(
             f"area-{load:g}",
-            f"At p/(E* g) = {load:g} the real area is {known:g} of the nominal one",
+            f"At p/(E* g) = {load:g} the real area is {computed_area:g} of the nominal one",
             COMPUTED,
             "model over boundary elements",
             {"kind": "relative", "value": 1.0, "of": 0.2},
             lambda load=load: _band_at(load),  # type: ignore[misc]
             remark="Within 20 %, chosen before",
         )
-        for load, known in COMPUTED_AREA.items()
+        for load, computed_area in COMPUTED_AREA.items()
     ),
 )

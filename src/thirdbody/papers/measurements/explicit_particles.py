@@ -22,17 +22,17 @@ def _runs() -> dict[float, dict[float, tuple[float, float]]]:
     """Share and its error by diameter and F*, the luck of sampling removed where it can be."""
     out: dict[float, dict[float, tuple[float, float]]] = {}
     for point in explicit_particles()["points"]:
-        found = point["control_variate"] or point["raw"]
+        stored = point["control_variate"] or point["raw"]
         out.setdefault(point["diameter"], {})[point["F_star"]] = (
-            found["load_share"],
-            found["load_share_error"],
+            stored["load_share"],
+            stored["load_share_error"],
         )
     return out
 
 
 def _share(diameter: float) -> Band:
-    found = float(tb.solve(contact(diameter), F_star=LEVEL).particle_load_share)
-    return Band(found, found, found)
+    share = float(tb.solve(contact(diameter), F_star=LEVEL).particle_load_share)
+    return Band(share, share, share)
 
 
 def _panel() -> Panel:
@@ -42,9 +42,15 @@ def _panel() -> Panel:
         share = np.asarray(tb.solve(contact(diameter), F_star=loads).particle_load_share)
         words = f"$x/σ$ = {diameter / 300e-9:.2g}"
         lines.append(Line(f"{words}, model", loads, share, colour=i))
-        known = np.array(sorted(runs))
+        run_loads = np.array(sorted(runs))
         lines.append(
-            Line(f"{words}, explicit", known, np.array([runs[each][0] for each in known]), i, 1)
+            Line(
+                f"{words}, explicit",
+                run_loads,
+                np.array([runs[load][0] for load in run_loads]),
+                i,
+                1,
+            )
         )
     return Panel(
         "explicit",

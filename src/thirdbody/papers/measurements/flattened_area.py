@@ -36,7 +36,7 @@ def over_truncation(squash: float, deep: Deep) -> tuple[float, ...]:
     >>> round(over_truncation(0.3, "off")[0], 2)
     1.68
     """
-    found = []
+    ratios = []
     for m in FRICTIONS:
         law = tb.particle.Series(deep=deep, friction_factor=m)
         for H in HARD:
@@ -45,8 +45,8 @@ def over_truncation(squash: float, deep: Deep) -> tuple[float, ...]:
                 one = law.one(surfaces=tb.MaterialPair(PLATEN, PLATEN), particle=sphere)
                 # almost all of the squeeze is the sphere's: 1e-4 is the platens'
                 area = one.at(np.array([squash])).areas[0][0] / (np.pi / 4)
-                found.append(float(area / (squash * (2 - squash))))
-    return tuple(found)
+                ratios.append(float(area / (squash * (2 - squash))))
+    return tuple(ratios)
 
 
 def _band(squash: float) -> Band:

@@ -26,17 +26,17 @@ def _band_of(what: str) -> Band:
     ]
 
     def values(law: tb.asperity.AbstractAsperityLaw) -> list[float]:
-        found: list[float] = []
+        numbers: list[float] = []
         for sphere in spheres:
             area = law.area(DEPTHS, **sphere)
             hard = law.force(DEPTHS, **sphere) / area / sphere["H"]
             cut_off = np.pi * DEPTHS * (2 - DEPTHS)
-            found += {
+            numbers += {
                 "pressure": hard,
                 "constant": hard[-1:] / hard[0],
                 "area": area / cut_off,
             }[what].tolist()
-        return found
+        return numbers
 
     other = Band.from_values(values(tb.asperity.JG(nu=0.3)))
     return Band.from_values(values(default), f"Jackson–Green: {other.text}")

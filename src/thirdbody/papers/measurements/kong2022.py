@@ -27,8 +27,8 @@ def share(ratio: float) -> list[float]:
     out = []
     for height in HEIGHTS:
         dusty = contact(300e-9 * height / ratio)
-        found = tb.solve(dusty, F_star=np.array(LEVELS)).particle_load_share
-        out += np.asarray(found).tolist()
+        shares = tb.solve(dusty, F_star=np.array(LEVELS)).particle_load_share
+        out += np.asarray(shares).tolist()
     return out
 
 

@@ -26,10 +26,10 @@ def most(breadth: float) -> float:
     """
     bare = contact(300e-9).replace(particles=None, outputs=(tb.outputs.Counts(),))
     bare = bare.replace(roughness=bare.roughness.replace(alpha=breadth))
-    found = tb.solve(bare, pressure=LOADS * bare.surfaces.first.H).outputs["n_ss"]
-    return float(LOADS[int(np.argmax(found))])
+    spots = tb.solve(bare, pressure=LOADS * bare.surfaces.first.H).outputs["n_ss"]
+    return float(LOADS[int(np.argmax(spots))])
 
 
 ROW = row_of(
-    "ocallaghan1970", {"spots": lambda: Band.from_values([most(each) for each in BREADTHS])}
+    "ocallaghan1970", {"spots": lambda: Band.from_values([most(breadth) for breadth in BREADTHS])}
 )

@@ -54,8 +54,8 @@ class Summary(engine.Summary):
                 for row in self.rows
                 if row.computed == computed
             ]
-            found = ", ".join(f"{count} {word}" for word, count in count_words(words).items())
-            parts.append(f"{len(words)} {kind}: {found}")
+            counts = ", ".join(f"{count} {word}" for word, count in count_words(words).items())
+            parts.append(f"{len(words)} {kind}: {counts}")
         return "; ".join(parts)
 
     def findings(self) -> list[str]:
@@ -119,15 +119,15 @@ def reproduce(
     return engine.reproduce("measurements", partial(find, Summary, rows()), out, progress=progress)
 
 
-def find(kind: type[Summary], known: tuple[Row, ...], folder: Path, report: Progress) -> Summary:
+def find(kind: type[Summary], rows: tuple[Row, ...], folder: Path, report: Progress) -> Summary:
     """Judge rows, the lost ones first."""
     ledger: dict[str, dict[str, Verdict]] = {}
-    for done, row in enumerate(known):
-        report("measurements", done, len(known))
+    for done, row in enumerate(rows):
+        report("measurements", done, len(rows))
         with ignore_ranges():
             ledger[row.name] = row.judge()
-    report("measurements", len(known), len(known))
-    shown = tuple(sorted(known, key=lambda row: WORDS.index(word_of(ledger[row.name]))))
+    report("measurements", len(rows), len(rows))
+    shown = tuple(sorted(rows, key=lambda row: WORDS.index(word_of(ledger[row.name]))))
     return kind(out=folder, rows=shown, ledger=ledger)
 
 

@@ -38,8 +38,8 @@ def embeds_from(squeeze: float, friction: float) -> float:
 
 
 def _band() -> Band:
-    found = [embeds_from(squeeze, m) for squeeze in SQUEEZES for m in FRICTIONS]
-    return Band.from_values(found, 'deep = "off": 1')
+    thresholds = [embeds_from(squeeze, m) for squeeze in SQUEEZES for m in FRICTIONS]
+    return Band.from_values(thresholds, 'deep = "off": 1')
 
 
 ROW = row_of("pintaude2010", {"ratio": _band})

@@ -70,8 +70,8 @@ class Band:
         """From predictions over the corners of the inputs; the middle one is the number."""
         import numpy as np
 
-        found = np.sort(np.ravel(np.asarray(values, dtype=float)).round(12))
-        return cls(float(found[0]), float(found[len(found) // 2]), float(found[-1]), note)
+        numbers = np.sort(np.ravel(np.asarray(values, dtype=float)).round(12))
+        return cls(float(numbers[0]), float(numbers[len(numbers) // 2]), float(numbers[-1]), note)
 
     @property
     def text(self) -> str:

@@ -34,8 +34,8 @@ def exponents() -> list[float]:
                 outputs=(tb.outputs.ThermalConductance(),),
             )
             pressure = np.geomspace(1e5, 1e7, 5)
-            found = np.log(tb.solve(contact, pressure=pressure).outputs["hc"])
-            out += (np.diff(found) / np.diff(np.log(pressure))).tolist()
+            log_hc = np.log(tb.solve(contact, pressure=pressure).outputs["hc"])
+            out += (np.diff(log_hc) / np.diff(np.log(pressure))).tolist()
     return out
 
 

@@ -59,29 +59,32 @@ def wear_columns(pressure: float, coefficients: tuple[float, float, float]) -> d
     )
     states = [
         tb.solve(
-            contact.replace(particles=contact.populations[0].replace(areal_density=float(each))),
+            contact.replace(particles=contact.populations[0].replace(areal_density=float(density))),
             pressure=pressure,
         )
-        for each in DENSITIES
+        for density in DENSITIES
     ]
     return {
-        "wear": np.array([each.outputs["wear"] for each in states], dtype=float),
-        "rolling": np.array([each.outputs["rolling_share"] for each in states], dtype=float),
-        "share": np.array([each.particle_load_share for each in states], dtype=float),
+        "wear": np.array([state.outputs["wear"] for state in states], dtype=float),
+        "rolling": np.array([state.outputs["rolling_share"] for state in states], dtype=float),
+        "share": np.array([state.particle_load_share for state in states], dtype=float),
     }
 
 
 def _all_columns() -> list[dict[str, Array]]:
-    return [wear_columns(p, given) for p in PRESSURES for given in COEFFICIENTS]
+    return [wear_columns(p, coefficients) for p in PRESSURES for coefficients in COEFFICIENTS]
 
 
 def _maximum() -> Band:
     """Largest wear over that at the nearer end of the densities."""
-    found = [max(each["wear"]) / max(each["wear"][0], each["wear"][-1]) for each in _all_columns()]
-    place = [DENSITIES[int(np.argmax(each["wear"]))] for each in _all_columns()]
-    share = [each["share"][int(np.argmax(each["wear"]))] for each in _all_columns()]
+    peaks = [
+        max(columns["wear"]) / max(columns["wear"][0], columns["wear"][-1])
+        for columns in _all_columns()
+    ]
+    place = [DENSITIES[int(np.argmax(columns["wear"]))] for columns in _all_columns()]
+    share = [columns["share"][int(np.argmax(columns["wear"]))] for columns in _all_columns()]
     return Band.from_values(
-        found,
+        peaks,
         f"at {min(place):.1e} to {max(place):.1e} particles per m², where particles carry "
         f"{min(share):.2f} to {max(share):.2f} of the load",
     )
@@ -89,7 +92,9 @@ def _maximum() -> Band:
 
 def _rolling() -> Band:
     """Rolling share at the most particles, less that at the fewest."""
-    return Band.from_values([each["rolling"][-1] - each["rolling"][0] for each in _all_columns()])
+    return Band.from_values(
+        [columns["rolling"][-1] - columns["rolling"][0] for columns in _all_columns()]
+    )
 
 
 def turning(pressure: float, coefficients: tuple[float, float, float]) -> tuple[float, float]:
@@ -113,37 +118,38 @@ def turning(pressure: float, coefficients: tuple[float, float, float]) -> tuple[
     from scipy.interpolate import PchipInterpolator
     from scipy.optimize import brentq
 
-    found, places = wear_columns(pressure, coefficients), np.log(DENSITIES)
-    rolling = PchipInterpolator(places, found["rolling"])
-    first = int(np.argmax(found["rolling"] > 0.1))
+    columns, places = wear_columns(pressure, coefficients), np.log(DENSITIES)
+    rolling = PchipInterpolator(places, columns["rolling"])
+    first = int(np.argmax(columns["rolling"] > 0.1))
     at = brentq(lambda x: float(rolling(x)) - 0.1, places[first - 1], places[first])
-    return float(np.exp(at)), float(PchipInterpolator(places, found["share"])(at))
+    return float(np.exp(at)), float(PchipInterpolator(places, columns["share"])(at))
 
 
 def _line() -> Band:
     """Load over density where a tenth rolls: at the highest pressure over the lowest."""
     ratios, particles = [], []
-    for given in COEFFICIENTS:
-        (one, share), (other, most) = (turning(pressure, given) for pressure in PRESSURES)
+    for coefficients in COEFFICIENTS:
+        (one, share), (other, most) = (turning(pressure, coefficients) for pressure in PRESSURES)
         ratios.append(PRESSURES[1] / other / (PRESSURES[0] / one))
         particles.append(ratios[-1] * most / share)
-    told = Band.from_values(particles).text
+    range_text = Band.from_values(particles).text
     return Band.from_values(
-        ratios, f"{told} of the load that is on particles; asperities carry the rest"
+        ratios, f"{range_text} of the load that is on particles; asperities carry the rest"
     )
 
 
 def _panel() -> Panel:
     lines = [
         Line(
-            f"{pressure / 1e6:g} MPa, $f_{{ab}}$ = {given[0]:g}, $K_{{ss}}$ = {number(given[2])}",
+            f"{pressure / 1e6:g} MPa, $f_{{ab}}$ = {coefficients[0]:g}, "
+            f"$K_{{ss}}$ = {number(coefficients[2])}",
             DENSITIES,
-            wear_columns(pressure, given)["wear"],
+            wear_columns(pressure, coefficients)["wear"],
             colour=i,
             dash=j,
         )
         for j, pressure in enumerate(PRESSURES)
-        for i, given in enumerate(COEFFICIENTS)
+        for i, coefficients in enumerate(COEFFICIENTS)
     ]
     return Panel(
         "wear",

@@ -68,8 +68,8 @@ def closing(number: float, spread: float = 1.0, deep: Deep = "table") -> Contact
 
 @cache
 def _curve(number: float, spread: float, deep: Deep = "table") -> Array:
-    found = closing(number, spread, deep)
-    out: Array = found.probability(LOADS * found.threshold)
+    dust = closing(number, spread, deep)
+    out: Array = dust.probability(LOADS * dust.threshold)
     return out
 
 
@@ -83,15 +83,15 @@ def _sharpest() -> Band:
 
 
 def _sharpest_areas(deep: Deep) -> list[float]:
-    found = []
+    areas = []
     for spread in SPREADS:
         for number in NUMBERS:
             steps = np.diff(_curve(number, spread, deep))
             most = int(np.argmax(steps))
             dust = closing(number, spread, deep)
             load = float(np.sqrt(LOADS[most] * LOADS[most + 1])) * dust.threshold
-            found.append(load / STEEL.H / (np.pi * SIZE**2 / 4))
-    return found
+            areas.append(load / STEEL.H / (np.pi * SIZE**2 / 4))
+    return areas
 
 
 def share(level: float, ratio: Array, laws: tuple[Deep, str] = ("table", "zmc")) -> Array:
@@ -131,12 +131,12 @@ def _roughness() -> Band:
 
 def _steepest(laws: tuple[Deep, str]) -> list[float]:
     ratio = np.geomspace(0.3, 6.0, 61)
-    found = []
+    ratios = []
     for level in LEVELS:
         fall = np.diff(share(level, ratio, laws))
         most = int(np.argmax(fall))
-        found.append(1 / float(np.sqrt(ratio[most] * ratio[most + 1])))
-    return found
+        ratios.append(1 / float(np.sqrt(ratio[most] * ratio[most + 1])))
+    return ratios
 
 
 def _panel() -> Panel:

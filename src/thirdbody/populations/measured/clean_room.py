@@ -56,15 +56,15 @@ def read_class(value: object) -> float:
     (7.0, 5.0)
     """
     try:
-        found = float(str(value).upper().removeprefix("ISO").strip())
+        number = float(str(value).upper().removeprefix("ISO").strip())
     except ValueError:
-        found = math.nan
-    if isinstance(value, bool) or not 0 < found <= 9:
+        number = math.nan
+    if isinstance(value, bool) or not 0 < number <= 9:
         raise InvalidValue(
             f"{say(value)} is no class of ISO 14644-1, which go up to 9, e.g. 7",
             code=Mistake.OPTION,
         )
-    return found
+    return number
 
 
 def airborne(x: ArrayLike, *, iso_class: float) -> Array:

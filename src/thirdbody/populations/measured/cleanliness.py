@@ -186,8 +186,8 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
         raise InvalidValue(
             f'{shown} must be three numbers in quotes, e.g. "18/16/13"', code=Mistake.SHAPE
         )
-    parts = [part.strip() for part in re.sub(r"^\s*ISO(\s*4406)?[\s:]*", "", code).split("/")]
-    if len(parts) == 2 and all(re.fullmatch(r"\d{1,2}", part) for part in parts):
+    parts = [text.strip() for text in re.sub(r"^\s*ISO(\s*4406)?[\s:]*", "", code).split("/")]
+    if len(parts) == 2 and all(re.fullmatch(r"\d{1,2}", text) for text in parts):
         raise InvalidValue(
             f"{shown} has two numbers; they count from 6 and 14 µm(c), so write "
             f'"-/{parts[0]}/{parts[1]}"',
@@ -200,27 +200,27 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
             code=Mistake.SHAPE,
         )
     numbers: list[int | None] = []
-    for place, (part, size) in enumerate(zip(parts, (4, 6, 14), strict=True)):
-        if part in "-–—" and part and place == 0:
+    for place, (text, size) in enumerate(zip(parts, (4, 6, 14), strict=True)):
+        if text in "-–—" and text and place == 0:
             numbers.append(None)
             continue
-        if not re.fullmatch(r"\d{1,3}", part):
+        if not re.fullmatch(r"\d{1,3}", text):
             cause = "a whole number is needed"
-            if part.startswith((">", "≥")):
+            if text.startswith((">", "≥")):
                 cause = (
                     "it is only a lower bound (few particles were counted, or too many); write "
                     "the number you take for it"
                 )
-            elif part == "*":
+            elif text == "*":
                 cause = "there were too many to count; write the number you take for it"
             raise InvalidValue(
-                f"{shown} has {say(part)} at {size} µm(c): {cause}", code=Mistake.FORM
+                f"{shown} has {say(text)} at {size} µm(c): {cause}", code=Mistake.FORM
             )
-        if int(part) > most:
+        if int(text) > most:
             raise InvalidValue(
-                f"{shown} has {part} at {size} µm(c); the scale ends at {most}", code=Mistake.BEYOND
+                f"{shown} has {text} at {size} µm(c); the scale ends at {most}", code=Mistake.BEYOND
             )
-        numbers.append(int(part))
+        numbers.append(int(text))
     counted = [number for number in numbers if number is not None]
     if any(later > earlier for earlier, later in zip(counted, counted[1:], strict=False)):
         raise InvalidValue(
@@ -294,8 +294,8 @@ def suspension_of_iso4406(
     if above[0] == 0:
         # no particles, in the sizes of the middle of the range
         return 0.0, suspension_of_iso4406(code, smallest=smallest, largest=largest)[1]
-    found = _falling(sizes, above, smallest, largest)
-    return sum(found.counts), found
+    distribution = _falling(sizes, above, smallest, largest)
+    return sum(distribution.counts), distribution
 
 
 def _count_in_range(most: list[float], number: int, level: Level) -> float:
@@ -328,8 +328,8 @@ def iso4406_of(*, density: float, diameter: Distribution) -> str:
 
     Examples
     --------
-    >>> from thirdbody import Monodisperse
-    >>> iso4406_of(density=300e6, diameter=Monodisperse(mean=5e-6))
+    >>> from thirdbody import distributions
+    >>> iso4406_of(density=300e6, diameter=distributions.Monodisperse(mean=5e-6))
     '15/0/0'
     """
     scale = _table("cleanliness")["iso4406"]
@@ -395,7 +395,7 @@ def iso4406_range(number: int) -> tuple[float, float]:
     '1300 to 2500 per mL'
     """
     scale = _table("cleanliness")["iso4406"]
-    most = [each / scale["volume"] for each in scale["most"]]
+    most = [count / scale["volume"] for count in scale["most"]]
     return (most[number - 1] if number else 0.0), most[number]
 
 
@@ -455,8 +455,8 @@ def suspension_of_class(
         above = [sum(above[i:]) for i in range(len(above))]
     filled = [i for i, count in enumerate(above) if count > 0]
     end = largest if len(filled) == len(sizes) else sizes[len(filled)]
-    found = _falling([sizes[i] for i in filled], [above[i] for i in filled], smallest, end)
-    return sum(found.counts), found
+    distribution = _falling([sizes[i] for i in filled], [above[i] for i in filled], smallest, end)
+    return sum(distribution.counts), distribution
 
 
 _TITLES = {"as4059": "SAE AS4059", "nas1638": "NAS 1638"}
@@ -516,8 +516,8 @@ def dust_table(name: str) -> dict[str, Any]:
     """
     dusts = _table("test_dust")
     if not isinstance(name, str) or name not in dusts:
-        known = ", ".join(f"{say(key)} ({dust['name']})" for key, dust in dusts.items())
-        raise InvalidValue(f"test dust {say(name)} must be one of {known}", code=Mistake.OPTION)
+        allowed = ", ".join(f"{say(key)} ({dust['name']})" for key, dust in dusts.items())
+        raise InvalidValue(f"test dust {say(name)} must be one of {allowed}", code=Mistake.OPTION)
     return dusts[name]
 
 

@@ -148,8 +148,9 @@ def particles_in(
 
     Examples
     --------
-    >>> from thirdbody import Monodisperse
-    >>> n = particles_in(concentration("0.1 wt%"), Monodisperse(mean=1e-6), particle_density=2650)
+    >>> from thirdbody import distributions
+    >>> sizes = distributions.Monodisperse(mean=1e-6)
+    >>> n = particles_in(concentration("0.1 wt%"), sizes, particle_density=2650)
     >>> f"{n:.4g}"
     '6.274e+14'
     """

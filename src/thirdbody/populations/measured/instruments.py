@@ -262,8 +262,8 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
             f'{name} does not state its unit; give it, e.g. unit = "um"', code=Mistake.UNIT
         )
     if unit is not None and name == type(made).__name__:
-        known = getattr(made, "physical_sizes", None) is not None
-        _told_already(name, unit, scale, steps if known else None)
+        has_size = getattr(made, "physical_sizes", None) is not None
+        _told_already(name, unit, scale, steps if has_size else None)
     try:
         factor = to_si(f"1 {unit}", "m") if unit is not None else float(scale or 1.0)
     except InvalidValue:
@@ -286,7 +286,7 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
                 float(factor * s / n) for s, n in zip(sizes, np.shape(heights), strict=True)
             )
     else:
-        x, z = (np.asarray(part, dtype=float) for part in made.positions_and_heights())
+        x, z = (np.asarray(column, dtype=float) for column in made.positions_and_heights())
         if len(x) < 2 or not np.all(np.diff(x) > 0):
             raise InvalidValue(
                 f"{name}: the positions of the profile do not increase", code=Mistake.ORDER
@@ -317,11 +317,11 @@ def _limit(made: Any, factor: float) -> tuple[float | None, str]:
             radius = _stated_radius(info.get("raw_metadata", {}))
         if radius is None:
             return None, ""
-        found = made.scanning_probe_reliability_cutoff(radius / factor)
-        told = f"by the tip radius of {value_of(radius, 'm')} that the file states"
-        if found is None:
-            return None, f"{told}, the tip follows the surface at every scale sampled"
-        return float(found) * factor, f"{told} and the curvature of the peaks"
+        cutoff = made.scanning_probe_reliability_cutoff(radius / factor)
+        reason = f"by the tip radius of {value_of(radius, 'm')} that the file states"
+        if cutoff is None:
+            return None, f"{reason}, the tip follows the surface at every scale sampled"
+        return float(cutoff) * factor, f"{reason} and the curvature of the peaks"
     except Exception:
         return None, "not known: what the file states of the instrument cannot be used"
 
@@ -332,7 +332,7 @@ def _stated_radius(metadata: object) -> float | None:
         return None
     for key, value in metadata.items():
         if re.search(r"stylus|tip|probe", str(key), re.IGNORECASE) and isinstance(value, str):
-            told = re.search(r"radius\W*([\d.]+)\s*(nm|um|µm|μm|mm)", value, re.IGNORECASE)
-            if told:
-                return to_si(f"{told[1]} {told[2].replace('μ', 'µ')}", "m")
+            match = re.search(r"radius\W*([\d.]+)\s*(nm|um|µm|μm|mm)", value, re.IGNORECASE)
+            if match:
+                return to_si(f"{match[1]} {match[2].replace('μ', 'µ')}", "m")
     return None

@@ -114,11 +114,14 @@ def by_number(
         case LogNormal() if smallest is None:
             return LogNormal(median=sizes.median * math.exp(-power * sizes.s**2), gsd=sizes.gsd)
         case Mixture():
-            parts = [by_number(part, weighting, smallest=smallest) for _, part in sizes.components]
+            parts = [
+                by_number(component, weighting, smallest=smallest)
+                for _, component in sizes.components
+            ]
             # the share of each part: what of its weight is above the cut, over its ⟨x^r⟩
             weights = [
-                weight * _above(part, smallest) / number.moment(power)
-                for (weight, part), number in zip(sizes.components, parts, strict=True)
+                weight * _above(component, smallest) / number.moment(power)
+                for (weight, component), number in zip(sizes.components, parts, strict=True)
             ]
             return Mixture(parts=tuple(parts), weights=tuple(w / max(weights) for w in weights))
     return _reweight(sizes, power, smallest, weighting)
@@ -246,12 +249,12 @@ class MeasuredSizes(Value):
         def misfit(p: Array) -> Array:
             return build(p).partial_moment(0, np.full_like(edges, -top), edges) - below
 
-        found = least_squares(misfit, start, x_scale=1.0, xtol=1e-12, ftol=1e-12, gtol=1e-12)
-        error = misfit(found.x)
+        solution = least_squares(misfit, start, x_scale=1.0, xtol=1e-12, ftol=1e-12, gtol=1e-12)
+        error = misfit(solution.x)
         spread = np.sum((below - below.mean()) ** 2)
         return Fit(
             kind=kind,
-            distribution=build(found.x),
+            distribution=build(solution.x),
             weighting=self.weighting,
             smallest=float(edges[edges > 0][0]),
             r_squared=float(1 - np.sum(error**2) / spread),
@@ -427,8 +430,8 @@ def _unit(path: object, line: int, names: list[str]) -> str:
     """The unit of the sizes, from the first line."""
     units = []
     for name in names[:-1]:
-        found = re.search(r"[\[(]\s*([^\])]+?)\s*[\])]", name)
-        if not found:
+        match = re.search(r"[\[(]\s*([^\])]+?)\s*[\])]", name)
+        if not match:
             cause = (
                 "; the first line must be names, not numbers"
                 if re.fullmatch(r"[\d.eE+-]+", name)
@@ -440,12 +443,12 @@ def _unit(path: object, line: int, names: list[str]) -> str:
                 code=Mistake.FORM,
             )
         try:
-            to_si(f"1 {found[1]}", "m")
+            to_si(f"1 {match[1]}", "m")
         except InvalidValue as error:
             raise InvalidValue(
                 f"{path}, line {line}, column {say(name)}: {error}", code=Mistake.FORM
             ) from None
-        units.append(found[1])
+        units.append(match[1])
     if len(set(units)) > 1:
         raise InvalidValue(
             f"{path}, line {line}: both sizes must have one unit, not {units}", code=Mistake.FORM

@@ -312,14 +312,14 @@ def count_summits(h: Array, spacing: tuple[float, ...], periodic: bool, cutoff: 
     middle = h[inner]
     curvature = -laplacian(h, spacing) / h.ndim
     highest = np.ones(middle.shape, dtype=bool)
-    known = np.ones(middle.shape, dtype=bool)
+    has_datum = np.ones(middle.shape, dtype=bool)
     for shift in np.ndindex(*(3,) * h.ndim):
         if shift != (1,) * h.ndim:
             neighbour = h[tuple(slice(s, n - 2 + s) for s, n in zip(shift, h.shape, strict=True))]
             highest &= middle > neighbour
-            known &= np.isfinite(neighbour)
-    known &= np.isfinite(middle)
-    area = known.sum() * math.prod(spacing)
+            has_datum &= np.isfinite(neighbour)
+    has_datum &= np.isfinite(middle)
+    area = has_datum.sum() * math.prod(spacing)
     return Summits(
         heights=middle[highest],
         curvatures=curvature[highest],

@@ -224,16 +224,16 @@ class Topography:
 
     def _state(self, cutoff: float) -> tuple[float, float, float, Summits, Array]:
         """m0, m2, m4, the summits, and the heights at a cut-off."""
-        known = self.__dict__.setdefault("_states", {})
-        if cutoff not in known:
+        states = self.__dict__.setdefault("_states", {})
+        if cutoff not in states:
             h = self.filtered(cutoff)
             inner = self._inner(h, cutoff)
-            found = differences(inner, self.spacing, self.periodic)
+            derivatives = differences(inner, self.spacing, self.periodic)
             share = (0.5, 0.375) if self.dim == 2 else (1.0, 1.0)
-            m2, m4 = share[0] * float(found.slopes.trace()), share[1] * found.second
+            m2, m4 = share[0] * float(derivatives.slopes.trace()), share[1] * derivatives.second
             summits = count_summits(inner, self.spacing, self.periodic, cutoff)
-            known[cutoff] = (float(np.nanvar(h)), m2, m4, summits, skewness_and_kurtosis(h))
-        return known[cutoff]
+            states[cutoff] = (float(np.nanvar(h)), m2, m4, summits, skewness_and_kurtosis(h))
+        return states[cutoff]
 
     def _inner(self, h: Array, cutoff: float) -> Array:
         """The part of a filtered surface that is half a cut-off away from its edges."""
@@ -406,9 +406,9 @@ class Topography:
         >>> len(from_topography("example").curve()["cutoff"])
         6
         """
-        known: dict[int, Curve] = self.__dict__.setdefault("_curves", {})
-        if points_per_octave in known:
-            return known[points_per_octave]
+        curves: dict[int, Curve] = self.__dict__.setdefault("_curves", {})
+        if points_per_octave in curves:
+            return curves[points_per_octave]
         if not (isinstance(points_per_octave, int) and 1 <= points_per_octave <= 100):
             raise InvalidValue(
                 Problem(
@@ -423,7 +423,7 @@ class Topography:
         cutoffs = low * 2.0 ** (np.arange(steps + 1) / points_per_octave)
         rows = [self.row(float(cutoff)) for cutoff in cutoffs]
         columns = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
-        return known.setdefault(points_per_octave, Curve(columns=columns))
+        return curves.setdefault(points_per_octave, Curve(columns=columns))
 
     @takes_units
     def row(self, cutoff: float) -> dict[str, float]:

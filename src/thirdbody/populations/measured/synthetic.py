@@ -147,8 +147,8 @@ def from_moments(
     if not 0 <= hurst <= 1:
         raise InvalidValue(f"hurst = {hurst!r} must be from 0 to 1", code=Mistake.RANGE)
     shape = _RolledOff(points, spacing, hurst)
-    found = _matching(shape, 2 * moments.m2 / moments.m0, moments.alpha)
-    if found is None:
+    parameters = _matching(shape, 2 * moments.m2 / moments.m0, moments.alpha)
+    if parameters is None:
         raise InvalidValue(
             f"no spectrum on {points} x {points} points {value_of(spacing, 'm')} apart has α = "
             f"{moments.alpha:.4g} and an RMS gradient of {moments.rms_gradient:.4g} with σ = "
@@ -157,7 +157,7 @@ def from_moments(
             code=Mistake.BEYOND,
         )
     grid = _wavenumbers(points, spacing)
-    spectrum = np.where(grid > 0, shape.density(grid, *found), 0.0)
+    spectrum = np.where(grid > 0, shape.density(grid, *parameters), 0.0)
     return _with_phases(spectrum, moments.sigma, spacing, points, seed)
 
 

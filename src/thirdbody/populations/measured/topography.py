@@ -156,9 +156,9 @@ def _options(
             )
     steps = None
     if spacing is not None:
-        given = spacing if isinstance(spacing, (tuple, list)) else (spacing,)
-        if len(given) in (1, 2) and all(is_number(d) and d > 0 for d in given):
-            steps = tuple(float(d) for d in given)
+        lengths = spacing if isinstance(spacing, (tuple, list)) else (spacing,)
+        if len(lengths) in (1, 2) and all(is_number(d) and d > 0 for d in lengths):
+            steps = tuple(float(d) for d in lengths)
         else:
             problems.append(
                 Problem(
@@ -173,7 +173,9 @@ def _options(
         try:
             scale = to_si(f"1 {unit}", "m")
         except InvalidValue as error:
-            problems += [Problem("unit", f": {each}", code=each.code) for each in error.problems]
+            problems += [
+                Problem("unit", f": {problem}", code=problem.code) for problem in error.problems
+            ]
     if problems:
         raise InvalidValue(*problems)
     return scale, steps
@@ -213,11 +215,11 @@ def _check(heights: Array, name: str) -> None:
             f"{name} has {shown} points, more than the {MOST_POINTS:,} that fit",
             code=Mistake.TOO_LARGE,
         )
-    known = np.isfinite(heights).mean()
-    if known < 0.5:
+    measured_share = np.isfinite(heights).mean()
+    if measured_share < 0.5:
         raise InvalidValue(
-            f"{name} has no datum at {percent(1 - known, digits=2)} of its points; cut out a part "
-            "that was measured",
+            f"{name} has no datum at {percent(1 - measured_share, digits=2)} of its points; "
+            "cut out a part that was measured",
             code=Mistake.BEYOND,
         )
 
@@ -230,12 +232,12 @@ def _without_form(h: Array, detrend: str) -> Array:
         terms += axes
     if detrend == "curvature":
         terms += [axes[i] * axes[j] for i in range(h.ndim) for j in range(i, h.ndim)]
-    known = np.isfinite(h)
+    has_datum = np.isfinite(h)
     middle = np.nanmean(h)
-    z = np.where(known, h - middle, 0.0)
+    z = np.where(has_datum, h - middle, 0.0)
     basis = [np.broadcast_to(term, h.shape) for term in terms]
-    gram = np.array([[np.sum(a * b, where=known) for b in basis] for a in basis])
-    right = np.array([np.sum(a * z, where=known) for a in basis])
+    gram = np.array([[np.sum(a * b, where=has_datum) for b in basis] for a in basis])
+    right = np.array([np.sum(a * z, where=has_datum) for a in basis])
     weights = np.linalg.lstsq(gram, right, rcond=None)[0]
     form = sum(w * term for w, term in zip(weights, terms, strict=True))
-    return np.where(known, z - form, np.nan)
+    return np.where(has_datum, z - form, np.nan)

@@ -59,7 +59,7 @@ def why_none(loop: Loop, y: Array) -> str:
         return "nothing is worn off, as the wear coefficients are 0"
     if setting.sliding_speed == 0:
         return "the surfaces roll without sliding (slide_roll = 0), and what rolls cuts no groove"
-    wear: Any = next((each for each in tables.contact.outputs if each.name == "wear"), None)
+    wear: Any = next((output for output in tables.contact.outputs if output.name == "wear"), None)
     if wear is not None and not (wear.f_ab or wear.f_roll or wear.K_sa):
         return "no particle takes anything off a surface: f_ab, f_roll and K_sa are 0"
     pair = tables.contact.surfaces

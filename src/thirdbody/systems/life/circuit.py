@@ -189,9 +189,9 @@ class OilCircuit(Value):
 
     def __post_init__(self) -> None:
         for name, kind in _TUPLES.items():
-            given = getattr(self, name)
-            if given is not None:
-                several_of = (given,) if isinstance(given, kind) else items_of(given)
+            value = getattr(self, name)
+            if value is not None:
+                several_of = (value,) if isinstance(value, kind) else items_of(value)
                 object.__setattr__(self, name, several_of)
         Value.__post_init__(self)
         sequences(self, "oil_changes")
@@ -199,7 +199,7 @@ class OilCircuit(Value):
     def _problems(self) -> list[str]:
         out: list[str] = []
         for name, kind in _TUPLES.items():
-            wrong = [each for each in getattr(self, name) or () if not isinstance(each, kind)]
+            wrong = [value for value in getattr(self, name) or () if not isinstance(value, kind)]
             if wrong:
                 out.append(
                     Problem(
@@ -237,27 +237,27 @@ class OilCircuit(Value):
         return [*out, *self._filter_problems(), *self._dirt_problems()]
 
     def _filter_problems(self) -> Iterable[Problem]:
-        for i, each in enumerate(self.filters):
-            if each.flow is None:
+        for i, oil_filter in enumerate(self.filters):
+            if oil_filter.flow is None:
                 rule = "is missing: oil through the filter [m^3/s]; 60 L/min is 1e-3"
                 yield Problem(f"filters.{i}.flow", rule, code=Mistake.MISSING)
             if self.classes is not None:
                 low, high = self.classes.edges[0], self.classes.edges[-1]
-                missed = [x for x in each.sizes if not low <= x <= high]
+                missed = [x for x in oil_filter.sizes if not low <= x <= high]
                 if missed:
                     rule = f"from {low:g} to {high:g} [m] miss a size of β of a filter"
                     yield Problem(
                         "classes", rule, hint=f"β is known at {missed[0]:g} m", code=Mistake.RANGE
                     )
         for name, line in self._lines():
-            if len({each.flow for each in line}) > 1:
+            if len({oil_filter.flow for oil_filter in line}) > 1:
                 rule = f"of line {name!r} have unlike flows, but the oil of a line goes through all"
                 yield Problem("filters", rule, code=Mistake.CLASH)
 
     def _dirt_problems(self) -> Iterable[Problem]:
         for name in ("start", "ingress", "fresh_oil"):
-            for i, each in enumerate(getattr(self, name) or ()):
-                if each.material.density is None:
+            for i, dirt in enumerate(getattr(self, name) or ()):
+                if dirt.material.density is None:
                     rule = "is missing: the mass of particles is counted [kg/m^3]"
                     yield Problem(f"{name}.{i}.material.density", rule, code=Mistake.MISSING)
 
@@ -271,13 +271,13 @@ class OilCircuit(Value):
     def materials(self) -> dict[str, Material]:
         """What the particles are of, by names that differ."""
         out: dict[str, Material] = {}
-        for each in self.dirt:
-            if each.material in out.values():
+        for dirt in self.dirt:
+            if dirt.material in out.values():
                 continue
-            name = each.material.name or "particles"
+            name = dirt.material.name or "particles"
             while name in out:
                 name += "'"
-            out[name] = each.material
+            out[name] = dirt.material
         return out
 
     def size_classes(self, *others: Distribution) -> SizeClasses:
@@ -290,24 +290,31 @@ class OilCircuit(Value):
         """
         if self.classes is not None:
             return self.classes
-        ends = [sizes_of(each) for each in (*(dirt.diameter for dirt in self.dirt), *others)]
+        ends = [
+            sizes_of(diameter) for diameter in (*(dirt.diameter for dirt in self.dirt), *others)
+        ]
         lowest = min((low for low, _ in ends), default=1e-6)
         highest = max((high for _, high in ends), default=64e-6)
-        known = [x for each in self.filters for x in each.sizes]
-        return SizeClasses.covering(smallest=min([lowest, *known]), largest=max([highest, *known]))
+        filter_sizes = [x for oil_filter in self.filters for x in oil_filter.sizes]
+        return SizeClasses.covering(
+            smallest=min([lowest, *filter_sizes]), largest=max([highest, *filter_sizes])
+        )
 
     def filter_names(self) -> tuple[str, ...]:
         """A name of each filter that no other has."""
         names: list[str] = []
-        for i, each in enumerate(self.filters):
-            name = each.name or ("filter" if len(self.filters) == 1 else f"filter {i + 1}")
+        for i, oil_filter in enumerate(self.filters):
+            name = oil_filter.name or ("filter" if len(self.filters) == 1 else f"filter {i + 1}")
             names.append(f"{name} ({i + 1})" if name in names else name)
         return tuple(names)
 
     def _lines(self) -> list[tuple[str, tuple[Filter, ...]]]:
         """Filters that stand one behind the other, by the name of their line."""
-        names = dict.fromkeys(each.line for each in self.filters if each.line)
-        return [(n, tuple(each for each in self.filters if each.line == n)) for n in names]
+        names = dict.fromkeys(oil_filter.line for oil_filter in self.filters if oil_filter.line)
+        return [
+            (n, tuple(oil_filter for oil_filter in self.filters if oil_filter.line == n))
+            for n in names
+        ]
 
     def terms(
         self,
@@ -338,19 +345,22 @@ class OilCircuit(Value):
                 out[:, place[dirt.material]] += numbers
         removal = self.removal(some, every, full=full)
         never_full = sum(self.removal(some, every).values(), np.zeros(shape))
-        for each in self.ingress:
-            column = place[each.material]
-            count = some.numbers_of if each.kept == "number" else some.numbers_by_volume
-            if each.rate is not None:
-                entering[:, column] += count(each.rate, each.diameter)
-            elif each.steady is not None:
-                stays = count(each.steady, each.diameter)
+        for ingress in self.ingress:
+            column = place[ingress.material]
+            count = some.numbers_of if ingress.kept == "number" else some.numbers_by_volume
+            if ingress.rate is not None:
+                entering[:, column] += count(ingress.rate, ingress.diameter)
+            elif ingress.steady is not None:
+                stays = count(ingress.steady, ingress.diameter)
                 loss = never_full[:, column] + self.make_up - self.leak
                 entering[:, column] += stays * loss - self.make_up * fresh[:, column]
         if np.any(entering < 0):
             rule = "as an oil of a steady code is cleaner than the fresh oil that comes in"
             raise InvalidValue(Problem("ingress", rule, owner="OilCircuit", code=Mistake.CLASH))
-        masses = [each.density if each.density is not None else math.nan for each in every.values()]
+        masses = [
+            material.density if material.density is not None else math.nan
+            for material in every.values()
+        ]
         return OilTerms(
             classes=some,
             materials=every,
@@ -383,25 +393,25 @@ class OilCircuit(Value):
         out: dict[str, Array] = {}
         flat = np.ones((1, len(materials)))
         passing = {name: np.ones(classes.count) for name, _ in self._lines()}
-        for name, each in zip(self.filter_names(), self.filters, strict=True):
-            taken = 1 - each.mean_penetration(classes.edges)
+        for name, oil_filter in zip(self.filter_names(), self.filters, strict=True):
+            taken = 1 - oil_filter.mean_penetration(classes.edges)
             if name in full:
-                taken = taken * each.still_filtered
-            before = passing.get(each.line, np.ones(classes.count))
-            if each.line:
-                passing[each.line] = before * (1 - taken)
-            out[name] = (each.flow or 0.0) * (before * taken)[:, None] * flat
+                taken = taken * oil_filter.still_filtered
+            before = passing.get(oil_filter.line, np.ones(classes.count))
+            if oil_filter.line:
+                passing[oil_filter.line] = before * (1 - taken)
+            out[name] = (oil_filter.flow or 0.0) * (before * taken)[:, None] * flat
         if self.settling_area > 0:
             assert self.viscosity is not None
             assert self.density is not None
             speeds = [
                 settling_speed(
                     np.sqrt(classes.mean_power(2)),
-                    particle_density=each.density or self.density,
+                    particle_density=material.density or self.density,
                     oil_density=self.density,
                     viscosity=self.viscosity,
                 )
-                for each in materials.values()
+                for material in materials.values()
             ]
             out[SETTLED] = self.settling_area * np.stack(speeds, axis=1)
         if self.leak > 0:
@@ -432,18 +442,18 @@ class OilCircuit(Value):
     def notes(self) -> list[Note]:
         """What is to be said of the circuit: filters beyond their data sheets."""
         out = []
-        for name, each in zip(self.filter_names(), self.filters, strict=True):
-            if each.clipped_to is not None:
+        for name, oil_filter in zip(self.filter_names(), self.filters, strict=True):
+            if oil_filter.clipped_to is not None:
                 out.append(
                     Note(
                         f"the β ratios of {name} rise so fast that up to "
-                        f"{value_of(each.clipped_to, 'm', 3)} more particles would pass than "
+                        f"{value_of(oil_filter.clipped_to, 'm', 3)} more particles would pass than "
                         "arrive; it holds none of these sizes",
                         code="clipped",
                         action="give β at more sizes of its data sheet",
                     )
                 )
-            low = each.sizes[0]
+            low = oil_filter.sizes[0]
             if any(sizes_of(dirt.diameter)[0] < low for dirt in self.dirt):
                 out.append(
                     Note(
@@ -470,18 +480,19 @@ class OilCircuit(Value):
         """That filters would be full within a day, as hardly any is."""
         terms = self.terms()
         out = []
-        for name, each in zip(self.filter_names(), self.filters, strict=True):
-            if each.capacity is None:
+        for name, oil_filter in zip(self.filter_names(), self.filters, strict=True):
+            if oil_filter.capacity is None:
                 continue
             caught = float(np.nansum(terms.removal[name] * terms.steady * terms.masses))
-            if caught * SOON <= each.capacity:
+            if caught * SOON <= oil_filter.capacity:
                 continue
-            hours = number(each.capacity / caught / HOUR, 2)
+            hours = number(oil_filter.capacity / caught / HOUR, 2)
             out.append(
                 Note(
-                    f"so much dirt enters that {name} is full with {value_of(each.capacity, 'kg')} "
-                    f"every {hours} h, where filters last for months: codes and dents are those of "
-                    "an oil that hardly anyone has",
+                    f"so much dirt enters that {name} is full with "
+                    f"{value_of(oil_filter.capacity, 'kg')} every {hours} h, where "
+                    "filters last for months: codes and dents are those of an oil that hardly "
+                    "anyone has",
                     code="life.ingress",
                     action="check the unit of the rate (mg/h or g/h); from reports, check volume, "
                     "flow and β of the study, as the ingress is wrong by as much as they are",

@@ -73,7 +73,7 @@ def times_within(
     """
     within = [first * 2.0 ** (j / PER_OCTAVE) for j in range(PER_OCTAVE)]
     # times a power of two is exact: half of a time is one of them
-    times = [0.0, *(math.ldexp(each, n) for n in range(OCTAVES) for each in within)]
+    times = [0.0, *(math.ldexp(time, n) for n in range(OCTAVES) for time in within)]
     ends = np.asarray(end, float)
     out = []
     seen: dict[float, Array] = {}
@@ -122,8 +122,8 @@ def slow_sizes(terms: OilTerms, *, volume: float, than: float) -> SlowSizes | No
     if not np.any(slow):
         return None
     last = int(np.flatnonzero(slow.any(axis=1))[-1])
-    own = [name for name, each in terms.removal.items() if np.any(each[slow] > 0)]
-    order = sorted(own, key=lambda name: name in (SETTLED, LEAKED))
+    names = [name for name, removal in terms.removal.items() if np.any(removal[slow] > 0)]
+    order = sorted(names, key=lambda name: name in (SETTLED, LEAKED))
     return SlowSizes(
         below=float(high[last]),
         time=float(np.max(time[slow])),

@@ -125,19 +125,19 @@ def read_conditions(of: type[Conditions], named: Mapping[str, Any]) -> Condition
     InvalidValue
         Every condition that is missing, unknown or beyond its range.
     """
-    known = [each.name for each in fields(of)]
+    allowed_names = [f.name for f in fields(of)]
     problems = [
         Problem(
             name,
-            f"is no condition of this contact; they are {', '.join(known)}",
+            f"is no condition of this contact; they are {', '.join(allowed_names)}",
             code=Mistake.UNKNOWN,
         )
         for name in named
-        if name not in known
+        if name not in allowed_names
     ]
     problems += [
         Problem(name, f"is missing: {MEANINGS[name]}", code=Mistake.MISSING)
-        for name in known
+        for name in allowed_names
         if name in MEANINGS and name not in named
     ]
     checks: list[tuple[tuple[str, ...], Callable[[Any], bool], str]] = [

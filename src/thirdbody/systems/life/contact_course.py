@@ -126,12 +126,12 @@ class ContactCourse:
     def _watched_events(self) -> list[tuple[Callable[[float, Array], float], Callable[[], None]]]:
         """What rises through 0 at an event, and what the event does."""
         out: list[tuple[Callable[[float, Array], float], Callable[[], None]]] = []
-        for each in self.until:
-            if isinstance(each, CodeReached):
-                cleans = each.is_dirtier(self._counts(self._first))
-                out.append((self._far_from(each, cleans), self._reach(each)))
-            elif isinstance(each, ContactUntil):
-                out.append((self._short_of(each), self._reach(each)))
+        for goal in self.until:
+            if isinstance(goal, CodeReached):
+                cleans = goal.is_dirtier(self._counts(self._first))
+                out.append((self._far_from(goal, cleans), self._reach(goal)))
+            elif isinstance(goal, ContactUntil):
+                out.append((self._short_of(goal), self._reach(goal)))
         if self.circuit is not None:
             for name, filters in zip(
                 self.circuit.filter_names(), self.circuit.filters, strict=True
@@ -152,8 +152,8 @@ class ContactCourse:
 
         return far
 
-    def _short_of(self, each: ContactUntil) -> Callable[[float, Array], float]:
-        return lambda time, y: each.excess(self.loop, state=y)
+    def _short_of(self, goal: ContactUntil) -> Callable[[float, Array], float]:
+        return lambda time, y: goal.excess(self.loop, state=y)
 
     def _filling(self, name: str, limit: float) -> Callable[[float, Array], float]:
         return lambda time, y: self._caught(y, name) - limit
@@ -165,11 +165,11 @@ class ContactCourse:
     def _add_event(self, name: str, sentence: str) -> None:
         self.events.append(LifeEvent(self.time, name, sentence))
 
-    def _reach(self, each: Until) -> Callable[[], None]:
+    def _reach(self, goal: Until) -> Callable[[], None]:
         def does() -> None:
-            self.until.remove(each)
-            self._add_event(each.name, each.sentence)
-            self.stopped = self.stopped or each.stops
+            self.until.remove(goal)
+            self._add_event(goal.name, goal.sentence)
+            self.stopped = self.stopped or goal.stops
 
         return does
 
@@ -177,17 +177,17 @@ class ContactCourse:
         def does() -> None:
             assert self.circuit is not None
             place = self.circuit.filter_names().index(name)
-            each = self.circuit.filters[place]
-            said = f"{name} is full with {value_of(each.capacity, 'kg', 3)}"
+            oil_filter = self.circuit.filters[place]
+            said = f"{name} is full with {value_of(oil_filter.capacity, 'kg', 3)}"
             self.held[name] = self._caught(self.y, name)
-            if each.when_full == "bypass":
+            if oil_filter.when_full == "bypass":
                 self.full.add(name)
                 loop = self.loop
                 assert isinstance(loop, FilmLoop)
                 loop.terms = self.circuit.terms(
                     full=self.full, classes=loop.tables.classes, materials=loop.terms.materials
                 )
-                past = "all of the oil" if each.still_filtered == 0 else "part of the oil"
+                past = "all of the oil" if oil_filter.still_filtered == 0 else "part of the oil"
                 self._add_event("filter full", f"{said}, and {past} goes past it")
             else:
                 self._add_event("filter full", f"{said}, and is changed")
@@ -248,17 +248,17 @@ class ContactCourse:
             if excess(self.time, self.y) >= 0:  # reached where the history begins
                 does()
                 return self.stopped
-        found = self._integrate(end, [excess for excess, _ in watched])
-        inside = self.times[(self.times > self.time) & (self.times < found.t[-1])]
+        solution = self._integrate(end, [excess for excess, _ in watched])
+        inside = self.times[(self.times > self.time) & (self.times < solution.t[-1])]
         begin = self.time
         for time in inside:
-            self._keep(float(time), found.sol(time))
-        self.time, self.y = float(found.t[-1]), found.y[:, -1]
+            self._keep(float(time), solution.sol(time))
+        self.time, self.y = float(solution.t[-1]), solution.y[:, -1]
         if self.time > begin:
             self._keep(self.time, self.y)
         if isinstance(self.loop, FilmLoop):
             self.loop.now = self.time
-        hit = [i for i, places in enumerate(found.t_events or ()) if len(places)]
+        hit = [i for i, places in enumerate(solution.t_events or ()) if len(places)]
         if hit:
             for i in hit:
                 watched[i][1]()
@@ -286,7 +286,7 @@ class ContactCourse:
             event.direction = 1.0  # type: ignore[attr-defined]
             return event
 
-        found = solve_ivp(
+        solution = solve_ivp(
             self._derivative,
             (self.time, end),
             self.y,
@@ -295,14 +295,15 @@ class ContactCourse:
             rtol=RTOL,
             atol=self._tolerances(),
             dense_output=True,
-            events=[rising(each) for each in events] or None,
+            events=[rising(excess) for excess in events] or None,
         )
-        self.evaluations += found.nfev
-        if found.status < 0:
+        self.evaluations += solution.nfev
+        if solution.status < 0:
             raise NoEquilibrium(
-                f"the history cannot go on after {number(float(found.t[-1]), 3)} s: {found.message}"
+                f"the history cannot go on after {number(float(solution.t[-1]), 3)} s: "
+                f"{solution.message}"
             )
-        return found
+        return solution
 
 
 def coverage(loop: Loop, eta: Array) -> float:

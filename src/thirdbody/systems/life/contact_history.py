@@ -81,18 +81,18 @@ def contact_columns(
     loop: Loop, times: Array, states: list[Array], kept: KeptRates | None = None
 ) -> dict[str, Array]:
     """`COLUMNS` of states, (T,) each."""
-    known, rows = KeptRates() if kept is None else kept, []
+    kept_rates, rows = KeptRates() if kept is None else kept, []
     for time, y in zip(times, states, strict=True):
         if isinstance(loop, FilmLoop):
             loop.now = float(time)
-        rows.append(known.rate(loop, float(time), y, lambda y=y: _row_of(loop, y)))  # type: ignore[misc]
+        rows.append(kept_rates.rate(loop, float(time), y, lambda y=y: _row_of(loop, y)))  # type: ignore[misc]
     return dict(zip(COLUMNS, np.array(rows).T, strict=True))
 
 
 def _row_of(loop: Loop, y: Array) -> Array:
     """`COLUMNS` of one state."""
-    found = _columns_of(loop, y)
-    return np.array([found[name] for name in COLUMNS])
+    values = _columns_of(loop, y)
+    return np.array([values[name] for name in COLUMNS])
 
 
 def _columns_of(loop: Loop, y: Array) -> dict[str, float]:
@@ -295,14 +295,14 @@ class ContactHistory(_Breeding, LifeHistory):
         state[loop.layout[loop.pool]] = end * _per(loop)
         jacobian = _jacobian(loop, state)
         away = self.numbers[0].T.ravel() - end
-        known: dict[float, Array] = {}
+        exponentials: dict[float, Array] = {}
 
         def counts(time: float) -> Array:
-            if (half := known.get(time / 2)) is not None:
-                known[time] = half @ half
-            elif time not in known:
-                known[time] = expm(jacobian * time)
-            now = loop.shape_numbers(end + known[time] @ away).T
+            if (half := exponentials.get(time / 2)) is not None:
+                exponentials[time] = half @ half
+            elif time not in exponentials:
+                exponentials[time] = expm(jacobian * time)
+            now = loop.shape_numbers(end + exponentials[time] @ away).T
             return self.terms.classes.counted(now.sum(axis=1))
 
         ends = self.terms.classes.counted(steady.numbers.sum(axis=1))
@@ -461,7 +461,7 @@ class DryHistory(_Breeding, Record):
             "materials": list(self.materials),
             "numbers": plain_data(self.numbers),
             "ledger": self.ledger.to_dict(),
-            "events": [plain_data(each._asdict()) for each in self.events],
+            "events": [plain_data(event._asdict()) for event in self.events],
             "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
             "time_scales": plain_data(self.time_scales),
             "R0": plain_data(self.R0),

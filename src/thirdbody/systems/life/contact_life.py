@@ -72,8 +72,8 @@ def _check(use: ContactInUse) -> None:
         )
     if isinstance(debris, Debris):
         pair = contact.surfaces
-        for side, each in ((1, pair.first), (2, pair.second)):
-            if each.density is None:
+        for side, body in ((1, pair.first), (2, pair.second)):
+            if body.density is None:
                 rule = "is missing: the mass of debris is counted [kg/m^3]"
                 hint = "give material.replace(density=...), e.g. 7850 for steel"
                 problems.append(
@@ -228,8 +228,8 @@ def run_film_history(
         film.slide_roll, film.hertz, (FEW, MOST),
     )  # fmt: skip
     kinds = [
-        Kind(name=name, material=each, strength=film.strengths.get(each))
-        for name, each in terms.materials.items()
+        Kind(name=name, material=material, strength=film.strengths.get(material))
+        for name, material in terms.materials.items()
     ]
     tables = _tables(use, classes, kinds)
     area = film.contacts * float(film.conjunction.hertz(film.load, E=2 * contact.E_ss).area)
@@ -253,7 +253,7 @@ def run_film_history(
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
     notes = _notes(loop, columns, use, entry_ratio=film.entry_ratio)
-    births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
+    births, losses = (_by_class(loop, rates) for rates in births_and_losses(loop, seen.states[-1]))
     moments = np.array(seen.times)
     numbers = np.array([loop.shape_numbers(y[loop.layout["oil"]]).T for y in seen.states])
     volume = loop.volume + loop.growth * moments
@@ -283,7 +283,7 @@ def run_film_history(
 
 
 def _of_oil(until: Sequence[Until]) -> tuple[Until, ...]:
-    return tuple(each for each in until if not isinstance(each, ContactUntil))
+    return tuple(goal for goal in until if not isinstance(goal, ContactUntil))
 
 
 # ------------------------------------------------------------------ dry
@@ -299,26 +299,28 @@ def run_dry_history(
     """The history of a dry or greased contact; arguments as in `thirdbody.life`."""
     _check(use)
     contact, arrivals = use.contact, dry.arrivals
-    if wrong := [each for each in arrivals if not isinstance(each, Ingress) or each.rate is None]:
+    if wrong := [
+        arrival for arrival in arrivals if not isinstance(arrival, Ingress) or arrival.rate is None
+    ]:
         rule = "must be Ingress with a rate [1/s], particles into the whole contact"
         raise InvalidValue(Problem("arrivals", rule, repr(wrong[0]), code=Mistake.KIND))
     dirt: dict[Material, WeibullStrength | None] = {}
     for population in contact.populations:
         dirt[population.material] = population.strength
-    for each in arrivals:
-        dirt.setdefault(each.material, None)
+    for arrival in arrivals:
+        dirt.setdefault(arrival.material, None)
     kinds = [
-        Kind(name=f"{each.name or 'particles'} {i + 1}" if i else each.name or "particles",
-             material=each, strength=strength)
-        for i, (each, strength) in enumerate(dirt.items())
+        Kind(name=f"{material.name or 'particles'} {i + 1}" if i else material.name or "particles",
+             material=material, strength=strength)
+        for i, (material, strength) in enumerate(dirt.items())
     ]  # fmt: skip
     kinds += [Kind(name=n, material=m) for n, m in _debris_materials(use).items()]
-    diameters = [each.diameter for each in contact.populations]
-    diameters += [each.diameter for each in arrivals]
+    diameters = [population.diameter for population in contact.populations]
+    diameters += [arrival.diameter for arrival in arrivals]
     if use.debris is not None:
         diameters.append(use.debris.diameter)
     if (classes := dry.classes) is None:
-        ends = [sizes_of(each) for each in diameters] or [(0.25e-6, 64e-6)]
+        ends = [sizes_of(diameter) for diameter in diameters] or [(0.25e-6, 64e-6)]
         classes = SizeClasses.covering(
             smallest=min(a for a, _ in ends), largest=max(b for _, b in ends)
         )
@@ -326,10 +328,10 @@ def run_dry_history(
     setting = _setting(use, tables, sliding_speed=dry.sliding_speed, area=dry.area)
     place = {material: i for i, material in enumerate(dirt)}
     coming = np.zeros((len(kinds), classes.count))
-    for each in arrivals:
-        assert each.rate is not None
-        count = classes.numbers_of if each.kept == "number" else classes.numbers_by_volume
-        coming[place[each.material]] += count(each.rate, each.diameter)
+    for arrival in arrivals:
+        assert arrival.rate is not None
+        count = classes.numbers_of if arrival.kept == "number" else classes.numbers_by_volume
+        coming[place[arrival.material]] += count(arrival.rate, arrival.diameter)
     present = np.zeros((len(kinds), classes.count))
     for population in contact.populations:
         present[place[population.material]] += classes.numbers_of(
@@ -347,7 +349,7 @@ def run_dry_history(
     )  # fmt: skip
     seen = course.run()
     columns = contact_columns(loop, np.array(seen.times), seen.states, kept)
-    births, losses = (_by_class(loop, each) for each in births_and_losses(loop, seen.states[-1]))
+    births, losses = (_by_class(loop, rates) for rates in births_and_losses(loop, seen.states[-1]))
     numbers = (
         np.array([loop.shape_numbers(y[loop.layout["contact"]]).T for y in seen.states]) / dry.area
     )

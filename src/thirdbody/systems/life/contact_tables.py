@@ -81,7 +81,7 @@ class Pressed(NamedTuple):
     """Separation [m]."""
     sigma: float
     """Roughness [m]."""
-    each: Array
+    per_particle: Array
     """(kinds, classes, quantities of `POWERS`)."""
     asperities: dict[str, float]
     """`SPOTS`, without the shadow of particles."""
@@ -174,8 +174,8 @@ class PanelTable:
         while True:
             i = min(max(bisect_right(self.edges, place) - 1, 0), len(self.edges) - 2)
             low, high = self.edges[i], self.edges[i + 1]
-            if (found := self.panels.get((low, high))) is not None:
-                return low, high, found
+            if (panel := self.panels.get((low, high))) is not None:
+                return low, high, panel
             made, error = self._make(low, high)
             if error <= DECLARED or self.depth[i] >= DEEPEST_HALVING:
                 self.panels[low, high] = made
@@ -252,15 +252,15 @@ class ContactTables:
         self.classes, self.kinds = classes, tuple(kinds)
         edges = np.array(classes.edges)
         self.tops = edges[1:]
-        own = contact.roughness.sigma
-        self.span = (own, own) if sigma is None else (min(sigma), max(sigma))
+        contact_sigma = contact.roughness.sigma
+        self.span = (contact_sigma, contact_sigma) if sigma is None else (min(sigma), max(sigma))
         law = self.contact.particle_law
         assert isinstance(law, SeatedLaw)
         self.law = law
         self.rough_seat = law.seat == "rough"
         width = law.zeta_std * self.span[1] if self.rough_seat else 0.0
         lowest = -(REACH * width + 4 * self.span[1]) / self.tops[0]
-        ratios = [float(f"{each:.12g}") for each in edges[:-1] / edges[1:]]
+        ratios = [float(f"{ratio:.12g}") for ratio in edges[:-1] / edges[1:]]
         self.curves = [
             tuple(particle_curve(self.contact, kind.material, ratio, lowest) for ratio in ratios)
             for kind in self.kinds
@@ -392,7 +392,7 @@ class ContactTables:
     def _of_asperities(self, y: Array, sigmas: Array) -> Array:
         """`SPOTS` at d/σ (N,): (N, S, 7)."""
         out = np.zeros((len(y), len(sigmas), len(SPOTS)))
-        outputs: dict[str, Any] = {each.name: each for each in self.contact.outputs}
+        outputs: dict[str, Any] = {output.name: output for output in self.contact.outputs}
         friction, wear = outputs["friction"], outputs["wear"]
         ratio = friction.ratio(self.contact)
         for j, sigma in enumerate(sigmas):
@@ -431,9 +431,9 @@ class ContactTables:
         gap, columns = d + self.offset(sigma), len(NAMES) + 1
         if self.rough_seat:
             coefficients, values, slopes = self.particles.basis(gap, sigma)
-            part = self._load_and_shadow(coefficients)
+            load_and_shadow = self._load_and_shadow(coefficients)
             shape = (2, len(self._distinct), len(self.tops), 2)
-            both = (np.stack([values, slopes]) @ part).reshape(shape)
+            both = (np.stack([values, slopes]) @ load_and_shadow).reshape(shape)
         else:
             step = 1e-7 * sigma
             places = gap + step * np.array([-1.0, 0.0, 1.0])
@@ -445,32 +445,32 @@ class ContactTables:
 
     def _load_and_shadow(self, coefficients: Array) -> Array:
         """The coefficients of a panel of load and shadow alone: (n·s, distinct·classes·2)."""
-        of, part = self._parts.get(id(coefficients), (None, coefficients))
+        of, load_and_shadow = self._parts.get(id(coefficients), (None, coefficients))
         if of is not coefficients:
             shape = (len(coefficients), len(self._distinct), len(self.tops), len(NAMES) + 1)
             some = coefficients.reshape(shape)[..., self._first]
-            part = np.ascontiguousarray(some.reshape(len(coefficients), -1))
-            self._parts[id(coefficients)] = coefficients, part
-        return part
+            load_and_shadow = np.ascontiguousarray(some.reshape(len(coefficients), -1))
+            self._parts[id(coefficients)] = coefficients, load_and_shadow
+        return load_and_shadow
 
     def load_alone(self, d: float, *, eta: Array, sigma: float) -> float:
         """The pressure of `load` without its slope."""
         if not self.rough_seat:
             return self.load(d, eta=eta, sigma=sigma)[0]
         coefficients, values, _ = self.particles.basis(d + self.offset(sigma), sigma)
-        part = self._load_and_shadow(coefficients)
-        each = (values @ part).reshape(len(self._distinct), len(self.tops), 2)
-        own, shadow = np.tensordot(eta, each[self.place], 2)
-        return float(self._force(d, sigma)[0] * max(1 - shadow, 0.0) + own)
+        load_and_shadow = self._load_and_shadow(coefficients)
+        per_particle = (values @ load_and_shadow).reshape(len(self._distinct), len(self.tops), 2)
+        particle_load, shadow = np.tensordot(eta, per_particle[self.place], 2)
+        return float(self._force(d, sigma)[0] * max(1 - shadow, 0.0) + particle_load)
 
     def load(self, d: float, *, eta: Array, sigma: float) -> tuple[float, float]:
         """Pressure that particles η (kinds, classes) [1/m²] and asperities bear, and its slope."""
         f, f1 = self._force(d, sigma)
         value, slope = self._first_of_particles(d, sigma)
-        own, shadow = np.tensordot(eta, value, 2)
-        own_1, shadow_1 = np.tensordot(eta, slope, 2)
+        particle_load, shadow = np.tensordot(eta, value, 2)
+        particle_load_1, shadow_1 = np.tensordot(eta, slope, 2)
         bare = max(1 - shadow, 0.0)
-        return f * bare + own, f1 * bare - f * shadow_1 * (bare > 0) + own_1
+        return f * bare + particle_load, f1 * bare - f * shadow_1 * (bare > 0) + particle_load_1
 
     def _force(self, d: float, sigma: float) -> tuple[float, float]:
         y = d / sigma
@@ -529,15 +529,15 @@ class ContactTables:
 
     def press_at(self, d: float, *, eta: Array, sigma: float) -> Pressed:
         """Everything at a separation d [m] under particles η (kinds, classes) [1/m²]."""
-        each = self._all(d, sigma)[:, :, :-1]
+        per_particle = self._all(d, sigma)[:, :, :-1]
         y = d / sigma
         inside = y <= self.spots.edges[-1]
         spots = self.spots(y, sigma) if inside else np.zeros(len(SPOTS))
-        shadow = float(np.tensordot(eta, each[:, :, NAMES.index("shadow")], 2))
+        shadow = float(np.tensordot(eta, per_particle[:, :, NAMES.index("shadow")], 2))
         return Pressed(
             d=d,
             sigma=sigma,
-            each=each,
+            per_particle=per_particle,
             asperities=dict(zip(SPOTS, map(float, spots), strict=True)),
             bare=max(1 - shadow, 0.0),
         )
@@ -555,7 +555,7 @@ def contact_tables(
 
 
 def _check_contact(contact: Contact) -> None:
-    names = {each.name for each in contact.outputs}
+    names = {output.name for output in contact.outputs}
     if lost := [name for name in ("friction", "wear") if name not in names]:
         raise InvalidValue(
             f"the contact lacks outputs.{' and outputs.'.join(x.capitalize() for x in lost)}: a "

@@ -40,7 +40,7 @@ ESTIMATE = (
 
 def wears(contact: Contact) -> bool:
     """Whether the Wear of a contact takes anything away."""
-    wear: Any = next((each for each in contact.outputs if each.name == "wear"), None)
+    wear: Any = next((output for output in contact.outputs if output.name == "wear"), None)
     names = ("K_ss", "K_ss_ep", "K_ss_e", "K_sa", "K_sa_ep", "K_sa_e", "f_ab", "f_roll")
     return wear is not None and any(getattr(wear, name) for name in names)
 
@@ -134,8 +134,8 @@ class Debris(Value):
             raise InvalidValue(
                 Problem("sizes", f"({len(edges)}) must be one more than counts", code=Mistake.SHAPE)
             )
-        found = PowerLaw(edges=edges, counts=numbers, slopes=(3.0,) * len(numbers))
-        return cls(diameter=found, hardness=hardness)
+        diameter = PowerLaw(edges=edges, counts=numbers, slopes=(3.0,) * len(numbers))
+        return cls(diameter=diameter, hardness=hardness)
 
     def material(self, surface: Material, *, name: str) -> Material:
         """The debris of a surface as a material.

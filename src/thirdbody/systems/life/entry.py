@@ -108,7 +108,7 @@ def entry_ratio_from_dents(
     >>> round(entry_ratio_from_dents(seen, area=1e-6, overrollings=1e6, oil=oil), 12)
     0.02
     """
-    given = {"count": count, "area": area, "overrollings": overrollings}
+    values = {"count": count, "area": area, "overrollings": overrollings}
     if wrong := [
         Problem(
             name,
@@ -116,7 +116,7 @@ def entry_ratio_from_dents(
             repr(value),
             code=Mistake.RANGE,
         )
-        for name, value in given.items()
+        for name, value in values.items()
         if not math.isfinite(value) or value < 0 or (value == 0 and name != "count")
     ]:
         raise InvalidValue(*wrong)

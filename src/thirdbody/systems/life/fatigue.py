@@ -124,12 +124,12 @@ def miner_pair(
     if not (math.isfinite(L_10) and L_10 > 0 and math.isfinite(load_ratio) and load_ratio > 0):
         rule = f"and load_ratio = {load_ratio:g} [1] must be > 0"
         raise InvalidValue(Problem("L_10", rule, f"{L_10:g} [s]", code=Mistake.RANGE))
-    known: dict[str, float] = {}
+    factors_by_code: dict[str, float] = {}
     for code in codes:
-        if code not in known:
+        if code not in factors_by_code:
             e_C = contamination_factor(place, code, kappa=kappa, D=D)
-            known[code] = life_factor(bearing, kappa=kappa, load=e_C * load_ratio)
-    now = np.array([known[code] for code in codes])
+            factors_by_code[code] = life_factor(bearing, kappa=kappa, load=e_C * load_ratio)
+    now = np.array([factors_by_code[code] for code in codes])
     worst = np.minimum.accumulate(now)
     (forgets, damage), (remembers, kept) = (
         _life_and_damage(t, a * L_10, end) for a in (now, worst)

@@ -5,8 +5,8 @@ r"""Contacts in an oil film: the oil brings particles, the contacts return debri
           p_{ss} + p_{sa} = \bar p\,(1 - 1/\gamma)
 
 with N = V n, the terms of `OilCircuit`, and the gap that the film leaves under its own part of the
-load, as `thirdbody.mixed_film` has it. Passage of the contacts is short against all else: what
-stands in them is ε times a layer of oil.
+load, as `thirdbody.films.mixed_film` has it. Passage of the contacts is short against all else:
+what stands in them is ε times a layer of oil.
 
 Every size of a class comes with the mean layer of its class, eq. (4a) of classes. With a layer of
 its own for each size, larger ones come more: what particles above the film wear is then 1 % more
@@ -85,14 +85,16 @@ class FilmLoop(Loop):
         """Of one contact across the motion [m]."""
         u = np.array([film.speed])
         self.log_film = PiecewiseChebyshev(
-            lambda x: np.log([float(bodies.thickness(u, np.exp(each))[0]) for each in x])[:, None],
+            lambda x: np.log([float(bodies.thickness(u, np.exp(log_gamma))[0]) for log_gamma in x])[
+                :, None
+            ],
             np.array([0.0, 1.0, 4.0, 12.0, 30.0, LONGEST]),
             tolerance=1e-12,
         )
         series = self.log_film
         self._films = [
-            (float(edge), float(middle), float(half), each[:, 0].tolist())
-            for edge, middle, half, each in zip(
+            (float(edge), float(middle), float(half), coefficients[:, 0].tolist())
+            for edge, middle, half, coefficients in zip(
                 series.edges[1:], series.middle, series.half, series.coefficients, strict=True
             )
         ]
@@ -115,13 +117,13 @@ class FilmLoop(Loop):
     def film_at(self, x: float) -> float:
         """Film thickness at ln γ [m]."""
         _, middle, half, series = next(
-            (each for each in self._films if x < each[0]), self._films[-1]
+            (piece for piece in self._films if x < piece[0]), self._films[-1]
         )
         # Clenshaw's sum, in numbers of Python: this is asked for thousands of times
         t = 2 * (x - middle) / half
         one = two = 0.0
-        for each in reversed(series[1:]):
-            one, two = each + t * one - two, one
+        for coefficient in reversed(series[1:]):
+            one, two = coefficient + t * one - two, one
         return math.exp(series[0] + 0.5 * t * one - two)
 
     def separation(self, x: float, sigma: float) -> float:

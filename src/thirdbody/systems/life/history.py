@@ -86,9 +86,9 @@ class LifeHistory(Record):
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
-    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> history = tb.life(oil=oil, duration=1800.0)
     >>> history.codes[0], history.codes[-1]
     ('18/16/13', '5/3/0')
@@ -115,7 +115,7 @@ class LifeHistory(Record):
     @cached_property
     def codes(self) -> tuple[str, ...]:
         """ISO 4406 code at each time."""
-        return tuple(iso4406_of_counts(each) for each in self.counts)
+        return tuple(iso4406_of_counts(counts) for counts in self.counts)
 
     @property
     def mass_per_volume(self) -> Array:
@@ -137,12 +137,13 @@ class LifeHistory(Record):
     @property
     def bypassed(self) -> tuple[str, ...]:
         """Names of the filters that are full in the end, so that the oil goes past them."""
-        full = [each.sentence for each in self.events if each.name == "filter full"]
+        full = [event.sentence for event in self.events if event.name == "filter full"]
         named = zip(self.circuit.filter_names(), self.circuit.filters, strict=True)
         return tuple(
             name
-            for name, each in named
-            if each.when_full == "bypass" and any(s.startswith(f"{name} is full") for s in full)
+            for name, oil_filter in named
+            if oil_filter.when_full == "bypass"
+            and any(s.startswith(f"{name} is full") for s in full)
         )
 
     @property
@@ -180,11 +181,11 @@ class LifeHistory(Record):
             now = volume + terms.growth * time
             if now <= EMPTY * volume:
                 return end
-            found = flowing(
+            state = flowing(
                 volume, numbers=volume * terms.start, growth=terms.growth, source=terms.source,
                 loss=terms.loss, time=time,
             )  # fmt: skip
-            return terms.classes.counted(found.numbers.sum(axis=1) / now)
+            return terms.classes.counted(state.numbers.sum(axis=1) / now)
 
         return times_within(counts, end, first=self._first_time)
 
@@ -196,9 +197,9 @@ class LifeHistory(Record):
     @property
     def slow_sizes(self) -> SlowSizes | None:
         """The sizes that go on when the counts of the code have long ended; None for none."""
-        known = [each for each in self.code_times if math.isfinite(each)]
+        finite_times = [time for time in self.code_times if math.isfinite(time)]
         return slow_sizes(
-            self._terms_now, volume=self.circuit.volume, than=max([self._first_time, *known])
+            self._terms_now, volume=self.circuit.volume, than=max([self._first_time, *finite_times])
         )
 
     @property
@@ -245,13 +246,13 @@ class LifeHistory(Record):
         out: dict[str, float] = {}
         named = zip(self.circuit.filter_names(), self.circuit.filters, strict=True)
         flow = sum(
-            (each.flow or 0.0) * (each.still_filtered if name in self.bypassed else 1.0)
-            for name, each in named
+            (oil_filter.flow or 0.0) * (oil_filter.still_filtered if name in self.bypassed else 1.0)
+            for name, oil_filter in named
         )
         if flow > 0:
             out["oil through the filters once"] = volume / flow
-        for size, part in zip(counted_sizes(), terms.classes.above(counted_sizes()), strict=True):
-            held = np.flatnonzero(part > 0)
+        for size, shares in zip(counted_sizes(), terms.classes.above(counted_sizes()), strict=True):
+            held = np.flatnonzero(shares > 0)
             loss = float(terms.loss[held[0]].max()) if len(held) else 0.0
             name = f"removal of particles of {value_of(float(size), 'm')}"
             out[name] = volume / loss if loss > 0 else math.nan
@@ -303,9 +304,9 @@ class LifeHistory(Record):
             "numbers": plain_data(self.numbers),
             "volume": plain_data(self.volume),
             "ledger": self.ledger.to_dict(),
-            "events": [plain_data(each._asdict()) for each in self.events],
+            "events": [plain_data(event._asdict()) for event in self.events],
             "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
-            "steady": [plain_data(each._asdict()) for each in steady],
+            "steady": [plain_data(state._asdict()) for state in steady],
             "code_times": plain_data(self.code_times),
             "slow_sizes": None if slow is None else plain_data(slow._asdict()),
             "time_scales": plain_data(self.time_scales),

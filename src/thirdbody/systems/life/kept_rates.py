@@ -45,16 +45,16 @@ class _Kept(NamedTuple):
         return zlib.crc32(np.append(self.value, self.warm).tobytes(), self.of)
 
 
-def plain_inputs(given: Mapping[str, object]) -> dict[str, object]:
+def plain_inputs(arguments: Mapping[str, object]) -> dict[str, object]:
     """Arguments as what tells one set of them from another.
 
     Parameters
     ----------
-    given : mapping
+    arguments : mapping
     """
     return {
         name: value.to_dict() if hasattr(value, "to_dict") else repr(value)
-        for name, value in given.items()
+        for name, value in arguments.items()
     }
 
 
@@ -76,7 +76,7 @@ class KeptRates:
 
     def __init__(self, file: Path | None = None, inputs: Mapping[str, object] | None = None):
         self.file, self.next = file, 0
-        self.known: list[_Kept] = []
+        self.rates: list[_Kept] = []
         if file is None:
             return
         text = json.dumps(
@@ -108,7 +108,7 @@ class KeptRates:
                     break  # it was changed: all from here on is computed again
             except (ValueError, KeyError, TypeError, binascii.Error):
                 break  # the one that was being written when it ended
-            self.known.append(kept)
+            self.rates.append(kept)
             whole.append(line)
         file.write_text("\n".join([head, *whole, ""]), "utf-8")
 
@@ -129,12 +129,12 @@ class KeptRates:
         if self.file is None:
             return compute()
         of = zlib.crc32(np.append(y, time).tobytes())
-        if self.next < len(self.known) and self.known[self.next].of == of:
-            found = self.known[self.next]
+        if self.next < len(self.rates) and self.rates[self.next].of == of:
+            kept = self.rates[self.next]
             self.next += 1
-            loop.start_warm(found.warm)
-            return found.value.copy()
-        self.known = []  # what follows is of another course
+            loop.start_warm(kept.warm)
+            return kept.value.copy()
+        self.rates = []  # what follows is of another course
         value = np.asarray(compute(), float)
         kept = _Kept(of, loop.warm, value)
         numbers = np.ascontiguousarray(value, "<f8").tobytes()

@@ -106,7 +106,7 @@ def flowing(
     With τ = ln(V/V_0)/(dV/dt), N = N_0 e^{−Lτ} + s V τ φ(−(L + dV/dt)τ), φ(z) = (e^z − 1)/z. Exact
     but for rounding.
     """
-    N, s, L = (np.asarray(each, float) for each in (numbers, source, loss))
+    N, s, L = (np.asarray(values, float) for values in (numbers, source, loss))
     t = np.asarray(time, float)
     grown = growth * t / volume
     tau = t / volume * np.where(grown == 0, 1.0, np.log1p(grown) / np.where(grown == 0, 1, grown))

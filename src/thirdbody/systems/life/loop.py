@@ -239,7 +239,7 @@ class Loop(ABC):
 
     def columns(self, state: Pressed, name: str) -> Array:
         """A quantity of one particle of each number: (J,)."""
-        return state.each[:, :, INDEX[name]].ravel()
+        return state.per_particle[:, :, INDEX[name]].ravel()
 
     @cached_property
     def _softer(self) -> tuple[float, float]:
@@ -285,11 +285,11 @@ class Loop(ABC):
         """
         v, area, layout = self.setting.sliding_speed, self.setting.area, self.layout
         worn = state.asperities["worn"] * self._softer[side - 1]
-        each = self.columns(state, f"wear_{side}")
+        per_particle = self.columns(state, f"wear_{side}")
         if state.bare > 0:
-            each = each - self.columns(state, "shadow") * worn
+            per_particle = per_particle - self.columns(state, "shadow") * worn
         row = np.zeros(layout.count)
-        row[layout[self.pool]] = v * area * (each @ standing)
+        row[layout[self.pool]] = v * area * (per_particle @ standing)
         for other in SURFACES:
             if f"bound_{other}" not in layout:
                 continue
@@ -350,8 +350,8 @@ class Loop(ABC):
         for side in SURFACES:
             rate = self.passes(side)
             for name, column in (("thrown", "dent_area"), ("dents", "dents")):
-                each = self.columns(state, f"{column}_{side}")
-                out.matrix[self.layout[f"{name}_{side}"], pool] += rate * (each @ standing)
+                per_particle = self.columns(state, f"{column}_{side}")
+                out.matrix[self.layout[f"{name}_{side}"], pool] += rate * (per_particle @ standing)
 
     def _add_release(self, out: Rates, y: Array, rows: list[tuple[Array, float, float]]) -> None:
         """Embedded particles come free when their surface has worn by half their size."""
@@ -359,14 +359,14 @@ class Loop(ABC):
         for side, (row, constant, _) in zip(SURFACES, rows, strict=True):
             depth_rate = max(float(row @ y) + constant, 0.0) / self.setting.worn_area[side - 1]
             free = 2 * depth_rate / self.sizes
-            bound = np.arange(*self.layout[f"bound_{side}"].indices(self.layout.count))
-            out.matrix[bound, bound] -= free
+            embedded = np.arange(*self.layout[f"bound_{side}"].indices(self.layout.count))
+            out.matrix[embedded, embedded] -= free
             mine = np.arange(pool.start, pool.stop)
-            out.matrix[mine, bound] += free
+            out.matrix[mine, embedded] += free
             if depth_rate > 0:
-                each = 2 / self.sizes * y[bound] / self.setting.worn_area[side - 1]
-                out.release[bound] -= np.multiply.outer(each, row)
-                out.release[mine] += np.multiply.outer(each, row)
+                freed_per_volume = 2 / self.sizes * y[embedded] / self.setting.worn_area[side - 1]
+                out.release[embedded] -= np.multiply.outer(freed_per_volume, row)
+                out.release[mine] += np.multiply.outer(freed_per_volume, row)
 
     def add_flow(self, out: Rates, name: str, columns: slice, numbers: Array) -> None:
         """Book volume that goes a way per number of a block [1/s]: (J,)."""
@@ -393,9 +393,9 @@ class Loop(ABC):
         total = np.minimum(parts[0] + parts[1], 1.0)
         scale = np.divide(total, parts[0] + parts[1], out=np.zeros_like(total), where=total > 0)
         mine = np.arange(pool.start, pool.stop)
-        for side, part in zip(SURFACES, parts, strict=True):
-            bound = self.layout[f"bound_{side}"].start + np.arange(len(numbers))
-            out.matrix[bound, mine] += numbers * part * scale
+        for side, share in zip(SURFACES, parts, strict=True):
+            embedded = self.layout[f"bound_{side}"].start + np.arange(len(numbers))
+            out.matrix[embedded, mine] += numbers * share * scale
         out.matrix[mine, mine] -= numbers * total
         return total
 

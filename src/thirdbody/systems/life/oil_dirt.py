@@ -110,8 +110,10 @@ class OilDirt(Value):
             An unknown dust, or a concentration that is none.
         """
         diameter = cleanliness.dust_sizes(grade, limit=limit)
-        found = cleanliness.concentration(concentration)
-        number = cleanliness.particles_in(found, diameter, particle_density=material.density)
+        mass_concentration = cleanliness.concentration(concentration)
+        number = cleanliness.particles_in(
+            mass_concentration, diameter, particle_density=material.density
+        )
         return cls(material=material, diameter=diameter, number=number)
 
     @property

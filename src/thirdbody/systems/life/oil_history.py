@@ -171,8 +171,8 @@ class _Accounts:
                 account[name] += float(values[0])
 
     def _since(self, stretch: _Stretch, times: Array) -> dict[str, Array]:
-        terms, found = stretch.terms, stretch.state_after(times)
-        out = {"in the oil": np.einsum("tkm,km->t", found.numbers, terms.masses)}
+        terms, state = stretch.terms, stretch.state_after(times)
+        out = {"in the oil": np.einsum("tkm,km->t", state.numbers, terms.masses)}
         brought = {"ingress": terms.ingress, "fresh oil": terms.make_up * terms.fresh}
         for name in self.came:
             out[name] = times * float(np.sum(brought[name] * terms.masses))
@@ -181,7 +181,7 @@ class _Accounts:
             out[name] = (
                 np.zeros_like(times)
                 if taken is None
-                else np.einsum("tkm,km->t", found.passed, taken * terms.masses)
+                else np.einsum("tkm,km->t", state.passed, taken * terms.masses)
             )
         return out
 
@@ -205,7 +205,7 @@ class _Course:
         self.events: list[LifeEvent] = []
         self.now = _Stretch(terms, 0.0, circuit.volume, circuit.volume * terms.start)
         self.changes = [t for t in circuit.oil_changes if t < duration]
-        self.waiting = [each for each in until if isinstance(each, CodeReached)]
+        self.waiting = [goal for goal in until if isinstance(goal, CodeReached)]
         self.stopped = False
 
     # ---------------------------------------------------------------------- what comes next
@@ -213,10 +213,10 @@ class _Course:
         """The time of the next event [s since the beginning of the stretch], and what it does."""
         end = (self.changes[0] if self.changes else self.duration) - self.now.begin
         does: Callable[[], None] = self._change if self.changes else self._end
-        for name, each in zip(self.circuit.filter_names(), self.circuit.filters, strict=True):
-            if each.capacity is None or name in self.full:
+        for name, oil_filter in zip(self.circuit.filter_names(), self.circuit.filters, strict=True):
+            if oil_filter.capacity is None or name in self.full:
                 continue
-            left = each.capacity - self.held[name]
+            left = oil_filter.capacity - self.held[name]
 
             def excess(t: float, name: str = name, left: float = left) -> float:
                 return self.now.mass_removed(name, t) - left
@@ -261,14 +261,14 @@ class _Course:
 
     def _fill(self, name: str) -> None:
         place = self.circuit.filter_names().index(name)
-        each = self.circuit.filters[place]
-        said = f"{name} is full with {value_of(each.capacity, 'kg', 3)}"
+        oil_filter = self.circuit.filters[place]
+        said = f"{name} is full with {value_of(oil_filter.capacity, 'kg', 3)}"
         self.held[name] = 0.0
-        if each.when_full == "bypass":
+        if oil_filter.when_full == "bypass":
             self.full.add(name)
             self.now.terms = self.circuit.terms(full=self.full, classes=self.first.classes)
-            part = each.still_filtered
-            past = "all of the oil" if part == 0 else f"{percent(1 - part)} of the oil"
+            share = oil_filter.still_filtered
+            past = "all of the oil" if share == 0 else f"{percent(1 - share)} of the oil"
             self._add_event("filter full", f"{said}, and {past} goes past it")
         else:
             self._add_event("filter full", f"{said}, and is changed")

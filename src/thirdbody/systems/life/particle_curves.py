@@ -95,8 +95,8 @@ class ParticleCurve:
         self.material = material
         sizes = PowerLaw(edges=(ratio, 1.0), counts=(1.0,), slopes=(3.0,))
         self.population = Particles(material=material, diameter=sizes, areal_density=1e-9)
-        dents = [each for each in contact.outputs if isinstance(each, Dents)] or [Dents()]
-        outputs = (*(each for each in contact.outputs if each is not dents[0]), dents[0])
+        dents = [output for output in contact.outputs if isinstance(output, Dents)] or [Dents()]
+        outputs = (*(output for output in contact.outputs if output is not dents[0]), dents[0])
         self.contact = contact.replace(particles=self.population, outputs=outputs)
         law = self.contact.law_of(self.population)
         if not isinstance(law, SeatedLaw):
@@ -129,8 +129,8 @@ class ParticleCurve:
         self.powers = np.array([POWERS[name] for name in self.names])
 
     def _probe(self, eps: Array) -> ParticleSpots:
-        found = self.law.probe(eps, surfaces=self.contact.surfaces, particle=self.material)
-        return replace(found, material=self.material, population=self.population)
+        spots = self.law.probe(eps, surfaces=self.contact.surfaces, particle=self.material)
+        return replace(spots, material=self.material, population=self.population)
 
     def _dent_kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
         """Where dents that stay set in, get a shaft, and end, as a number."""
@@ -155,8 +155,8 @@ class ParticleCurve:
 
     def _by_root(self, u: Array) -> Array:
         out = np.empty((len(u), len(self.names)))
-        for part in np.array_split(np.arange(len(u)), max(1, len(u) // 100)):
-            out[part] = self.by_quadrature(1.0 - u[part] ** 2)
+        for rows in np.array_split(np.arange(len(u)), max(1, len(u) // 100)):
+            out[rows] = self.by_quadrature(1.0 - u[rows] ** 2)
         return out
 
     def by_quadrature(self, gap: Array) -> Array:
@@ -165,9 +165,9 @@ class ParticleCurve:
         spots = self.average.spots_in(gap[:, None], 1.0 - gap[:, None], self.splits, None, 1.0)
         spots = replace(spots, material=self.material, population=self.population)
         with np.errstate(all="ignore"):  # a spot without a load has no number of its own
-            found = self._quantities(spots)
-        found["shadow"] = self._shadow(gap)
-        return np.stack([found[name] for name in self.names], axis=1)
+            quantities = self._quantities(spots)
+        quantities["shadow"] = self._shadow(gap)
+        return np.stack([quantities[name] for name in self.names], axis=1)
 
     def _shadow(self, gap: Array) -> Array:
         if self.law.shadow not in ("footprint", "projected"):
@@ -176,7 +176,7 @@ class ParticleCurve:
         return self.average.average(gap, 1.0 - gap)[:, column]
 
     def _quantities(self, spots: ParticleSpots) -> dict[str, Array]:
-        outputs: dict[str, Any] = {each.name: each for each in self.contact.outputs}
+        outputs: dict[str, Any] = {output.name: output for output in self.contact.outputs}
         friction, wear, dents = (outputs[name] for name in ("friction", "wear", "dents"))
         motion, loaded = friction.motion(spots), spots.load > 0
         out: dict[str, Array] = {"load": spots.total(spots.load)}
@@ -209,22 +209,22 @@ class ParticleCurve:
     def _dents(self, spots: ParticleSpots, dents: Any, side: int) -> dict[str, Array]:
         dent = dents._dent_left(spots, side, self.contact)
         deep = sunk(spots, side=side, particle=self.material, debris=dents.debris)
-        there, known = dent.diameter > 0, np.isfinite(dent.depth)
-        counts = there & (~known | (dent.depth > 0))
-        self.depths_known &= bool(np.all(known | ~there))
-        stays = there & known & (2 * deep > spots.half)
+        there, has_depth = dent.diameter > 0, np.isfinite(dent.depth)
+        counts = there & (~has_depth | (dent.depth > 0))
+        self.depths_known &= bool(np.all(has_depth | ~there))
+        stays = there & has_depth & (2 * deep > spots.half)
         return {
             f"dents_{side + 1}": spots.total(counts.astype(float)),
             f"dent_area_{side + 1}": spots.total(np.pi / 4 * counts * dent.diameter**2),
-            f"dent_volume_{side + 1}": spots.total(np.where(known, dent.volume, 0.0)),
+            f"dent_volume_{side + 1}": spots.total(np.where(has_depth, dent.volume, 0.0)),
             f"sunk_{side + 1}": spots.total(stays.astype(float)),
         }
 
     @cached_property
     def largest(self) -> Array:
         """No less than the largest value of every quantity: (Q,)."""
-        bound: Array = np.max(np.abs(self.series.coefficients).sum(axis=1), axis=0)
-        return bound
+        upper_limit: Array = np.max(np.abs(self.series.coefficients).sum(axis=1), axis=0)
+        return upper_limit
 
     def __call__(self, gap: Array) -> Array:
         """Every quantity at gaps over the upper edge (N,): (N, Q)."""
@@ -288,8 +288,8 @@ class SurvivalCurve:
 
     def _by_root(self, u: Array) -> Array:
         out = np.empty((len(u), len(self.breakages)))
-        for part in np.array_split(np.arange(len(u)), max(1, len(u) // 100)):
-            out[part] = self.by_quadrature(1.0 - u[part] ** 2)
+        for rows in np.array_split(np.arange(len(u)), max(1, len(u) // 100)):
+            out[rows] = self.by_quadrature(1.0 - u[rows] ** 2)
         return out
 
     def by_quadrature(self, gap: Array) -> Array:

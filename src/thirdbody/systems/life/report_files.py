@@ -121,7 +121,7 @@ class _Reading:
         """Raise what was wrong so far."""
         if not self.mistakes:
             return
-        self.mistakes.sort(key=lambda each: each[:2])
+        self.mistakes.sort(key=lambda mistake: mistake[:2])
         shown = [problem for *_, problem in self.mistakes[:MOST_MISTAKES]]
         if more := len(self.mistakes) - len(shown):
             *_, first = self.mistakes[MOST_MISTAKES]
@@ -137,20 +137,20 @@ class _Reading:
     def number(self, line: int, column: int, cell: str, unit: str, of: str) -> float:
         """A number of a cell in SI; NaN where there is none, which is told."""
         try:
-            found = to_si(f"{cell} {unit}", of)
+            value = to_si(f"{cell} {unit}", of)
         except InvalidValue as error:
             first = error.problems[0]
             bare = re.fullmatch(r"[+-]?[\d.]+([eE][+-]?\d+)?|nan|inf", cell.strip())
             rule = str(first) if bare else f"{say(cell)} is not a number [{unit}]"
             self.add_mistake(line, column, rule, first.code if bare else Mistake.KIND)
             return math.nan
-        if not math.isfinite(found):
+        if not math.isfinite(value):
             what = "time" if of == "s" else "number"
             self.add_mistake(
                 line, column, f"{say(cell)} is not a finite {what} [{unit}]", Mistake.RANGE
             )
             return math.nan
-        return found
+        return value
 
     # -------------------------------------------------------------------------- the first line
     def columns(self, line: int, names: list[str]) -> list[_Column]:
@@ -174,16 +174,16 @@ class _Reading:
 
     def _unit(self, line: int, column: int, name: str, of: str, example: str) -> str:
         """The unit that stands in brackets behind a name."""
-        found = re.search(r"\[\s*([^\]]+?)\s*\]", name)
-        if not found:
+        match = re.search(r"\[\s*([^\]]+?)\s*\]", name)
+        if not match:
             rule = f'{say(name)} has no unit; write it in brackets, e.g. "{example}"'
             self.add_mistake(line, column, rule, Mistake.UNIT)
             return ""
         try:
-            to_si(f"1 {found[1]}", of)
+            to_si(f"1 {match[1]}", of)
         except InvalidValue as error:
             self.add_mistake(line, column, f"{say(name)}: {error.problems[0]}", Mistake.UNIT)
-        return found[1]
+        return match[1]
 
     def _counts(self, line: int, column: int, name: str) -> _Column:
         """Size [m] and unit of a column of counts."""
@@ -224,17 +224,17 @@ class _Reading:
         return _Row(line, cells[0], time, "", counts)
 
     def _count(self, line: int, column: int, cell: str, unit: str) -> float:
-        found = self.number(line, column, cell, unit, "1/m^3")
-        if found < 0:
+        count = self.number(line, column, cell, unit, "1/m^3")
+        if count < 0:
             rule = f"{say(cell)} [{unit}] must be 0 or more: it counts particles"
             self.add_mistake(line, column, rule, Mistake.RANGE)
             return math.nan
-        return found
+        return count
 
     def check_order(self, rows: list[_Row], unit: str) -> None:
         """Tell where a report is not later than the one before."""
-        known = [row for row in rows if math.isfinite(row.time)]
-        for before, row in pairwise(known):
+        rows_with_time = [row for row in rows if math.isfinite(row.time)]
+        for before, row in pairwise(rows_with_time):
             if not row.time > before.time:
                 rule = (
                     f"{say(row.said)}{unit} is not later than the report of line {before.number}: "

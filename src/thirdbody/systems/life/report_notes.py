@@ -25,14 +25,14 @@ DUSTS = ("A1", "A4")
 """The finest and the coarsest of the test dusts, by mass."""
 
 
-def below_counts(found: OilReports) -> str:
+def below_counts(reports: OilReports) -> str:
     """What the mass leaves out, because no report counts it.
 
     Parameters
     ----------
-    found : OilReports
+    reports : OilReports
     """
-    first = float(found.sizes[0])
+    first = float(reports.sizes[0])
     shares = [
         float(dust.partial_moment(3, 0.0, first)) / dust.moment(3)
         for dust in map(dust_sizes, DUSTS)
@@ -44,40 +44,42 @@ def below_counts(found: OilReports) -> str:
     )
 
 
-def mass_beyond(found: OilReports, slope: float) -> float:
+def mass_beyond(reports: OilReports, slope: float) -> float:
     """Mass per time of particles beyond the largest counted size, falling with a slope [kg/s]."""
-    x = float(found.sizes[-1])
+    x = float(reports.sizes[-1])
     ratio = LARGEST["iso4406"] / x
     size = slope / (3 - slope) * (ratio ** (3 - slope) - 1) / (1 - ratio**-slope)
-    density = found.ingress.material.density or math.nan
-    return float(found.rate[-1]) * density * math.pi / 6 * x**3 * size
+    density = reports.ingress.material.density or math.nan
+    return float(reports.rate[-1]) * density * math.pi / 6 * x**3 * size
 
 
-def share_beyond(found: OilReports) -> float:
+def share_beyond(reports: OilReports) -> float:
     """Part of the mass that is of particles beyond the largest counted size [1].
 
     Parameters
     ----------
-    found : OilReports
+    reports : OilReports
     """
-    return mass_beyond(found, TAIL_SLOPE) / found.mass_rate if found.mass_rate > 0 else 0.0
+    return mass_beyond(reports, TAIL_SLOPE) / reports.mass_rate if reports.mass_rate > 0 else 0.0
 
 
-def beyond_counts(found: OilReports) -> str | None:
+def beyond_counts(reports: OilReports) -> str | None:
     """How much of the mass hangs on sizes that no report says; None where nothing does.
 
     Parameters
     ----------
-    found : OilReports
+    reports : OilReports
     """
-    share = share_beyond(found)
+    share = share_beyond(reports)
     if not share > 0:
         return None
     more, less = (
-        percent(abs(mass_beyond(found, slope) - mass_beyond(found, TAIL_SLOPE)) / found.mass_rate)
+        percent(
+            abs(mass_beyond(reports, slope) - mass_beyond(reports, TAIL_SLOPE)) / reports.mass_rate
+        )
         for slope in (COARSE, FINE)
     )
-    size, end = value_of(float(found.sizes[-1]), "m"), value_of(LARGEST["iso4406"], "m")
+    size, end = value_of(float(reports.sizes[-1]), "m"), value_of(LARGEST["iso4406"], "m")
     return (
         f"{percent(share, digits=2)} of this mass is of particles beyond {size}, whose sizes no "
         f"report says: their count is taken to fall with the power {TAIL_SLOPE:g} up to {end}, as "
@@ -86,18 +88,18 @@ def beyond_counts(found: OilReports) -> str | None:
     )
 
 
-def zero_counts(found: OilReports) -> str | None:
+def zero_counts(reports: OilReports) -> str | None:
     """How counts of 0 are taken; None where there are none.
 
     Parameters
     ----------
-    found : OilReports
+    reports : OilReports
     """
-    zeros = int(np.sum(found.counts == 0))
+    zeros = int(np.sum(reports.counts == 0))
     if not zeros:
         return None
     counts = "1 count is" if zeros == 1 else f"{zeros} counts are"
-    least = f"{number(found.least / 1e6, 2)} /mL"
+    least = f"{number(reports.least / 1e6, 2)} /mL"
     return (
         f"{counts} 0: taken as anything below {least}, below the least count of its size and below "
         "that of the smaller size."

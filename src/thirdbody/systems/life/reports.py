@@ -114,7 +114,7 @@ def approach_of_reports(counts: Sequence[float], *, step: float) -> Approach:
         raise InvalidValue(
             Problem("counts", "must be three", repr(len(counts)), code=Mistake.SHAPE)
         )
-    first, middle, last = (float(each) for each in counts)
+    first, middle, last = (float(count) for count in counts)
     one, two = middle - first, last - middle
     if not (one * two > 0 and abs(two) < abs(one)):
         rule = "come to no end: each step must be smaller than the one before, and in its direction"
@@ -291,7 +291,7 @@ class _Model:
 
     def set_shapes(self, start: Array, rate: Array) -> None:
         """Take the slopes inside the intervals from these numbers of the intervals."""
-        phi, psi = (self.grid.shape(np.cumsum(each[::-1])[::-1]) for each in (start, rate))
+        phi, psi = (self.grid.shape(np.cumsum(numbers[::-1])[::-1]) for numbers in (start, rate))
         parts = [
             np.einsum("rk,jk,sk->rsj", response, shape, self.above)
             for response, shape in ((self.responses.of_start, phi), (self.responses.of_source, psi))
@@ -305,18 +305,18 @@ class _Model:
         seen = counts.ravel()
         scale = np.max(self.matrix / seen[:, None], axis=0)
         scale = np.where(scale > 0, scale, 1.0)
-        now, found = seen, np.zeros(2 * self.count)
+        now, solution = seen, np.zeros(2 * self.count)
         for _ in range(STEPS):
             # ln N + (N' − N)/N = ln N_seen
             wanted = 1 + np.log(seen / now) - self.constant / now
             weighed = self.matrix / scale / now[:, None] * self.weights[:, None]
-            before, found = found, nnls(weighed, wanted * self.weights)[0]
-            now = np.maximum(self.matrix / scale @ found + self.constant, 1e-6 * seen)
-            if np.allclose(found, before, rtol=1e-9, atol=1e-12):
+            before, solution = solution, nnls(weighed, wanted * self.weights)[0]
+            now = np.maximum(self.matrix / scale @ solution + self.constant, 1e-6 * seen)
+            if np.allclose(solution, before, rtol=1e-9, atol=1e-12):
                 break
-        found = found / scale
+        solution = solution / scale
         shape = counts.shape
-        return _Fit(found[: self.count], found[self.count :], now.reshape(shape))
+        return _Fit(solution[: self.count], solution[self.count :], now.reshape(shape))
 
 
 # ------------------------------------------------------------------------------ reports
@@ -324,17 +324,17 @@ def _counts_of(
     reports: Sequence[str] | ArrayLike, sizes: ArrayLike | None
 ) -> tuple[Array, Array, bool]:
     """Sizes [m] and counts [1/m³] of reports, and whether they are codes."""
-    given = list(reports) if not isinstance(reports, str) else [reports]  # type: ignore[arg-type]
-    if given and all(isinstance(each, str) for each in given):
-        numbers = [read_iso4406(str(each)) for each in given]
-        used = [i for i in range(3) if all(each[i] is not None for each in numbers)]
+    report_list = list(reports) if not isinstance(reports, str) else [reports]  # type: ignore[arg-type]
+    if report_list and all(isinstance(report, str) for report in report_list):
+        numbers = [read_iso4406(str(report)) for report in report_list]
+        used = [i for i in range(3) if all(row[i] is not None for row in numbers)]
         middle = [
             [math.sqrt(max(low, high / WIDTH) * high) for low, high in
-             (iso4406_range(each[i] or 0) for i in used)]
-            for each in numbers
+             (iso4406_range(row[i] or 0) for i in used)]
+            for row in numbers
         ]  # fmt: skip
         return np.array(counted_sizes())[used], np.array(middle), True
-    counts = np.asarray(given, float)
+    counts = np.asarray(report_list, float)
     at = np.array(counted_sizes() if sizes is None else sizes, float)
     if counts.ndim != 2 or counts.shape[1] != len(at) or not len(at):
         rule = f"must be codes, or {len(at)} counts each [1/m³], one from each size"
@@ -417,9 +417,9 @@ def oil_reports(
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> circuit = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("20/18/15", material=quartz), ingress=(),
-    ...     filters=tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3))
+    >>> circuit = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("20/18/15", material=quartz), ingress=(),
+    ...     filters=tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3))
     >>> found = oil_reports([0.0, 9e5], reports=["20/18/15", "18/16/13"], circuit=circuit)
     >>> [f"{rate:.2g}" for rate in found.rate]
     ['1.3e+06', '4.2e+05', '5.6e+04']
@@ -457,13 +457,15 @@ def oil_reports(
     alike = random.uniform(-0.5, 0.5, (DRAWS, 1, counts.shape[1]))
     apart = random.uniform(-0.5, 0.5, (DRAWS, *counts.shape))
     drawn = [
-        model.fit(zeros.replace_zeros(counts * width**each, 0.5 + each)).rate
-        for each in (*alike, *apart)
+        model.fit(zeros.replace_zeros(counts * width**draw, 0.5 + draw)).rate
+        for draw in (*alike, *apart)
     ]
     ends = [
-        model.fit(zeros.replace_zeros(counts, part)).rate for part in (0.0, 1.0) if zeros.here.any()
+        model.fit(zeros.replace_zeros(counts, share)).rate
+        for share in (0.0, 1.0)
+        if zeros.here.any()
     ]
-    rates = np.array([np.cumsum(each[::-1])[::-1] for each in (fit.rate, *drawn, *ends)])
+    rates = np.array([np.cumsum(rate[::-1])[::-1] for rate in (fit.rate, *drawn, *ends)])
     psi = grid.shape(rates[0])
     weights = of.density * psi @ grid.classes.volumes  # type: ignore[operator]
     masses = np.array([fit.rate, *drawn, *ends]) @ weights

@@ -115,7 +115,7 @@ def life(
     duration : float
         How long at most [s].
     until : Until or sequence of Until, optional
-        What it waits for: ``tb.until.iso4406("21/19/16")``, ``tb.until.filter_full()``.
+        What it waits for: ``tb.oil.until.iso4406("21/19/16")``, ``tb.oil.until.filter_full()``.
     times : array, optional
         At which the oil is kept [s]; evenly and in the logarithm by default, and at every event.
 
@@ -138,18 +138,19 @@ def life(
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz),
-    ...     ingress=tb.Ingress.from_counts(sizes=[4e-6, 6e-6, 14e-6], counts=[1e6, 3e5, 1e4],
-    ...                                    material=quartz),
-    ...     filters=tb.Filter(sizes=(4e-6, 10e-6), betas=(75.0, 1000.0), flow=1e-3, capacity=0.05))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz),
+    ...     ingress=tb.oil.Ingress.from_counts(sizes=[4e-6, 6e-6, 14e-6], counts=[1e6, 3e5, 1e4],
+    ...                                        material=quartz),
+    ...     filters=tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(75.0, 1000.0), flow=1e-3,
+    ...                           capacity=0.05))
     >>> history = tb.life(oil=oil, duration=3.6e6)
     >>> history.codes[-1], history.steady()[0].code
     ('17/15/11', '17/15/11')
     """
     several = isinstance(until, Iterable) and not isinstance(until, Until | str)
     waits: tuple[Until, ...] = tuple(until) if several else (until,)  # type: ignore[assignment,arg-type]
-    if wrong := [each for each in waits if not isinstance(each, Until)]:
+    if wrong := [goal for goal in waits if not isinstance(goal, Until)]:
         rule = 'must hold what a history waits for, e.g. tb.until.iso4406("21/19/16")'
         raise InvalidValue(Problem("until", rule, repr(wrong[0]), code=Mistake.KIND))
     if oil is None and contact is None:
@@ -162,37 +163,37 @@ def life(
     of_contact: dict[str, Any] = {
         "debris": debris, "running_in": running_in, "stays": stays, "worn_area": worn_area
     }  # fmt: skip
-    found: LifeHistory | DryHistory
+    history: LifeHistory | DryHistory
     if contact is None:
         assert oil is not None
-        given = of_contact | {"keep": keep}
-        if lost := [*conditions, *(name for name, value in given.items() if value)]:
+        contact_options = of_contact | {"keep": keep}
+        if lost := [*conditions, *(name for name, value in contact_options.items() if value)]:
             raise InvalidValue(Problem(lost[0], "needs a contact", code=Mistake.IDLE))
-        if idle := [each for each in waits if isinstance(each, ContactUntil)]:
+        if idle := [goal for goal in waits if isinstance(goal, ContactUntil)]:
             raise InvalidValue(Problem("until", "needs a contact", idle[0].name, code=Mistake.IDLE))
-        found = run_oil_history(oil, **shared)
+        history = run_oil_history(oil, **shared)
     else:
         use = ContactInUse(contact=contact, **of_contact)
         _check_parts(use)
         need_duration(duration)
-        asked = {"contact": contact, "oil": oil} | conditions | of_contact | shared
+        inputs = {"contact": contact, "oil": oil} | conditions | of_contact | shared
         file = None if keep is None else Path(keep)
         if oil is not None:
             film = read_conditions(FilmConditions, conditions)
-            kept = KeptRates(file, plain_inputs(asked))
-            found = run_film_history(use, film, oil=oil, kept=kept, **shared)
+            kept = KeptRates(file, plain_inputs(inputs))
+            history = run_film_history(use, film, oil=oil, kept=kept, **shared)
         else:
-            of_oil = [each for each in waits if not isinstance(each, ContactUntil)]
+            of_oil = [goal for goal in waits if not isinstance(goal, ContactUntil)]
             if of_oil:
                 raise InvalidValue(
                     Problem("until", "needs an oil", of_oil[0].name, code=Mistake.IDLE)
                 )
             dry = read_conditions(DryConditions, conditions)
-            kept = KeptRates(file, plain_inputs(asked))
-            found = run_dry_history(use, dry, kept=kept, **shared)
-    for note in found.warnings:
+            kept = KeptRates(file, plain_inputs(inputs))
+            history = run_dry_history(use, dry, kept=kept, **shared)
+    for note in history.warnings:
         tell_of_range(note)
-    return found
+    return history
 
 
 def _check_parts(use: ContactInUse) -> None:
@@ -203,7 +204,7 @@ def _check_parts(use: ContactInUse) -> None:
             Problem("stays", "must be from 0 to 1 [1]", repr(use.stays), code=Mistake.RANGE)
         )
     area = use.worn_area
-    if area is not None and not (len(area) == 2 and all(is_positive(each) for each in area)):
+    if area is not None and not (len(area) == 2 and all(is_positive(value) for value in area)):
         problems.append(
             Problem("worn_area", "must be two areas above 0 [m^2]", repr(area), code=Mistake.RANGE)
         )

@@ -69,9 +69,10 @@ def least_flow(circuit: OilCircuit, *, code: str, which: int = 0) -> float:
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=(), filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
-    ...     ingress=tb.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[1e6, 3e5], material=quartz))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=(), filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
+    ...     ingress=tb.oil.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[1e6, 3e5],
+    ...                                        material=quartz))
     >>> f"{least_flow(oil, code='16/15/14') * 6e4:.3g} L/min"
     '95 L/min'
     """
@@ -85,7 +86,7 @@ def least_flow(circuit: OilCircuit, *, code: str, which: int = 0) -> float:
     def worst(logarithm: float) -> float:
         return _worst(circuit.replace(**{f"filters.{which}.flow": math.exp(logarithm)}), code)
 
-    others = tuple(each for i, each in enumerate(circuit.filters) if i != which)
+    others = tuple(oil_filter for i, oil_filter in enumerate(circuit.filters) if i != which)
     if _worst(circuit.replace(filters=others), code) <= 0:
         return 0.0
     high = math.log(FASTEST * circuit.volume)
@@ -123,17 +124,22 @@ def filter_for_code(
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=(), filters=tb.Filter(sizes=(4e-6,), betas=(2.0,), flow=1e-3),
-    ...     ingress=tb.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[3e5, 1e5], material=quartz))
-    >>> sheets = [tb.Filter(sizes=(4e-6,), betas=(beta,), name=f"β = {beta:g}")
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=(), filters=tb.oil.Filter(sizes=(4e-6,), betas=(2.0,), flow=1e-3),
+    ...     ingress=tb.oil.Ingress.from_counts(sizes=[4e-6, 6e-6], counts=[3e5, 1e5],
+    ...                                        material=quartz))
+    >>> sheets = [tb.oil.Filter(sizes=(4e-6,), betas=(beta,), name=f"β = {beta:g}")
     ...           for beta in (1.5, 5.0, 75.0)]
     >>> filter_for_code(oil, code="16/15/14", filters=sheets).name
     'β = 5'
     """
-    own = circuit.filters[which]
-    for each in filters:
-        tried = each if each.flow is not None else each.replace(flow=own.flow)
+    present_filter = circuit.filters[which]
+    for oil_filter in filters:
+        tried = (
+            oil_filter
+            if oil_filter.flow is not None
+            else oil_filter.replace(flow=present_filter.flow)
+        )
         exchanged = tuple(tried if i == which else f for i, f in enumerate(circuit.filters))
         if _worst(circuit.replace(filters=exchanged), code) <= 0:
             return tried
@@ -155,15 +161,15 @@ def time_of_event(circuit: OilCircuit, *, until: Until, duration: float) -> floa
     Examples
     --------
     >>> import thirdbody as tb
-    >>> dirt = tb.OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"])
-    >>> oil = tb.OilCircuit(volume=0.2, start=dirt, ingress=(),
-    ...                     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
-    >>> round(time_of_event(oil, until=tb.until.iso4406("15/13/10"), duration=3600.0))
+    >>> dirt = tb.oil.OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"])
+    >>> oil = tb.oil.OilCircuit(volume=0.2, start=dirt, ingress=(),
+    ...                     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> round(time_of_event(oil, until=tb.oil.until.iso4406("15/13/10"), duration=3600.0))
     351
     """
     stops = until.replace(stops=True)
-    found = run_oil_history(circuit, duration=duration, until=(stops,), times=[0.0, duration])
-    reached = [each.time for each in found.events if each.name == stops.name]
+    history = run_oil_history(circuit, duration=duration, until=(stops,), times=[0.0, duration])
+    reached = [event.time for event in history.events if event.name == stops.name]
     return reached[0] if reached else math.inf
 
 
@@ -194,11 +200,11 @@ def longest_time(circuits: Mapping[str, OilCircuit], *, until: Until, duration: 
     Examples
     --------
     >>> import thirdbody as tb
-    >>> dust = tb.Ingress.of_dust("A3", rate="100 mg/h", material=tb.materials["quartz"])
+    >>> dust = tb.oil.Ingress.of_dust("A3", rate="100 mg/h", material=tb.materials["quartz"])
     >>> def oil(grams):
-    ...     sheet = tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3, capacity=1e-3 * grams)
-    ...     return tb.OilCircuit(volume=0.2, start=(), ingress=dust, filters=sheet)
-    >>> found = longest_time({"20 g": oil(20), "50 g": oil(50)}, until=tb.until.filter_full(),
+    ...     sheet = tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3, capacity=1e-3 * grams)
+    ...     return tb.oil.OilCircuit(volume=0.2, start=(), ingress=dust, filters=sheet)
+    >>> found = longest_time({"20 g": oil(20), "50 g": oil(50)}, until=tb.oil.until.filter_full(),
     ...                      duration=1e7)
     >>> found.name, round(found.time / found.times["20 g"], 2)
     ('50 g', 2.5)
@@ -206,7 +212,8 @@ def longest_time(circuits: Mapping[str, OilCircuit], *, until: Until, duration: 
     if not circuits:
         raise InvalidValue(Problem("circuits", "must hold one at least", code=Mistake.EMPTY))
     times = {
-        name: time_of_event(each, until=until, duration=duration) for name, each in circuits.items()
+        name: time_of_event(circuit, until=until, duration=duration)
+        for name, circuit in circuits.items()
     }
     best = list(times)[int(np.argmax(list(times.values())))]
     return Longest(best, times[best], times)

@@ -199,7 +199,7 @@ def find_steady_points(
         rule = f"must be below high = {high!r}, both finite"
         raise InvalidValue(Problem("low", rule, repr(low), code=Mistake.ORDER))
     x = np.linspace(low, high, nodes + 1)
-    y = np.array([balance(float(each)) for each in x])
+    y = np.array([balance(float(value)) for value in x])
     places: list[float] = [float(x[i]) for i in np.flatnonzero(y == 0)]
     for i in np.flatnonzero(y[:-1] * y[1:] < 0):
         places.append(brentq(balance, x[i], x[i + 1], xtol=1e-15 * (high - low), rtol=1e-15))

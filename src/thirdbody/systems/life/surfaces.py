@@ -325,4 +325,4 @@ class RunningIn(Value):
         if self.length is not None:
             return slope * sum(wear)
         shares = (self.share_1, 1 - self.share_1)
-        return slope * sum(part * w for part, w in zip(shares, by_asperities, strict=True))
+        return slope * sum(share * w for share, w in zip(shares, by_asperities, strict=True))

@@ -86,8 +86,8 @@ class CodeReached(Until):
     def _ranges(self) -> Array:
         """Counts of each size, above and up to [1/m³], (3, 2); infinite where left out."""
         ends = [
-            (np.inf, np.inf) if each is None else iso4406_range(each)
-            for each in read_iso4406(self.code)
+            (np.inf, np.inf) if code_number is None else iso4406_range(code_number)
+            for code_number in read_iso4406(self.code)
         ]
         return np.array(ends)
 
@@ -279,12 +279,12 @@ class ParticleShare(ContactUntil):
     def excess(self, loop: Loop, *, state: Array) -> float:
         pressed = loop.press_at(state, loop.find_gap(state).d)
         eta = loop.present(state, pressed.d)
-        own = float(loop.columns(pressed, "load") @ eta)
-        all_solids = own + pressed.bare * pressed.asperities["force"]
+        particle_load = float(loop.columns(pressed, "load") @ eta)
+        all_solids = particle_load + pressed.bare * pressed.asperities["force"]
         present = float(loop.columns(pressed, "loaded") @ eta) * loop.one_area
         if present < 1:
             return -1.0
-        return own / all_solids - self.share
+        return particle_load / all_solids - self.share
 
 
 @takes_units

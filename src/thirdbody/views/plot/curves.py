@@ -175,7 +175,7 @@ def shares(
     --------
     >>> import numpy as np, thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> debris = tb.Particles(material=steel, diameter=tb.Monodisperse(mean=3e-7),
+    >>> debris = tb.Particles(material=steel, diameter=tb.distributions.Monodisperse(mean=3e-7),
     ...                       areal_density=1e11)
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=debris,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
@@ -283,8 +283,8 @@ def regimes(
         edgecolor="white",
         linewidth=0.8,
     )
-    for part, hatch in zip(stacked, HATCHES.values(), strict=True):
-        part.set_hatch(2 * hatch)
+    for layer, hatch in zip(stacked, HATCHES.values(), strict=True):
+        layer.set_hatch(2 * hatch)
     _dress(ax, against, "A_t", xlog=against in ("F_star", "pressure"))
     ax.set_ylabel(r"Part of the real area $A_e,\,A_{ep},\,A_p\,/A_t$ [%]")
     ax.set_ylim(0, 1)
@@ -351,7 +351,7 @@ def modes(
     --------
     >>> import numpy as np, thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> debris = tb.Particles(material=steel, diameter=tb.Monodisperse(mean=3e-7),
+    >>> debris = tb.Particles(material=steel, diameter=tb.distributions.Monodisperse(mean=3e-7),
     ...                       areal_density=1e11)
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=debris,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
@@ -410,8 +410,8 @@ def _critical_loads(
             elif (before, after) == ("hybrid", "s-s"):
                 marks.append((load, r"$F^*_{cr2}$"))
         return marks
-    found = (("$F^*_{cr1}$", transitions.F_cr1), ("$F^*_{cr2}$", transitions.F_cr2))
-    for name, critical in found:
+    named_loads = (("$F^*_{cr1}$", transitions.F_cr1), ("$F^*_{cr2}$", transitions.F_cr2))
+    for name, critical in named_loads:
         if critical.value is not None and x.min() <= critical.value <= x.max():
             marks.append((critical.value, name))
     return marks

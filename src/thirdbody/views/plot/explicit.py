@@ -53,12 +53,12 @@ def explicit(state: ExplicitState) -> Figure:
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> rough = tb.synthetic.self_affine(
+    >>> rough = tb.surfaces.self_affine(
     ...     sigma=100e-9, hurst=0.8, shortest=8e-7, longest=6e-6, spacing=1e-7, points=64)
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=rough.roughness(),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=2e12,
-    ...                            diameter=tb.Monodisperse(mean=2e-7)))
+    ...                            diameter=tb.distributions.Monodisperse(mean=2e-7)))
     >>> len(explicit(tb.explicit.solve(contact, rough, F_star=2e-3)).axes)  # two are colour bars
     6
     """
@@ -186,22 +186,22 @@ def section_of(field: dict[str, Array], bodies: dict[str, Array], step: float) -
 def _section(
     ax: Axes, field: dict[str, Array], bodies: dict[str, Array], h: float, step: float
 ) -> None:
-    found = section_of(field, bodies, step)
-    along, size = found.along / 1e-9, found.size
-    surface = found.deformed / 1e-9
+    section = section_of(field, bodies, step)
+    along, size = section.along / 1e-9, section.size
+    surface = section.deformed / 1e-9
     ends = np.array([[along[-1], GROUND], [along[0], GROUND]])
     ground = np.concatenate([np.stack([along, surface], axis=1), ends])
     ax.add_collection(
         PolyCollection([ground], color=_tint(OKABE_ITO["black"], 0.25)), autolim=False
     )
-    ax.plot(along, found.height / 1e-9, color="black", linewidth=0.8, linestyle="--")
+    ax.plot(along, section.height / 1e-9, color="black", linewidth=0.8, linestyle="--")
     ax.axhline(h / 1e-9, color=OKABE_ITO["blue"], linewidth=1.5)
     _dress(ax, "$x$ from the particle [nm]", "Height $z$ [nm]", xlog=False)
     ax.legend(["deformed", "as it was", "the flat"], fontsize="small", loc="upper left")
     if size:
         ax.add_patch(
             Circle(
-                (0.0, found.seat / 1e-9 + size / 2e-9),
+                (0.0, section.seat / 1e-9 + size / 2e-9),
                 size / 2e-9,
                 facecolor=_tint(OKABE_ITO["vermilion"], 0.5),
                 edgecolor=OKABE_ITO["vermilion"],
@@ -212,7 +212,7 @@ def _section(
         ax.text(
             0.02,
             0.03,
-            f"x = {value_of(size, 'm', 3)}, {percent(found.share)} of the particles' load",
+            f"x = {value_of(size, 'm', 3)}, {percent(section.share)} of the particles' load",
             transform=ax.transAxes,
             fontsize="small",
         )

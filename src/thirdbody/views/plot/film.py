@@ -50,10 +50,10 @@ OF_PARTICLES = ("mu_sa", "sa_share", "h_over_x")
 
 def bands_of(u: ArrayLike, changes: RegimeSpeeds | Mapping[str, float | None]) -> list[Band]:
     """Regimes over these speeds [m/s]: from, to and word of each."""
-    told = changes if isinstance(changes, Mapping) else changes._asdict()
+    speeds = changes if isinstance(changes, Mapping) else changes._asdict()
     low, high = float(np.min(u)), float(np.max(u))
-    slow = low if told["boundary"] is None else min(max(told["boundary"], low), high)
-    fast = high if told["full"] is None else min(max(told["full"], low), high)
+    slow = low if speeds["boundary"] is None else min(max(speeds["boundary"], low), high)
+    fast = high if speeds["full"] is None else min(max(speeds["full"], low), high)
     ends = [(low, slow, "boundary"), (slow, fast, "mixed"), (fast, high, "full film")]
     return [band for band in ends if band[0] < band[1]]
 
@@ -71,7 +71,7 @@ def stribeck(
     Parameters
     ----------
     curve : xarray.Dataset or mapping
-        From `thirdbody.stribeck`, or its columns.
+        From `thirdbody.films.stribeck`, or its columns.
     changes : RegimeSpeeds or mapping
         From `lubrication.regime_speeds`.
     speed : float, optional
@@ -96,7 +96,7 @@ def stribeck(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> given = dict(conjunction=tb.films.Point(R=9.5e-3), load=20.0,
     ...              oil=tb.films.Oil(eta=0.02, alpha=2e-8))
-    >>> curve = tb.stribeck(contact, speed=np.geomspace(0.01, 10, 20), **given)
+    >>> curve = tb.films.stribeck(contact, speed=np.geomspace(0.01, 10, 20), **given)
     >>> len(stribeck(curve, regime_speeds(contact, **given)).axes)
     2
     """

@@ -46,7 +46,7 @@ def draw_history(axes: Axes, history: LifeHistory) -> None:
     history : LifeHistory
     """
     hours = _hours(history)
-    codes = [[_code_number(part) for part in code.split("/")] for code in history.codes]
+    codes = [[_code_number(digits) for digits in code.split("/")] for code in history.codes]
     smooth = np.log2(np.maximum(history.counts / 1e6, 1e-9) / LEAST)
     styles = zip(SIZES.items(), np.transpose(codes), smooth.T, DASHES, strict=True)
     for (name, colour), numbers, exact, dash in styles:
@@ -113,8 +113,8 @@ def _hours(history: Histories) -> NDArray[np.float64]:
     return hours
 
 
-def _code_number(part: str) -> float:
-    return float(part.removeprefix(">")) if part != "-" else np.nan
+def _code_number(digits: str) -> float:
+    return float(digits.removeprefix(">")) if digits != "-" else np.nan
 
 
 def draw_masses(axes: Axes, history: Histories) -> None:
@@ -173,9 +173,9 @@ def histories(history: LifeHistory) -> Figure:
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
-    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> figure = histories(tb.life(oil=oil, duration=1800.0))
     >>> len(figure.axes)
     3
@@ -268,9 +268,9 @@ def flows(history: Histories) -> Figure:
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
-    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> len(flows(tb.life(oil=oil, duration=1800.0)).axes)
     1
     """
@@ -294,9 +294,9 @@ def life(history: Histories) -> Figure:
     --------
     >>> import thirdbody as tb
     >>> quartz = tb.materials["quartz"]
-    >>> oil = tb.OilCircuit(
-    ...     volume=0.2, start=tb.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
-    ...     filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
+    >>> oil = tb.oil.OilCircuit(
+    ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz), ingress=(),
+    ...     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
     >>> len(life(tb.life(oil=oil, duration=1800.0)).axes)
     4
     """

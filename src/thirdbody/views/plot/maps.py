@@ -73,7 +73,7 @@ def mode_map(
     --------
     >>> import numpy as np, thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> debris = tb.Particles(material=steel, diameter=tb.Monodisperse(mean=3e-7),
+    >>> debris = tb.Particles(material=steel, diameter=tb.distributions.Monodisperse(mean=3e-7),
     ...                       areal_density=1e11)
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=debris,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))

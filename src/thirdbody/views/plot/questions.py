@@ -24,28 +24,28 @@ SELDOM = 1e-12
 DASHES = ("-", "--", "-.", ":")
 
 
-def draw_failures(found: ConnectorResult) -> Figure:
+def draw_failures(result: ConnectorResult) -> Figure:
     """Figure of how often a connector stays open on dust, over the contact force.
 
     Parameters
     ----------
-    found : ConnectorResult
+    result : ConnectorResult
         From `run_connector`.
     """
     ax = _axes(None)
-    plug, (forces, one, every) = found.asked.connector, found.curve()
+    plug, (forces, one, every) = result.asked.connector, result.curve()
     curves = {"one contact": one}
     if plug.contacts > 1:
         curves["connector"] = every
     for i, (label, values) in enumerate(curves.items()):
         _draw_curve(ax, i, forces, np.where(values > SELDOM, values, np.nan), label)
-    for i in found.places:
-        force = float(found.force[i])
-        ax.plot(force, found.failure_of_all[i], "o", color="black", markersize=4)
-        if len(found.places) == 1:
+    for i in result.places:
+        force = float(result.force[i])
+        ax.plot(force, result.failure_of_all[i], "o", color="black", markersize=4)
+        if len(result.places) == 1:
             ax.annotate(
                 value_of(force, "N"),
-                (force, found.failure_of_all[i]),
+                (force, result.failure_of_all[i]),
                 xytext=(5, 5),
                 textcoords="offset points",
                 fontsize="small",
@@ -57,20 +57,20 @@ def draw_failures(found: ConnectorResult) -> Figure:
     return ax.figure  # type: ignore[return-value]
 
 
-def draw_heights(found: PlateResult) -> Figure:
+def draw_heights(result: PlateResult) -> Figure:
     """Figure of how high a plate stands over particles, over their diameter.
 
     Parameters
     ----------
-    found : PlateResult
+    result : PlateResult
         From `run_plate`.
     """
     ax = _axes(None)
-    sizes, kinds = found.curve()
+    sizes, kinds = result.curve()
     for i, (name, heights) in enumerate(kinds):
         _draw_curve(ax, i, 1e6 * sizes, 1e9 * np.where(heights < ATOM, np.nan, heights), name)
     ax.plot(1e6 * sizes, 1e9 * sizes, color="0.6", linewidth=1.0, label="as high as the particle")
-    if (limit := found.asked.chuck.limit) is not None:
+    if (limit := result.asked.chuck.limit) is not None:
         ax.axhline(1e9 * limit, color="0.25", linestyle=":", linewidth=1.0)
         ax.annotate(
             f"limit {value_of(limit, 'm')}",
@@ -81,8 +81,8 @@ def draw_heights(found: PlateResult) -> Figure:
             ha="right",
             fontsize="small",
         )
-    seen = found.height >= ATOM
-    ax.plot(1e6 * found.grain[seen], 1e9 * found.height[seen], "o", color="black", markersize=4)
+    seen = result.height >= ATOM
+    ax.plot(1e6 * result.grain[seen], 1e9 * result.height[seen], "o", color="black", markersize=4)
     _dress(ax, "Diameter of the particle $x$ [µm]", "Height of the plate $h$ [nm]", ylog=True)
     ax.set_xlim(1e6 * sizes[0], 1e6 * sizes[-1])
     ax.legend(frameon=False, fontsize="small")

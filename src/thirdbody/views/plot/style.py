@@ -44,7 +44,7 @@ _DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2))]
 
 def _tint(colour: str, strength: float) -> tuple[float, float, float]:
     """The colour thinned with white; strength 1 is the colour itself."""
-    r, g, b = (1 - strength * (1 - part) for part in to_rgb(colour))
+    r, g, b = (1 - strength * (1 - channel) for channel in to_rgb(colour))
     return (r, g, b)
 
 
@@ -191,7 +191,7 @@ class FewPowers(PlainPowers):
         usual = [lead * p for p in powers for lead in (1, 2, 5) if low <= lead * p <= high]
         leads = (2, 5) if len(usual) >= LEAST_NUMBERS else (2, 3, 4, 6)
         lead = x / 10.0 ** math.floor(math.log10(x) + 1e-9)
-        near = any(math.isclose(lead, each, rel_tol=1e-6) for each in leads)
+        near = any(math.isclose(lead, label_lead, rel_tol=1e-6) for label_lead in leads)
         return super().__call__(x, pos) if near or decades < DENSE else ""
 
 

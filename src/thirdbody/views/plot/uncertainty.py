@@ -95,14 +95,14 @@ def bands(
     pairs = len(order) // 2
     for k in range(pairs):
         low, high = order[k], order[-1 - k]
-        part = data.probabilities[high] - data.probabilities[low]
+        share_of_cases = data.probabilities[high] - data.probabilities[low]
         ax.fill_between(
             x,
             band[:, low],
             band[:, high],
             color=_tint(OKABE_ITO["blue"], 0.22 + 0.33 * k / max(pairs - 1, 1)),
             linewidth=0,
-            label=f"{percent(part)} of cases",
+            label=f"{percent(share_of_cases)} of cases",
         )
     if len(order) % 2:
         middle = order[pairs]
@@ -132,8 +132,8 @@ def bands(
 
 def _is_faint(band: NDArray[Any]) -> bool:
     """Whether shares that are known are all above 0, and too small for a linear axis."""
-    known = band[np.isfinite(band)]
-    return bool(known.size and np.all(known > 0) and known.max() < FAINT)
+    finite = band[np.isfinite(band)]
+    return bool(finite.size and np.all(finite > 0) and finite.max() < FAINT)
 
 
 @takes_units
@@ -189,13 +189,13 @@ def tornado(
     rows = data.tornado(of, at=at)[of] if values is None else dict(values)
     middle = float(np.atleast_1d(data.nominal[of])[at if np.ndim(data.nominal[of]) else 0])
     ends = np.array([*rows.values(), (middle, middle)], dtype=float)
-    known = ends[np.isfinite(ends)]
+    finite = ends[np.isfinite(ends)]
     if not np.isfinite(middle):
         raise InvalidValue(
             f"plot.tornado: {of!r} does not exist for the contact itself", code=Mistake.BEYOND
         )
-    log = bool(known.min() > 0 and known.max() > 3 * known.min())
-    own = ax is None
+    log = bool(finite.min() > 0 and finite.max() > 3 * finite.min())
+    makes_figure = ax is None
     ax = _axes(ax, (5.8, 1.3 + 0.4 * len(rows)))
     for row, (label, changed) in enumerate(rows.items()):
         _bar(ax, row, changed, middle, _ends_of_input(data, label))
@@ -212,7 +212,7 @@ def tornado(
     ax.tick_params(axis="y", length=0)
     ax.grid(visible=False, axis="y")
     ax.set_ylim(len(rows) - 0.4, -0.6)
-    first, last = known.min(), known.max()
+    first, last = finite.min(), finite.max()
     if log:
         ax.set_xlim(first * (first / last) ** ROOM, last * (last / first) ** ROOM)
     elif last > first:
@@ -221,7 +221,7 @@ def tornado(
         Patch(facecolor=colour, edgecolor="white", hatch=hatch, label=name)
         for name, colour, hatch in _ends()
     ]
-    if own:  # over the whole figure: long labels leave little width to the axes
+    if makes_figure:  # over the whole figure: long labels leave little width to the axes
         drawn = ax.get_figure()
         assert drawn is not None
         drawn.legend(

@@ -105,8 +105,8 @@ def _critical_loads(report: Found) -> dict[str, float]:
     if report.contact.two_body:
         return {}
     drawn = np.atleast_1d(report.curve.F_star)
-    found = report.existing_loads()
-    return {name: F for name, F in found.items() if drawn[0] <= F <= drawn[-1]}
+    loads = report.existing_loads()
+    return {name: F for name, F in loads.items() if drawn[0] <= F <= drawn[-1]}
 
 
 def _marks(report: Found) -> list[float]:
@@ -131,11 +131,11 @@ def _mark_loads_of_study(report: Found, ax: Axes) -> Axes:
 def _each_population(report: Found, ax: Axes) -> None:
     from ..plot.style import _CYCLE, _DASHES
 
-    for i, part in enumerate(report.curve.populations):
+    for i, population in enumerate(report.curve.populations):
         style: dict[str, Any] = dict(
             color=_CYCLE[(i + 1) % len(_CYCLE)], linestyle=_DASHES[(i + 1) % 4]
         )
-        ax.plot(report.curve.F_star, part.load_share, label=part.name, **style)
+        ax.plot(report.curve.F_star, population.load_share, label=population.name, **style)
     ax.lines[0].set_label("all particles")
     ax.legend(frameon=False, fontsize="small")
 

@@ -69,8 +69,8 @@ class Found:
     @property
     def mode_changes(self) -> dict[str, Critical]:
         """The critical loads at which the mode changes, or why there are none."""
-        found = self.result.transitions
-        return {"F_cr1": found.F_cr1, "F_cr2": found.F_cr2}
+        transitions = self.result.transitions
+        return {"F_cr1": transitions.F_cr1, "F_cr2": transitions.F_cr2}
 
     def existing_loads(self) -> dict[str, float]:
         """Critical loads F* that exist."""

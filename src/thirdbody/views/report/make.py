@@ -50,7 +50,7 @@ def report(
     study: Study,
     *,
     file: str = "",
-    progress: Callable[[str], None] = lambda part: None,
+    progress: Callable[[str], None] = lambda stage: None,
     filter: Filter | None = None,
 ) -> Report:
     """Everything that the page of a study tells.
@@ -109,16 +109,16 @@ def report(
     result.need_state()
     states = result.states
     F_star = np.atleast_1d(states.F_star)
-    known = sorted(result.solved_states, key=lambda i: F_star[i])
-    loaded = [i for i in known if F_star[i] >= FAINT]
-    some = loaded or known
+    solved_states = sorted(result.solved_states, key=lambda i: F_star[i])
+    loaded = [i for i in solved_states if F_star[i] >= FAINT]
+    some = loaded or solved_states
     if study.forces is not None and study.body is not None and study.body.conjunction is not None:
         # of the mean and the largest pressure of every force the mean, as `assess` takes it
         some = [i for i in some if i % 2 == 0] or some
     at = some[len(some) // 2]
-    given = as_force_load(study.load, float(study.values[at]))
+    force_load = as_force_load(study.load, float(study.values[at]))
     if study.load == "separation":
-        given = {"F_star": float(F_star[at])}
+        force_load = {"F_star": float(F_star[at])}
     bare = study.contact.replace(outputs=())
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
@@ -127,14 +127,14 @@ def report(
         if study.explicit is not None and loaded:
             pressed = _press_surface(study, F_star[loaded].tolist())
         progress(PARTS[1])
-        assessment = _assess(study, bare, given, progress) if loaded else None
+        assessment = _assess(study, bare, force_load, progress) if loaded else None
         progress(PARTS[2])
         return Report(
             study=study,
             result=result,
             curve=curve,
             assessment=assessment,
-            slopes=_slopes(bare, given, progress) if loaded else None,
+            slopes=_slopes(bare, force_load, progress) if loaded else None,
             at=at,
             file=file,
             film=None if study.film is None else run_film(study),
@@ -166,29 +166,35 @@ def curve_over(contact: Contact, critical: Transitions, loads: list[float]) -> E
 
 
 def _assess(
-    study: Study, contact: Contact, given: ForceLoad[float], progress: Callable[[str], None]
+    study: Study, contact: Contact, force_load: ForceLoad[float], progress: Callable[[str], None]
 ) -> Assessment | None:
     inner = nested_stages(progress, len(ASSESSED))
-    asked = study.uncertainty
-    if asked is None:
+    uncertainty = study.uncertainty
+    if uncertainty is None:
         if isinstance(study.life, AskedDry):
             return None  # its answer is of the life, of which [life.uncertainty] says more
-        breaks = any(each.strength is not None for each in contact.populations)
+        breaks = any(population.strength is not None for population in contact.populations)
         ranges = stated_ranges(contact)
         if breaks or not ranges:
             return None
         samples = min(enough(contact, None, ranges), MOST_SAMPLES)
-        return assess(contact, **given, samples=samples, progress=inner)
-    loads = {"pressure", "F_star", "d"} - set(given)
-    vary = {label: known for label, known in asked.inputs.items() if label not in loads}
+        return assess(contact, **force_load, samples=samples, progress=inner)
+    loads = {"pressure", "F_star", "d"} - set(force_load)
+    vary = {
+        label: distribution
+        for label, distribution in uncertainty.inputs.items()
+        if label not in loads
+    }
     if not vary:
         return None
-    samples = min(enough(contact, asked.samples, vary), most_samples(contact, vary))
-    return assess(contact, vary=vary, **given, samples=samples, seed=asked.seed, progress=inner)
+    samples = min(enough(contact, uncertainty.samples, vary), most_samples(contact, vary))
+    return assess(
+        contact, vary=vary, **force_load, samples=samples, seed=uncertainty.seed, progress=inner
+    )
 
 
 def _slopes(
-    contact: Contact, given: ForceLoad[float], progress: Callable[[str], None]
+    contact: Contact, force_load: ForceLoad[float], progress: Callable[[str], None]
 ) -> Sensitivity | None:
     """Elasticities of load share, area and separation to every input."""
     names = ["A_t", "h"]
@@ -197,6 +203,6 @@ def _slopes(
     within = progress.report_contacts if isinstance(progress, Stages) else None
     try:
         with count_contacts(4 * len(inputs(contact)), within):
-            return sensitivity(contact, of=names, **given, quick=True)
+            return sensitivity(contact, of=names, **force_load, quick=True)
     except ThirdBodyError:
         return None

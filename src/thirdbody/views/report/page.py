@@ -120,7 +120,7 @@ class Report(Found):
             f"<header><h1>{escape(title)}</h1>",
             f"<p class=soft>Report of thirdbody {escape(__version__)}.</p></header>",
             section(
-                "The answer", [f"<p>{words(each)}</p>" for each in self.lead], name="answer"
+                "The answer", [f"<p>{words(sentence)}</p>" for sentence in self.lead], name="answer"
             ).replace("<section", "<section class=lead", 1),
             *question_sections(self),
             *oil_section(self),
@@ -149,14 +149,14 @@ class Report(Found):
 
 def _lead(report: Found) -> list[str]:
     """What the study asks, in a few sentences, and what moves it most."""
-    asked = []
+    sentences = []
     if report.connector is not None:
-        asked += connector_words.answer(report.connector)
-        asked += connector_words.uncertainty(report.connector)
+        sentences += connector_words.answer(report.connector)
+        sentences += connector_words.uncertainty(report.connector)
     if report.plate is not None:
-        asked += [*plate_words.answer(report.plate), *plate_words.uncertainty(report.plate)]
-    if asked:
-        return asked
+        sentences += [*plate_words.answer(report.plate), *plate_words.uncertainty(report.plate)]
+    if sentences:
+        return sentences
     if report.oil is None:
         return [*state_words.answer(report.result), *state_words.uncertainty(report.result)]
     before_after = []
@@ -168,13 +168,15 @@ def _lead(report: Found) -> list[str]:
 
 def _in_full(report: Found) -> list[str]:
     natures = nature_words.sentences(report.result.natures)
-    told = (*natures, *report.result.force_sentences, *answer_sentences(report))
-    return [f"<p>{words(sentence)}</p>" for sentence in told]
+    sentences = (*natures, *report.result.force_sentences, *answer_sentences(report))
+    return [f"<p>{words(sentence)}</p>" for sentence in sentences]
 
 
 def _warnings(report: Found) -> list[str]:
-    others = [each for each in (report.connector, report.plate, report.film) if each is not None]
-    texts = [*(text for each in others for text in each.run_warnings), *report.result.warnings]
+    others = [
+        result for result in (report.connector, report.plate, report.film) if result is not None
+    ]
+    texts = [*(text for result in others for text in result.run_warnings), *report.result.warnings]
     texts = [*dict.fromkeys(texts), *unsolved_sentences(report.result.states.status)]
     if not texts:
         return []
@@ -190,17 +192,17 @@ def _of_solids_alone(report: Found) -> list[str]:
     """What error bars are of where the study has a film."""
     if report.film is None:
         return []
-    told = (
+    sentence = (
         "These are of the solids alone, pressed together without the oil: how sure the film, its "
         "dents and its life are, they do not say"
     )
     more = f", but the table “{oil_words.HANGS_ON}” does" if report.oil_what_ifs else ""
-    return [f"<p>{words(told + more)}.</p>"]
+    return [f"<p>{words(sentence + more)}.</p>"]
 
 
 def _bars(report: Found) -> list[str]:
-    found = report.assessment
-    if found is None:
+    assessment = report.assessment
+    if assessment is None:
         if not report.result.states.F_star[report.at] >= FAINT:
             return ["<p>There are none: nothing presses the surfaces together.</p>"]
         bare = report.contact.replace(outputs=())  # as it is assessed
@@ -216,24 +218,24 @@ def _bars(report: Found) -> list[str]:
             f"{escape(join_words(list(dict.fromkeys(names))))}. Every input counts as exactly "
             "known.</p>"
         ]
-    asked = report.study.uncertainty
+    uncertainty = report.study.uncertainty
     whence = (
         "The ranges are those of the table [uncertainty]."
-        if asked is not None
+        if uncertainty is not None
         else "The study has no table [uncertainty]: the ranges are those that the materials "
         "library states, and nothing else counts as uncertain."
     )
-    most = most_samples(report.study.contact, asked.inputs) if asked else MOST_SAMPLES
-    if asked and enough(report.study.contact, asked.samples, asked.inputs) > most:
+    most = most_samples(report.study.contact, uncertainty.inputs) if uncertainty else MOST_SAMPLES
+    if uncertainty and enough(report.study.contact, uncertainty.samples, uncertainty.inputs) > most:
         whence += f" {most} samples stand here; `thirdbody assess` takes "
         whence += "all." if most == MOST_SAMPLES else "more: each takes tables of its own."
-    out = [f"<p>{words(found.headline())} {words(whence)}</p>"]
-    for part in found.sections()[1:]:
-        out.append(f"<h3>{escape(part.title)}</h3>")
-        if part.rows:
-            out.append(text_table(part.head, part.rows, ASSESSMENT_WORDS))
-        out += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
-    pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(found))
+    out = [f"<p>{words(assessment.headline())} {words(whence)}</p>"]
+    for chapter in assessment.sections()[1:]:
+        out.append(f"<h3>{escape(chapter.title)}</h3>")
+        if chapter.rows:
+            out.append(text_table(chapter.head, chapter.rows, ASSESSMENT_WORDS))
+        out += [f"<p>{words(sentence)}</p>" for sentence in chapter.sentences]
+    pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(assessment))
     return [*out, f"<div class=figures>{pictures}</div>"]
 
 
@@ -250,8 +252,8 @@ def _slopes(report: Found) -> list[str]:
         value = report.slopes.inputs[label]
         unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
         unit = unit or declared_quantity(report.contact, label.split("+")[0])["unit"]
-        each = (float(report.slopes.elasticity[name][label]) for name in (of, *others))
-        slopes = (signed_number(slope, 3) for slope in each)
+        elasticities = (float(report.slopes.elasticity[name][label]) for name in (of, *others))
+        slopes = (signed_number(slope, 3) for slope in elasticities)
         rows.append([words_of(report.contact, label), value_of(float(value), unit), *slopes])
     sentence = (
         f"At {report.load(report.at)}, {strongest_inputs(report, of, order)}. The numbers tell by "
@@ -260,5 +262,5 @@ def _slopes(report: Found) -> list[str]:
     )
     more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
     head = ["input", "value", *(about(name).meaning for name in (of, *others))]
-    found = text_table(head, rows, ASSESSMENT_WORDS)
-    return [f"<p class=lead-in>{words(sentence)}</p>", found, more]
+    slope_table = text_table(head, rows, ASSESSMENT_WORDS)
+    return [f"<p class=lead-in>{words(sentence)}</p>", slope_table, more]

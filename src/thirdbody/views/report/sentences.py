@@ -42,8 +42,8 @@ def answer_sentences(report: Found) -> tuple[str, ...]:
 
 def _without_oil(report: Found) -> tuple[str, str, str]:
     states = report.result.states
-    known = sorted(report.result.solved_states, key=lambda i: states.pressure[i])
-    first, last = known[0], known[-1]
+    solved_states = sorted(report.result.solved_states, key=lambda i: states.pressure[i])
+    first, last = solved_states[0], solved_states[-1]
     if first == last:
         return (
             f"{report.at_load(first)} {_carries(report, first)}.",
@@ -52,7 +52,7 @@ def _without_oil(report: Found) -> tuple[str, str, str]:
         )
     low, high = (f"{report.at_load(i)} {_carries(report, i)}" for i in (first, last))
     near, far = (_gap_and_area(report, i) for i in (first, last))
-    return f"{low}: {near}.", f"{high}: {far}.", _path(report, known)
+    return f"{low}: {near}.", f"{high}: {far}.", _path(report, solved_states)
 
 
 def _with_oil(report: Found) -> list[str]:
@@ -65,13 +65,14 @@ def _with_oil(report: Found) -> list[str]:
     eta = value_of(report.film.conditions.oil.eta, "Pa s")
     out = [f"This is a {bodies(report.film)}, in oil of {eta}."]
     for i in sorted({speeds.index(min(speeds)), speeds.index(max(speeds))}):
-        told = point(report.film, i)
+        values = point(report.film, i)
         film, *solids = (
-            (who, told[f"load on {who}"]) for who in CARRIERS if f"load on {who}" in told
+            (who, values[f"load on {who}"]) for who in CARRIERS if f"load on {who}" in values
         )
         out.append(
-            f"At {value_of(speeds[i], 'm/s')} lubrication is {told['regime']}: {film[0]} "
-            f"carries {film[1]} of the load, {join_words([' '.join(each) for each in solids])}."
+            f"At {value_of(speeds[i], 'm/s')} lubrication is {values['regime']}: {film[0]} "
+            f"carries {film[1]} of the load, "
+            f"{join_words([' '.join(carrier) for carrier in solids])}."
         )
     return out + (summary(report.film)[:1] if len(speeds) > 1 else [])
 
@@ -82,7 +83,7 @@ def _carries(report: Found, i: int) -> str:
         return mode_of(None)
     if report.contact.two_body:
         return two_bodies()
-    parts = {part.name: part.load_share[i] for part in states.populations}
+    parts = {population.name: population.load_share[i] for population in states.populations}
     share = particle_share_text(states.particle_load_share[i], parts)
     mode, held = states.mode[i], report.result.particles_in(i)
     where = " of a wide surface" * is_rare(mode, held)
@@ -111,27 +112,29 @@ def _closeness(report: Found, i: int) -> str:
     if not states.A_t[i]:
         return _gap(report, i)
     plastic = states.A_p[i]
-    part = "" if math.isnan(plastic) else f", {percent(plastic / states.A_t[i])} of it plastic"
+    plastic_words = (
+        "" if math.isnan(plastic) else f", {percent(plastic / states.A_t[i])} of it plastic"
+    )
     ratio = times(abs(states.h[i]) / report.contact.roughness.sigma)
-    return f"the {_area(report, i)}{part}, and {_gap(report, i)} ({ratio} the roughness)"
+    return f"the {_area(report, i)}{plastic_words}, and {_gap(report, i)} ({ratio} the roughness)"
 
 
 def _distance(report: Found, i: int) -> str:
     """How far the load is from what would change the mode."""
     F = report.result.states.F_star[i]
-    found = report.existing_loads()
+    critical_loads = report.existing_loads()
     if report.contact.two_body:
         return _first_input(report)
     if not F > 0:
         what = "The surfaces pull at each other" if F < 0 else "There is no load"
         return f"{what}: nothing to compare with a critical load."
-    if not found:
+    if not critical_loads:
         return " ".join(
             not_met(name, entry.value, entry.status) for name, entry in report.mode_changes.items()
         )
-    name = min(found, key=lambda key: abs(math.log(F / found[key])))
-    ratio = number(max(F / found[name], found[name] / F), 3)
-    side = f"a factor {ratio} {'above' if found[name] < F else 'below'}"
+    name = min(critical_loads, key=lambda key: abs(math.log(F / critical_loads[key])))
+    ratio = number(max(F / critical_loads[name], critical_loads[name] / F), 3)
+    side = f"a factor {ratio} {'above' if critical_loads[name] < F else 'below'}"
     if ratio == number(1):
         side = "close to"
     band = ""
@@ -141,26 +144,27 @@ def _distance(report: Found, i: int) -> str:
         band = f"; with the inputs as uncertain as stated, the mode is {likely} in "
         band += f"{percent(odds[likely])} of cases"
     return (
-        f"The load is {side} {name} = {number(found[name])} "
-        f"({value_of(found[name] * report.contact.E_ss, 'Pa')}), where {happens(name)}{band}."
+        f"The load is {side} {name} = {number(critical_loads[name])} "
+        f"({value_of(critical_loads[name] * report.contact.E_ss, 'Pa')}), where "
+        f"{happens(name)}{band}."
     )
 
 
-def _path(report: Found, known: Sequence[int]) -> str:
+def _path(report: Found, solved_states: Sequence[int]) -> str:
     states = report.result.states
     if report.contact.two_body:
         return _first_input(report)
-    loads = [states.F_star[i] for i in known]
-    found = [
+    loads = [states.F_star[i] for i in solved_states]
+    critical_loads = [
         f"{name} = {number(F)} ({value_of(F * report.contact.E_ss, 'Pa')}{_outside_note(F, loads)})"
         for name, F in report.existing_loads().items()
     ]
-    if any(is_rare(states.mode[i], report.result.particles_in(i)) for i in known):
+    if any(is_rare(states.mode[i], report.result.particles_in(i)) for i in solved_states):
         path = "Modes are those of a wide surface whose particles all share the load"
     else:
-        path = mode_path(states.mode[i] for i in known)
-    critical = "the critical load is" if len(found) == 1 else "critical loads are"
-    return f"{path}; {critical} {join_words(found)}." if found else f"{path}."
+        path = mode_path(states.mode[i] for i in solved_states)
+    critical = "the critical load is" if len(critical_loads) == 1 else "critical loads are"
+    return f"{path}; {critical} {join_words(critical_loads)}." if critical_loads else f"{path}."
 
 
 def _first_input(report: Found) -> str:
@@ -209,7 +213,7 @@ def _order(slopes: Sensitivity, of: str) -> list[str]:
     """Inputs to which a result answers, the strongest first; then those with no number."""
     row = slopes.elasticity[of]
     size = {label: abs(float(value)) for label, value in row.items()}
-    if not any(0 < each < math.inf for each in size.values()):
+    if not any(0 < value < math.inf for value in size.values()):
         return []
     return sorted(size, key=lambda label: -(size[label] if math.isfinite(size[label]) else -1.0))
 

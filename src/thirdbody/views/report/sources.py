@@ -68,12 +68,12 @@ def inputs_and_sources(report: Found) -> list[str]:
         ]
         for row in _every_row(report)
     ]
-    told = (
+    legend = (
         "<p>“default” marks what the library takes where a study says nothing; everything "
         "else is what this study says, or follows from it.</p>"
     )
     columns = ["input", "symbol", "<th class=n>value</th>", "from", "name"]
-    return [table(head, bodies), told, table(columns, rows)]
+    return [table(head, bodies), legend, table(columns, rows)]
 
 
 def _every_row(report: Found) -> list[Row]:
@@ -91,15 +91,15 @@ def load_rows(study: Study) -> list[Row]:
     about, name, values = LOADS[study.load], study.load, study.values.tolist()
     if study.forces is not None:
         about, name, values = FORCE, "force", study.forces.tolist()
-    told = {about["meaning"]: values[0]}
+    loads = {about["meaning"]: values[0]}
     if len(values) > 1:
         which = (f"least of {len(values)}", "greatest")
-        told = {f"{about['meaning']}, {word}": value
+        loads = {f"{about['meaning']}, {word}": value
                 for word, value in zip(which, (min(values), max(values)), strict=True)}  # fmt: skip
     return [
         Row(f"load.{name}", about["symbol"], value_of(value, about["unit"]), meaning, False,
             float(value), about["unit"])
-        for meaning, value in told.items()
+        for meaning, value in loads.items()
     ]  # fmt: skip
 
 
@@ -110,8 +110,10 @@ def film_rows(film: FilmResult) -> list[Row]:
     if len(speeds) > 1:
         text = f"{len(speeds)} values, {span(min(speeds), max(speeds), about['unit'])}"
     amount = float(speeds[0]) if len(speeds) == 1 else None
-    own = Row("film.speed", about["symbol"], text, about["meaning"], False, amount, about["unit"])
-    return [own, *value_rows(film.conditions, "film.")]
+    speed_row = Row(
+        "film.speed", about["symbol"], text, about["meaning"], False, amount, about["unit"]
+    )
+    return [speed_row, *value_rows(film.conditions, "film.")]
 
 
 def as_stated(rows: Iterable[Row], stated: Collection[str]) -> list[Row]:
@@ -128,19 +130,19 @@ def is_stated(name: str, stated: Collection[str]) -> bool:
     False
     """
     names = {name, name.replace(".diameter.", ".")}
-    names |= {each.replace("particles.0.", "particles.") for each in names}
+    names |= {spelling.replace("particles.0.", "particles.") for spelling in names}
     return not names.isdisjoint(stated)
 
 
 def laws_and_reasons(report: Found) -> list[str]:
     rows = []
-    for what, law, asked in laws_of(report.contact, report.study.stated):
+    for what, law, chosen in laws_of(report.contact, report.study.stated):
         doi = f", doi:{law.doi}" if law.doi else ""
         rows.append(
             [
                 escape(what),
                 f"<b>{escape(law.name)}</b>: {escape(law.title)}",
-                "study" if asked else "<span class=default>default</span>",
+                "study" if chosen else "<span class=default>default</span>",
                 words(law.valid_range),
                 escape(law.provenance),
                 escape(law.citation + doi),
@@ -197,14 +199,14 @@ def source_of(body: Material) -> tuple[str, str]:
 def sources_of(body: Material) -> tuple[list[str], str]:
     """Sources of the numbers of a body, a text each, and how well they are known."""
     entry = materials.entries().get(body.name, {})
-    own = {key: getattr(body, key) for key in NUMBERS if getattr(body, key) is not None}
-    if not entry or any(value != entry.get(key) for key, value in own.items()):
+    numbers = {key: getattr(body, key) for key in NUMBERS if getattr(body, key) is not None}
+    if not entry or any(value != entry.get(key) for key, value in numbers.items()):
         return [body.source or "not stated"], "given by the study"
     texts = [entry["source"] + (f", doi:{entry['doi']}" if entry.get("doi") else "")]
     texts += [
         f"{NUMBERS[key]['symbol']}: {text}"
         for key, text in entry.get("sources", {}).items()
-        if key in own
+        if key in numbers
     ]
     standing = entry.get("standing", "")
     return texts, STANDING.get(standing, standing)
@@ -224,11 +226,11 @@ def bodies_by_label(bodies: dict[str, Material]) -> list[tuple[str, Material]]:
     return [(names[name], body) for name, body in out.items()]
 
 
-def kind_of(part: Value) -> str:
+def kind_of(value: Value) -> str:
     """A law by its name; a distribution in words."""
-    if isinstance(part, Law):
-        return part.name
-    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(part).__name__).lower()
+    if isinstance(value, Law):
+        return value.name
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(value).__name__).lower()
 
 
 def rows_of(contact: Contact) -> list[Row]:
@@ -237,10 +239,10 @@ def rows_of(contact: Contact) -> list[Row]:
     rough = contact.roughness
     if rough.eta is None and rough.eta_R_sigma is None:
         name = "roughness.eta_R_sigma"
-        told = declared_quantity(contact, name)
+        about = declared_quantity(contact, name)
         value = numbers_of(contact)[name]
-        row = Row(name, told["symbol"], number(value), told["meaning"], True, value, "1")
-        place = next(i for i, each in enumerate(rows) if each.name == "roughness.alpha")
+        row = Row(name, about["symbol"], number(value), about["meaning"], True, value, "1")
+        place = next(i for i, other in enumerate(rows) if other.name == "roughness.alpha")
         rows.insert(place + 1, row)
     return rows
 
@@ -248,32 +250,32 @@ def rows_of(contact: Contact) -> list[Row]:
 def value_rows(value: Value, path: str) -> Iterator[Row]:
     """Rows of every input of a value; names begin with ``path``."""
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
-        part, name = getattr(value, item.name), f"{path}{item.name}"
-        default = _is_default(item, part)
+        content, name = getattr(value, item.name), f"{path}{item.name}"
+        default = _is_default(item, content)
         if about := item.metadata.get("quantity"):
-            if part is not None:
-                text = value_of(part, about["unit"])
-                told = (name, about["symbol"], text, about["meaning"], default)
-                yield Row(*told, float(part), about["unit"])
+            if content is not None:
+                text = value_of(content, about["unit"])
+                cells = (name, about["symbol"], text, about["meaning"], default)
+                yield Row(*cells, float(content), about["unit"])
         elif about := item.metadata.get("choice"):
-            yield Row(name, "", str(part), about["meaning"], default)
-        elif isinstance(part, Value) and not isinstance(part, Material):
+            yield Row(name, "", str(content), about["meaning"], default)
+        elif isinstance(content, Value) and not isinstance(content, Material):
             if name == "particle_law" and value.two_body:  # type: ignore[attr-defined]
                 continue
             if item.name not in ("surfaces", "roughness", "particles"):
-                yield Row(name, "", kind_of(part), item.name.replace("_", " "), default)
-                yield from value_rows(part, f"{name}.")
+                yield Row(name, "", kind_of(content), item.name.replace("_", " "), default)
+                yield from value_rows(content, f"{name}.")
             elif item.name != "surfaces":
-                yield from value_rows(part, f"{name}.")
-        elif isinstance(part, tuple) and part:
-            for place, each in enumerate(part):
-                if isinstance(each, Value):
-                    label = each.name if isinstance(each, AbstractOutput) else place
-                    yield from value_rows(each, f"{name}.{label}.")
+                yield from value_rows(content, f"{name}.")
+        elif isinstance(content, tuple) and content:
+            for place, member in enumerate(content):
+                if isinstance(member, Value):
+                    label = member.name if isinstance(member, AbstractOutput) else place
+                    yield from value_rows(member, f"{name}.{label}.")
             if about := item.metadata.get("several"):
-                text = f"{len(part)} values, {span(min(part), max(part), about['unit'])}"
-                if min(part) == max(part):
-                    text = value_of(part[0], about["unit"])
+                text = f"{len(content)} values, {span(min(content), max(content), about['unit'])}"
+                if min(content) == max(content):
+                    text = value_of(content[0], about["unit"])
                 yield Row(name, "", text, about["meaning"], default)
 
 
@@ -295,10 +297,12 @@ def laws_of(contact: Contact, stated: Collection[str] = frozenset()) -> list[tup
     out: list[tuple[str, Law, bool]] = [
         ("asperities", contact.asperity_law, is_chosen("asperity_law"))
     ]
-    for i, each in enumerate(contact.populations):
-        law = contact.law_of(each)
-        what = "particles" + (f" ({each.name or i + 1})" if len(contact.populations) > 1 else "")
-        chosen = each.law is not None or is_chosen("particle_law")
+    for i, population in enumerate(contact.populations):
+        law = contact.law_of(population)
+        what = "particles" + (
+            f" ({population.name or i + 1})" if len(contact.populations) > 1 else ""
+        )
+        chosen = population.law is not None or is_chosen("particle_law")
         out.append((what, law, chosen))
         if isinstance(inner := getattr(law, "law", None), Law):
             out.append((f"{what}: one indentation", inner, chosen))

@@ -40,8 +40,8 @@ SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
 def _with_legend(shown: WordTable, reads: Collection[str] = ()) -> list[str]:
     """A table with the meaning of its heads below (HTML); columns ``reads`` are of words."""
     means = shown.means
-    told = "; ".join(f"{head}: {means[head]}" for head in shown.heads if head in means)
-    return [text_table(shown.heads, shown.rows, reads), f"<p class=soft>{words(told)}.</p>"]
+    legend = "; ".join(f"{head}: {means[head]}" for head in shown.heads if head in means)
+    return [text_table(shown.heads, shown.rows, reads), f"<p class=soft>{words(legend)}.</p>"]
 
 
 def states_table(report: Found) -> list[str]:
@@ -72,11 +72,18 @@ def _cell(report: Found, name: str, i: int) -> str:
 def _populations(report: Found, total: int) -> str:
     states = report.result.states
     parts = states.populations
-    head = ["pressure", *(f"{part.name}: {of}" for part in parts for of in ("load", "area"))]
+    head = [
+        "pressure",
+        *(f"{population.name}: {of}" for population in parts for of in ("load", "area")),
+    ]
     rows = [
         [
             value_of(states.pressure[i], "Pa"),
-            *(percent(x[i]) for part in parts for x in (part.load_share, part.area_share)),
+            *(
+                percent(x[i])
+                for population in parts
+                for x in (population.load_share, population.area_share)
+            ),
         ]
         for i in some_of(total, MOST_ROWS)
     ]
@@ -180,24 +187,24 @@ def life_section(report: Found) -> list[str]:
     from ..life_dents_words import tables_of_dents
     from ..plot.life import life
 
-    found = report.life
-    if found is None:
+    result = report.life
+    if result is None:
         return []
-    dry = isinstance(found, DryResult)
-    told: Any = life_dry_words if dry else life_words
+    dry = isinstance(result, DryResult)
+    words_module: Any = life_dry_words if dry else life_words
     of, shown = ("contact", "Wear and particles") if dry else ("oil", "Code and counts")
-    every = told.rows(found)
-    said = [*told.answer(found), *told.last_words(found)]
+    every = words_module.rows(result)
+    said = [*words_module.answer(result), *words_module.last_words(result)]
     rows = [every[i] for i in some_of(len(every), FEW_TIMES)]
     caption = f"{shown} over time, masses since the beginning, and where the dirt went."
     out = [
         *(f"<p>{words(sentence)}</p>" for sentence in said),
-        *_with_legend(WordTable(told.HEADS, rows, told.MEANS)),
+        *_with_legend(WordTable(words_module.HEADS, rows, words_module.MEANS)),
     ]
-    by_oil = None if isinstance(found, DryResult) else found.dents
-    for each in tables_of_dents(by_oil):
-        out += [f"<p>{words(each.above)}</p>", *_with_legend(each)]
-    out.append(f"<div class=figures>{figure(svg_of(life(found.history)), caption)}</div>")
+    by_oil = None if isinstance(result, DryResult) else result.dents
+    for dent_table in tables_of_dents(by_oil):
+        out += [f"<p>{words(dent_table.above)}</p>", *_with_legend(dent_table)]
+    out.append(f"<div class=figures>{figure(svg_of(life(result.history)), caption)}</div>")
     return [section(f"The {of} over time", out, name="life")]
 
 
@@ -214,7 +221,7 @@ def film_section(report: Found) -> list[str]:
     pressed = "the load of the study" if report.study.own_load else "this Hertz pressure"
     lead += f"What follows after this section leaves the oil out, under {pressed}."
     out = [f"<p>{words(text)}</p>" for text in (lead, *summary(report.film))]
-    slow = any(each.strength is not None for each in report.contact.populations)
+    slow = any(population.strength is not None for population in report.contact.populations)
     if total > 1 or not slow:  # around one speed dozens of others are solved
         drawn = svg_of(draw_film(report.film))
         friction = "Friction, load" if np.any(np.isfinite(states["mu"])) else "Load"
@@ -230,24 +237,24 @@ def film_section(report: Found) -> list[str]:
 
 def explicit_section(report: Found) -> list[str]:
     """One small surface, every particle at its place, beside the states of the study."""
-    found = report.pressed
-    if found is None:
+    surface = report.pressed
+    if surface is None:
         return []
-    if isinstance(found, str):
-        text = f"<p>{words(f'The surface of the study could not be pressed: {found}.')}</p>"
+    if isinstance(surface, str):
+        text = f"<p>{words(f'The surface of the study could not be pressed: {surface}.')}</p>"
         return [section("Point by point", [text], name="explicit")]
     from ..plot.explicit import explicit
 
-    head, rows = comparison_table(found)
+    head, rows = comparison_table(surface)
     last = len(rows) - 1
-    told = [headline(found, last), *found.warnings]
-    out = [f"<p>{words(text)}</p>" for text in told]
+    sentences = [headline(surface, last), *surface.warnings]
+    out = [f"<p>{words(text)}</p>" for text in sentences]
     caption = (
         f"At F* = {rows[last][0]}: (a) contact pressure, with the particles that carry in true "
         "size; (b) gap; (c) section through the particle that carries most; (d) parts of the "
         "load on single particles."
     )
-    drawn = figure(svg_of(explicit(found.state)), caption)
+    drawn = figure(svg_of(explicit(surface.state)), caption)
     out += [text_table(head, rows), drawn]
     return [section("Point by point", out, name="explicit")]
 
