@@ -639,8 +639,8 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
     that ``which`` says, or rows of ``alone``. For the loads target [Pa] or, where they are zero, at
     the separations ``h`` of the mean planes [σ]. States whose ``fate`` is not `OK` are left out.
-    ``care`` is `EXACT` or `ROUGH`. Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and the columns ``rows``
-    (N, 10).
+    ``care`` is `EXACT` or `ROUGH`. Fills ``h``, the rounds ``count``, ``fate``, the estimated
+    ``error`` and the columns ``rows`` (N, 10).
     """
     most, every, length = seats.shape[1], sections.shape[1], 0
     for i in range(len(target)):
