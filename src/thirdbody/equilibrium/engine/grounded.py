@@ -28,6 +28,7 @@ from .fields import (
     SIDE,
     SQUEEZED,
     TOO_LONG,
+    TOO_MUCH,
     UNSOLVED,
 )
 from .ground import (
@@ -75,8 +76,8 @@ MOST_ROWS = 16_384
 LONG, CLOSE, ABOVE = 128, 0.1, 48
 """Where the rows to be solved are more than so many, part of the load from which on, and rows above
 these."""
-LOOSE = 1e-5
-"""Accuracy of u [σ] coming down."""
+LOOSE, CLEARLY = 1e-5, 0.999
+"""Accuracy of u [σ] coming down, and part of a load below which a row carries less even so."""
 OF_ROOT, OF_ROWS, WORST, MANY, LEAST, SHARES, LEVEL, OF_CELLS, NEGLIGIBLE = range(9)
 """Of the care with which a state is solved: accuracy of u [σ] of rows beside the root and of any
 that the spline needs, the largest error, rows beside a cell and the least of them, whether states
@@ -293,7 +294,8 @@ def _first_row(field, held, load, high, rows, work, out):
 def _come_down(field, held, k, target, h, rows, work, out):
     """Solve rows roughly from row k down to the one that carries the target or lies below h.
 
-    That row, −1 without one; rounds; and the fate.
+    That row, −1 without one; rounds; and the fate, that the load is too much where the lowest row
+    carries clearly less.
     """
     keep_apart()
     own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
@@ -318,7 +320,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
         elif at <= h:
             return k, rounds, OK
         k -= 1
-    return -1, rounds, UNSOLVED
+    return -1, rounds, TOO_MUCH if before < CLEARLY * target else UNSOLVED
 
 
 @scalar
@@ -549,7 +551,7 @@ def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts
     k, n, fate = _come_down(field, held, k, target, h, rows, work, out)
     rounds += n
     if fate != OK:
-        return h, rounds, fate, math.inf
+        return h, rounds, fate, 0.0 if fate == TOO_MUCH else math.inf
     fate, n, k, t, slope, low, high = _settle_cell(
         field, held, splines, care, k, target, h, rows, work, poly, row, lasts
     )

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["DOUBTS", "own_columns"]
+__all__ = ["DOUBTS", "lowest_separations", "own_columns"]
 
 AT_ONCE = 256
 """States handed to a thread at a time."""
@@ -96,6 +96,18 @@ def own_columns(
     doubt[(fate == f.OK) & ~(found["residual"] <= RESIDUAL)] = NOT_BALANCED
     fate[doubt != ""] = f.UNSOLVED
     return found | {"status": fate, "iterations": evaluations, "doubt": doubt, "error": error}
+
+
+def lowest_separations(contact: Contact, arrays: Mapping[str, Array], count: int) -> Array:
+    """Separations d [m] below which the models of asperities of contacts (N,) end.
+
+    Raises
+    ------
+    NotCompiled
+        Models that the kernel does not know.
+    """
+    numbers = Numbers(contact, arrays, count)
+    return np.asarray(numbers.origin + numbers.skins[:, 0, f.SIGMA_S] * numbers.deepest)
 
 
 def solve(
