@@ -10,8 +10,9 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, NotCompiled, Problem
 from ..quantities.carried import takes_units
+from .engine.run import lowest_separations
 from .load_scan import load_scan
 from .modes import WINDOW, CriticalStatus
 from .share_splines import LEVEL_1, LEVEL_2, PROBES, Likeness, SplineLoads, expected_ends
@@ -164,10 +165,14 @@ class Shares:
         self.top = np.asarray(first["d"], float)
         self.bottom = np.where(np.isnan(last["d"]), self.deepest, last["d"])
         if contact.asperity_law.of_surface:
-            self.bottom = np.maximum(self.bottom, self._ends(np.flatnonzero(np.isnan(last["d"]))))
+            self.deepest = lowest_of_surfaces(contact, vary, count)
+            self.bottom = np.where(np.isnan(last["d"]), self.deepest, last["d"])
+            if len(too_much := np.flatnonzero(np.isnan(last["d"]))):
+                loads = self.columns_at(np.ones(len(too_much)), too_much)[-1]
+                self.bottom = np.maximum(self.bottom, self._ends(too_much[np.isnan(loads)]))
 
     def _ends(self, which: NDArray[np.intp]) -> Array:
-        """Lowest separation of a law of the whole surface, whose end depends on the contact."""
+        """Lowest separation of a law of the whole surface, where it depends on the particles."""
         out = np.full(self.count, -np.inf)
         for i in which.tolist():
             inputs = {name: values[i].item() for name, values in self.vary.items()}
@@ -202,6 +207,15 @@ class Shares:
     def load(self, t: Array, which: NDArray[np.intp]) -> Array:
         """F* of contacts ``which`` at t."""
         return np.exp(self.logarithms_at(t, which)[2])
+
+
+def lowest_of_surfaces(contact: Contact, vary: Arrays, count: int) -> Array:
+    """Separations d [m] at which a law of the whole surface ends; −∞ where only tables say."""
+    try:
+        lowest = lowest_separations(contact, vary, count)
+    except NotCompiled:
+        return np.full(count, -np.inf)
+    return lowest + 1e-9 * contact.roughness.sigma
 
 
 def _log_ratio(one: Array, other: Array) -> Array:
@@ -244,6 +258,8 @@ def _spline_loads(
         return None
     top, bottom = expected_ends(like, ends)
     deepest = like.extend_to_all(probed.deepest)
+    if contact.asperity_law.of_surface:
+        deepest = lowest_of_surfaces(contact, vary, count)
     shares = Shares(contact, vary, count, np.stack([top, np.maximum(bottom, deepest)]))
 
     def states(x: Array, which: NDArray[np.intp]) -> Array:

@@ -12,6 +12,7 @@ import numpy as np
 from scipy import special
 
 from ...contact.contact import Contact
+from ...contact.field_sums import ROUNDING
 from ...contact.particle_sums import printed_numbers
 from ...errors import NotCompiled
 from ...laws import asperity, particle
@@ -19,7 +20,7 @@ from ...laws.asperity.elliptic import hertz_of
 from ...laws.asperity.layer import ElasticLayer, table_of
 from ...laws.field.formulas import hardness_ratio
 from ...laws.field.reduced import area_factor, remainder_height
-from ...laws.field.table import ALPHAS, SOFT, rows_of
+from ...laws.field.table import ALPHAS, SOFT, rows_of, separations
 from ...laws.particle.deep import curve_rows, sink_rows, squashed_part
 from ...laws.particle.tension import _bends, _equator
 from ...numerics.quadrature import gauss_legendre
@@ -268,7 +269,7 @@ class Numbers:
         """What asperities that are coated do, if they are."""
         self.origin: Number = 0.0
         """Where the separations of the kernel begin, over the datum of d [m]."""
-        self.deepest = -DEEPEST
+        self.deepest: Number = -DEEPEST
         """Lowest separation that may be given, in the unit of the kernel."""
         self.outside: Any = np.zeros(count, bool)
         """States that a table of the kernel does not reach, whose numbers are those of its edge."""
@@ -355,7 +356,9 @@ class Numbers:
                 for k in range(f.COLUMNS_OF_TABLE):
                     begin = f.OF_TABLE + k * f.HEIGHTS_OF_TABLE
                     skin[some, begin : begin + flat.shape[2]] = flat[:, k]
-        self.origin, self.deepest = -np.asarray(rough.y_s), -math.inf
+        self.origin = -np.asarray(rough.y_s)
+        lowest = (separations(True)[0], separations(False)[0])
+        self.deepest = np.where(chi <= SOFT, *lowest) + ROUNDING
 
     def _populations(self) -> list[Section]:
         """Sections of all populations."""

@@ -208,7 +208,7 @@ def _middle(a, b, high):
 
 
 @scalar
-def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, values,
+def lay_gaps(given, sides, panels, count, rule, places, settled, cells, floor, edges, values,
              series, terms):  # fmt: skip
     """Lay cells over the gap, from the largest size down; how many, and what they leave out.
 
@@ -251,7 +251,7 @@ def lay_gaps(given, sides, panels, count, rule, places, cells, floor, edges, val
             )
             if left != left:
                 return -1, 0.0
-            if left > SETTLED and b - a > THINNEST * high:
+            if left > settled and b - a > THINNEST * high:
                 if last_n > n + 1:
                     last_n = many = n + (last_n - n) // 2
                     many -= n

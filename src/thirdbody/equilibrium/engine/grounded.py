@@ -28,6 +28,7 @@ from .fields import (
     SIDE,
     SQUEEZED,
     TOO_LONG,
+    TOO_MUCH,
     UNSOLVED,
 )
 from .ground import (
@@ -45,6 +46,7 @@ from .ground import (
     OF_NODES,
     PLACES,
     ROWS,
+    SETTLED,
     SIGMA,
     STEP,
     TAUS,
@@ -65,18 +67,25 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["SPLINES", "solve_grounded"]
+__all__ = ["EXACT", "ROUGH", "SPLINES", "solve_grounded"]
 
 BESIDE, NEAREST = 30, 22
 """Rows beside a cell that decide what the spline is there: others change it by 1e-11 of what they
 are themselves. And so many at least, 1e-8, where asperities leave their table below."""
 MOST_ROWS = 16_384
-NEGLIGIBLE, LONG, CLOSE, ABOVE = 1e-8, 128, 0.1, 48
-"""Part of the load from where on rows are solved; where that is more than so many rows up, part of
-it from which on, and rows above these."""
-LOOSE, SURE, LOOSEST = 1e-5, 1e-13, 1e-9
-"""Accuracy of u [σ] coming down, of rows beside the
-root, and of any that the spline needs."""
+LONG, CLOSE, ABOVE = 128, 0.1, 48
+"""Where the rows to be solved are more than so many, part of the load from which on, and rows above
+these."""
+LOOSE, CLEARLY = 1e-5, 0.999
+"""Accuracy of u [σ] coming down, and part of a load below which a row carries less even so."""
+OF_ROOT, OF_ROWS, WORST, MANY, LEAST, SHARES, LEVEL, OF_CELLS, NEGLIGIBLE = range(9)
+"""Of the care with which a state is solved: accuracy of u [σ] of rows beside the root and of any
+that the spline needs, the largest error, rows beside a cell and the least of them, whether states
+of one contact side by side share their rows, level of the rules that lay cells over the gap and
+what these may leave out, and the part of the load from where on rows are solved."""
+EXACT = np.array([1e-13, 1e-9, 1e-9, BESIDE, NEAREST, 0, 1, SETTLED, 1e-8])
+ROUGH = np.array([1e-8, 1e-8, 1e-6, 9, 6, 1, 0, 1e-7, 1e-4])
+"""Care for a state, and for one of many samples."""
 AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
 KEPT, ROUNDS, OLDER = 6, 40, 5
@@ -84,13 +93,12 @@ KEPT, ROUNDS, OLDER = 6, 40, 5
 SAME = 1e-4
 """Of a pair, what must be left beside the others."""
 BALANCED, STEPS = 4e-13, 60
-ASKED = 1e-9
 SAFE, FADES = 20.0, 0.43
 """Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
 FEWER, PART = 3, 1.0
 """So many rows less on either side say how much the others leave out: this part of the difference,
 at most, where each row fades to 0.43 (0.43³ is 0.08)."""
-SETTLED = 4e-11
+OF_TABLES = 4e-11
 """What the ground of tables, which is iterated to 1e-12, may be off: some ten times that where
 particles press down each other's."""
 DONE, GUESSED, NONE = 2, 1, 0
@@ -255,13 +263,13 @@ def _plain_load(field, held, k, rows, work, out):
     """Load at row k on ground that does not give way: more than is carried there, or nearly."""
     keep_apart()
     own, skin = field[0], field[4]
-    columns, lowest, found = rows[2], rows[4], work[5][0]
+    columns, lowest, found, spare = rows[2], rows[4], work[5][0], len(rows[0])
     h, u = own[LOWEST] + k * own[STEP], work[0][U]
     for n in range(BETA):
         u[n] = 0.0
     for s in range(lowest.shape[1]):
-        lowest[k, s] = math.nan
-    weigh_ground(field, h, u, lowest[k], work[1], found, columns[k], False)
+        lowest[spare, s] = math.nan
+    weigh_ground(field, h, u, lowest[spare], work[1], found, columns[spare], False)
     if not add_field(skin, held, h, out):
         return math.inf
     return out[F_SS] + found[0] * own[UNIT]
@@ -286,17 +294,19 @@ def _first_row(field, held, load, high, rows, work, out):
 def _come_down(field, held, k, target, h, rows, work, out):
     """Solve rows roughly from row k down to the one that carries the target or lies below h.
 
-    That row, −1 without one; rounds; and the fate.
+    That row, −1 without one; rounds; and the fate, that the load is too much where the lowest row
+    carries clearly less.
     """
     keep_apart()
     own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
     last, rounds, before = int(own[ROWS]) - 1, 0, 0.0
     while k >= 0:
-        _guess_row(k, 1, rows, last)
-        n = _solve_row(field, k, LOOSE, False, rows, work)
-        if n < 0:
-            return -1, rounds, UNSOLVED
-        rounds += n
+        if rows[5][k] == NONE:
+            _guess_row(k, 1, rows, last)
+            n = _solve_row(field, k, LOOSE, False, rows, work)
+            if n < 0:
+                return -1, rounds, UNSOLVED
+            rounds += n
         at = own[LOWEST] + k * own[STEP]
         if target > 0:
             load = _load_of(
@@ -310,11 +320,11 @@ def _come_down(field, held, k, target, h, rows, work, out):
         elif at <= h:
             return k, rounds, OK
         k -= 1
-    return -1, rounds, UNSOLVED
+    return -1, rounds, TOO_MUCH if before < CLEARLY * target else UNSOLVED
 
 
 @scalar
-def _finish_rows(field, k, low, high, rows, work):
+def _finish_rows(field, care, k, low, high, rows, work):
     """Solve every row of a window as well as it counts in cell k; rounds, or −1."""
     keep_apart()
     done, rounds, last = rows[5], 0, int(field[0][ROWS]) - 1
@@ -327,7 +337,7 @@ def _finish_rows(field, k, low, high, rows, work):
             if done[i] == NONE:
                 _guess_row(i, -1 if way == 0 else 1, rows, last)
             if done[i] != DONE:
-                accuracy = min(SURE * 2.0 ** max(k - i, i - k - 1), LOOSEST)
+                accuracy = min(care[OF_ROOT] * 2.0 ** max(k - i, i - k - 1), care[OF_ROWS])
                 n = _solve_row(field, i, accuracy, True, rows, work)
                 if n < 0:
                     return -1
@@ -471,26 +481,24 @@ def _error_of(field, k, low, high, rows):
 
 
 @scalar
-def _begin(field, held, target, h, rows, work, out):
+def _begin(field, held, care, target, h, rows, work, out):
     """The row from which to come down, evaluations, and whether there is one."""
     keep_apart()
-    own, done = field[0], rows[5]
+    own = field[0]
     count = int(own[ROWS])
     work[3][0] = 0.0
-    for k in range(count):
-        done[k] = NONE
     if target > 0:
-        k, rounds = _first_row(field, held, NEGLIGIBLE * target, count - 1, rows, work, out)
+        k, rounds = _first_row(field, held, care[NEGLIGIBLE] * target, count - 1, rows, work, out)
         if k > LONG:  # all the way down from particles that carry little
             near, n = _first_row(field, held, CLOSE * target, k, rows, work, out)
             k, rounds = min(k, near + ABOVE), rounds + n
         return k, rounds, True
     k = math.floor((h - own[LOWEST]) / own[STEP])
-    return min(k + 1 + BESIDE, count - 1), 0, 0 <= k < count - 1
+    return min(k + 1 + int(care[MANY]), count - 1), 0, 0 <= k < count - 1
 
 
 @scalar
-def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, lasts):
+def _settle_cell(field, held, splines, care, k, target, h, rows, work, poly, row, lasts):
     """Find the part of a cell, from cell k on, at which the target is carried, or h is.
 
     Fate, rounds, the cell, the part, the slope of ln F over the cell, and the window of rows; the
@@ -499,15 +507,16 @@ def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, last
     keep_apart()
     own, seats, skin, columns = field[0], field[1], field[4], rows[2]
     count, rounds, t, slope, low, high = int(own[ROWS]), 0, -1.0, 0.0, 0, 0
+    many, least = int(care[MANY]), int(care[LEAST])
     for _ in range(3):
         if not 0 <= k < count - 1:
             break
-        low, high = max(k - BESIDE, 0), min(k + 1 + BESIDE, count - 1)
-        n = _finish_rows(field, k, low, high, rows, work)
+        low, high = max(k - many, 0), min(k + 1 + many, count - 1)
+        n = _finish_rows(field, care, k, low, high, rows, work)
         if n < 0:
             break
         rounds += n
-        for i in range(low, k - NEAREST):
+        for i in range(low, k - least):
             if _leaves_table(own, rows[1], i):
                 low = i + 1
         for s in range(len(seats)):
@@ -530,36 +539,36 @@ def _settle_cell(field, held, splines, k, target, h, rows, work, poly, row, last
 
 
 @scalar
-def _ground_state(field, held, splines, target, h, rows, work, poly, lasts, row, out):
+def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts, row, out):
     """Separation [σ], rounds, fate and error of one state; its columns into ``row``."""
     keep_apart()
     own = field[0]
     if own[ROWS] > len(rows[0]):
         return h, 0, TOO_LONG, math.inf
-    k, rounds, good = _begin(field, held, target, h, rows, work, out)
+    k, rounds, good = _begin(field, held, care, target, h, rows, work, out)
     if not good:
         return h, rounds, UNSOLVED, math.inf
     k, n, fate = _come_down(field, held, k, target, h, rows, work, out)
     rounds += n
     if fate != OK:
-        return h, rounds, fate, math.inf
+        return h, rounds, fate, 0.0 if fate == TOO_MUCH else math.inf
     fate, n, k, t, slope, low, high = _settle_cell(
-        field, held, splines, k, target, h, rows, work, poly, row, lasts
+        field, held, splines, care, k, target, h, rows, work, poly, row, lasts
     )
     rounds += n
     if fate != OK:
         return h, rounds, fate, math.inf
     if target > 0:
         h = own[LOWEST] + (k + t) * own[STEP]
-    error = own[LEFT] + SETTLED + _error_of(field, k, low, high, rows)
+    error = own[LEFT] + OF_TABLES + _error_of(field, k, low, high, rows)
     error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
     if slope < 0:
         error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
-    return h, rounds, OK if error <= ASKED else NOT_RESOLVED, error
+    return h, rounds, OK if error <= care[WORST] else NOT_RESOLVED, error
 
 
 @scalar
-def _lay_section(given, sides, rules, scratch, cells, floor, section):
+def _lay_section(given, sides, rules, care, scratch, cells, floor, section):
     """Lay the cells of a section; what they leave out, and whether they are laid, or why not."""
     keep_apart()
     panels, edges, values, out = scratch
@@ -567,8 +576,8 @@ def _lay_section(given, sides, rules, scratch, cells, floor, section):
     if count <= 0:
         return 0.0, TOO_LONG
     laid, left = lay_gaps(
-        given, sides, panels, count, rules[1], rules[0, POLYNOMIAL:], cells, floor, edges,
-        values[0], values[1], out,
+        given, sides, panels, count, rules[int(care[LEVEL])], rules[0, POLYNOMIAL:], care[OF_CELLS],
+        cells, floor, edges, values[0], values[1], out,
     )  # fmt: skip
     section[CELLS] = laid
     if laid > 0:
@@ -577,13 +586,15 @@ def _lay_section(given, sides, rules, scratch, cells, floor, section):
 
 
 @scalar
-def _lay_sections(i, parts, bodies, rules, scratch, cells, floor, sections, left, fates, sides):
+def _lay_sections(
+    i, parts, bodies, rules, care, scratch, cells, floor, sections, left, fates, sides
+):
     """Lay the cells of every section of state i anew that differs from that of the state before.
 
-    What they leave out, at most, and what became of them.
+    What they leave out, at most, what became of them, and whether none differs.
     """
     keep_apart()
-    worst, fate = 0.0, OK
+    worst, fate, same = 0.0, OK, i > 0
     for s in range(sections.shape[1]):
         if i > 0 and (
             is_alike(parts[i, s], parts[i - 1, s])
@@ -592,21 +603,37 @@ def _lay_sections(i, parts, bodies, rules, scratch, cells, floor, sections, left
         ):
             sections[i, s, CELLS] = sections[i - 1, s, CELLS]
         else:
+            same = False
             for one in range(2):
                 for k in range(bodies.shape[2]):
                     sides[one, k] = bodies[i, 2 * s + one, k]
             left[s], fates[s] = _lay_section(
-                parts[i, s : s + 1], sides, rules, scratch, cells[s], floor[s], sections[i, s]
+                parts[i, s : s + 1], sides, rules, care, scratch, cells[s], floor[s], sections[i, s]
             )
         worst = max(worst, left[s])
         fate = max(fate, fates[s])
-    return worst, fate
+    return worst, fate, same
+
+
+@scalar
+def _is_ground_alike(i, skins, tables, grounds, seats, which, basis):
+    """Whether all but the particles of state i is that of the state before."""
+    keep_apart()
+    if not is_alike(grounds[i], grounds[i - 1]) or not is_alike(skins[i, 0], skins[i - 1, 0]):
+        return False
+    for m in range(tables.shape[1]):
+        if not is_alike(tables[i, m], tables[i - 1, m]):
+            return False
+    for s in range(seats.shape[1]):
+        if not is_alike(seats[i, s], seats[i - 1, s]):
+            return False
+    return which[i] == which[i - 1] and is_alike(basis[i], basis[i - 1])
 
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, series, alone, which,
-                   basis, splines, rules, target, h, count, fate, error, rows):  # fmt: skip
+                   basis, splines, rules, care, target, h, count, fate, error, rows):  # fmt: skip
     """Solve states by their own numbers: skins (N, 1, ...), sections of sizes ``parts`` (N, S, ...)
     and their sides (N, 2S, ...), tables of surfaces (N, M, ...), grounds (N, ...), seats (N, P,
     ...), and of ``sections`` (N, S, ...) what their cells are.
@@ -614,8 +641,8 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
     that ``which`` says, or rows of ``alone``. For the loads target [Pa] or, where they are zero, at
     the separations ``h`` of the mean planes [σ]. States whose ``fate`` is not `OK` are left out.
-    Fills ``h``, the rounds ``count``, ``fate``, the estimated ``error`` and the columns ``rows``
-    (N, 10).
+    ``care`` is `EXACT` or `ROUGH`. Fills ``h``, the rounds ``count``, ``fate``, the estimated
+    ``error`` and the columns ``rows`` (N, 10).
     """
     most, every, length = seats.shape[1], sections.shape[1], 0
     for i in range(len(target)):
@@ -630,8 +657,8 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
     kernels, out = np.empty(series.shape[2]), np.zeros(10)
     poly, lasts = np.zeros((most + 1, TERMS, COLUMNS)), np.zeros(most, np.int64)
     lines = (
-        np.zeros((length, UNKNOWNS)), np.zeros(length), np.zeros((length, most, COLUMNS)),
-        np.zeros(length), np.zeros((length, most)), np.zeros(length, np.int64),
+        np.zeros((length, UNKNOWNS)), np.zeros(length), np.zeros((length + 1, most, COLUMNS)),
+        np.zeros(length), np.zeros((length + 1, most)), np.zeros(length, np.int64),
     )  # fmt: skip
     work = (
         np.zeros((6, max(OF_SURFACE, TAUS))), np.zeros((OF_NODES, PLACES)),
@@ -639,8 +666,8 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
         np.zeros((4, UNKNOWNS)),
     )  # fmt: skip
     for i in range(len(target)):
-        worst, laid = _lay_sections(
-            i, parts, bodies, rules, scratch, cells, floor, sections, left, fates, sides
+        worst, laid, same = _lay_sections(
+            i, parts, bodies, rules, care, scratch, cells, floor, sections, left, fates, sides
         )
         fate[i] = max(fate[i], laid)
         if fate[i] != OK:
@@ -648,14 +675,18 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
             continue
         own = grounds[i]
         own[LEFT] += worst
-        lay_surface(skins[i], tables[i], surface)
-        lay_field(held)
-        for m in range(series.shape[2]):
-            kernels[m] = alone[-1 - which[i], m] if which[i] < 0 else 0.0
-        for j in range(series.shape[1] if which[i] >= 0 else 0):
+        if not (same and care[SHARES] == 1 and fate[i - 1] == OK and _is_ground_alike(
+            i, skins, tables, grounds, seats, which, basis
+        )):  # fmt: skip
+            lines[5][:] = NONE
+            lay_surface(skins[i], tables[i], surface)
             for m in range(series.shape[2]):
-                kernels[m] += basis[i, j] * series[which[i], j, m]
+                kernels[m] = alone[-1 - which[i], m] if which[i] < 0 else 0.0
+            for j in range(series.shape[1] if which[i] >= 0 else 0):
+                for m in range(series.shape[2]):
+                    kernels[m] += basis[i, j] * series[which[i], j, m]
+        lay_field(held)
         field = own, seats[i], sections[i], kernels, skins[i], surface, cells, floor
         h[i], count[i], fate[i], error[i] = _ground_state(
-            field, held, splines, target[i], h[i], lines, work, poly, lasts, rows[i], out
+            field, held, splines, care, target[i], h[i], lines, work, poly, lasts, rows[i], out
         )

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from scipy.special import j0
 
+from ...contact.broken_averages import is_rough
 from ...contact.field_ground import TERMS, rows_between
 from ...contact.particle_averages import NORMAL_REACH, WIDEST
 from ...errors import NotCompiled
@@ -23,7 +25,6 @@ from . import fields as f
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...laws.field.spectrum import Spectrum
     from ...populations.distributions import Distribution
     from ...populations.roughness import Roughness
     from .sections import Section
@@ -43,8 +44,12 @@ OF_STATE = (MOMENTS + 1) * (1 + 2 * TERMS)
 """k_n of particles, and series of two more in τ."""
 FELT = 0.5
 """Of what series leave out in ground over σ: loads are some hundredths of E*g, at most tenths."""
-FARTHEST = 40.0
-"""Distance up to which 40 nodes do."""
+FARTHEST, FELT_NODES = 40.0, 40
+"""Distance up to which so many nodes do."""
+ROUGH_BANDWIDTHS, ROUGH_WAVES = (2.5, 2.8, 3.3, 4.4, 8.4, 15.0, 30.0), 8
+ROUGH_AT_ONCE = 64
+"""Of samples that are solved roughly: cells over the bandwidth, nodes of series there, and states
+at a time."""
 SHORT = "the ground of particles on a field of heights is a table of its own"
 """What is said where the kernel does not know it."""
 
@@ -130,19 +135,29 @@ class Displacements:
 
     def fill_alone(self, states: Index, alpha: Array, apart: Array) -> None:
         """Take the numbers of each of these states by themselves."""
-        self.alone = np.zeros((max(len(states), 1), OF_STATE))
-        self.which[states] = -1 - np.arange(len(states))
-        for m, one in enumerate(zip(alpha.tolist(), apart.tolist(), strict=True)):
-            self.alone[m] = _numbers(*one)
+        pairs, back = np.unique(np.stack([alpha, apart]), axis=1, return_inverse=True)
+        count = pairs.shape[1]
+        self.alone = np.zeros((max(count, 1), OF_STATE))
+        self.which[states] = -1 - back.ravel()
+        if is_rough():
+            for start in range(0, count, ROUGH_AT_ONCE):
+                alpha, apart = pairs[:, start : start + ROUGH_AT_ONCE]
+                self.alone[start : start + len(alpha)] = _rows_of(_nearby_waves(alpha), apart)
+            return
+        for m, pair in enumerate(pairs.T.tolist()):
+            self.alone[m] = _numbers(*pair)
 
 
 def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
     """Of states with bandwidths α, or one, and distances over √(m0/m2) (N,)."""
     every = np.broadcast_to(np.asarray(alpha, float), len(apart))
-    together = (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1]) if varies else every > 0
-    finest = np.full(len(apart), rolled_off(BANDWIDTHS[-1] if varies else alpha).q.max())
-    for i in np.flatnonzero(~together):
-        finest[i] = rolled_off(float(every[i])).q.max()
+    if varies and is_rough():
+        together, finest = np.zeros(len(apart), bool), _nearby_waves(every).q[:, -1]
+    else:
+        together = (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1]) if varies else every > 0
+        finest = np.full(len(apart), rolled_off(BANDWIDTHS[-1] if varies else alpha).q.max())
+        for i in np.flatnonzero(~together):
+            finest[i] = rolled_off(float(every[i])).q.max()
     known = apart * finest <= FARTHEST
     if not known.any():
         raise NotCompiled(SHORT)
@@ -204,30 +219,80 @@ def _distance_series(alpha: float, n: int) -> Array:
     """Series over the distance in cell n at α: (NODES, 429)."""
     x, transform = chebyshev_transform(NODES)
     places = WIDTH * (n + 0.5 * (1 + x))
-    return transform @ np.array([_numbers(alpha, each) for each in places.tolist()])
+    return transform @ np.array([_numbers(alpha, place) for place in places.tolist()])
+
+
+class Waves(NamedTuple):
+    """Spectra of states, and integrals over all distances.
+
+    Attributes
+    ----------
+    q, weight : array (N, W)
+        Of `Spectrum`.
+    particles, others : array (N, n), (N, T, n)
+        ∫ρⁿ, and ∫ρ_zsⁿ for each of the τ of `_filters`.
+    """
+
+    q: Array
+    weight: Array
+    particles: Array
+    others: Array
 
 
 @lru_cache(maxsize=2048)
-def _far(alpha: float) -> tuple[Array, Array]:
-    """Integrals over all distances."""
-    return rolled_off(alpha).integrals_from(0.0, _filters(), MOMENTS)
+def _waves(alpha: float) -> Waves:
+    """Of one bandwidth."""
+    spectrum = rolled_off(alpha)
+    particles, others = spectrum.integrals_from(0.0, _filters(), MOMENTS)
+    return Waves(spectrum.q[None], spectrum.weight[None], particles[None], others[None])
+
+
+@lru_cache(maxsize=len(ROUGH_BANDWIDTHS))
+def _wave_series(cell: int) -> Waves:
+    """Of bandwidths in a cell, as series in ln(α − 2)."""
+    x, transform = chebyshev_transform(ROUGH_WAVES)
+    low, high = np.log(np.array(ROUGH_BANDWIDTHS[cell : cell + 2]) - 2)
+    alphas = 2 + np.exp(low + 0.5 * (high - low) * (1 + x))
+    every = zip(*map(_waves, alphas.tolist()), strict=True)
+    return Waves(*(np.tensordot(transform, np.concatenate(values), 1) for values in every))
+
+
+def _nearby_waves(alpha: Array) -> Waves:
+    """Of bandwidths (N,), to 1e-6: integrals to the end of their panels have jumps of 1e-8."""
+    ends = np.log(np.array(ROUGH_BANDWIDTHS) - 2)
+    cell = np.clip(np.searchsorted(ROUGH_BANDWIDTHS, alpha, side="right") - 1, 0, len(ends) - 2)
+    x = 2 * (np.log(alpha - 2) - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1
+    terms, parts = _terms(x, ROUGH_WAVES), []
+    for n in np.unique(cell).tolist():
+        states = np.flatnonzero(cell == n)
+        parts.append((states, [np.tensordot(terms[states], v, 1) for v in _wave_series(n)]))
+    order = np.argsort(np.concatenate([states for states, _ in parts]))
+    return Waves(*(np.concatenate(v)[order] for v in zip(*(v for _, v in parts), strict=True)))
 
 
 @lru_cache(maxsize=2048)
 def _numbers(alpha: float, apart: float) -> Array:
     """k_n of particles, and series in τ of the others, in a row."""
-    own, mixed = _far(alpha)
+    return _rows_of(_waves(alpha), np.array([apart]))[0]
+
+
+def _rows_of(waves: Waves, apart: Array) -> Array:
+    """k_n of particles, and series in τ of the others, of states: (N, 429)."""
     _, transform = chebyshev_transform(TERMS)
-    spectrum = rolled_off(alpha)
-    plain, _, weight = _near_integrals(spectrum, apart)
+    tau = _filters()[:, None]
+    rest = 1 - tau
+    first, second = (np.sum(waves.weight * waves.q**j, axis=1)[:, None, None] for j in (1, 2))
+    norm = np.sqrt(rest * rest + 2 * rest * tau * first + tau * tau * second)
+    plain, _, weight = _near_correlations(waves, apart)
     near = integrals_of_powers(plain, weight, MOMENTS)
-    plain, once, weight = _near_integrals(spectrum, 0.5 * apart)
-    other = integrals_of_powers(
-        spectrum.cross_correlation(plain, once, _filters()), weight, MOMENTS
-    )
-    near[0], other[:, 0] = apart, 0.5 * apart
-    rows = transform @ (mixed - other), transform @ mixed
-    return np.concatenate([own - near, rows[0].ravel(), rows[1].ravel()])
+    plain, once, weight = _near_correlations(waves, 0.5 * apart)
+    mixed = (rest * plain[:, None] + tau * once[:, None]) / norm
+    other = integrals_of_powers(mixed, weight[:, None], MOMENTS)
+    near[:, 0], other[:, :, 0] = apart, 0.5 * apart[:, None]
+    rows = transform @ (waves.others - other), transform @ waves.others
+    count = len(apart)
+    parts = waves.particles - near, *(row.reshape(count, -1) for row in rows)
+    return np.concatenate(parts, axis=1)
 
 
 def _filters() -> Array:
@@ -236,11 +301,14 @@ def _filters() -> Array:
     return 0.5 * (1 + x)
 
 
-def _near_integrals(spectrum: Spectrum, r: float) -> tuple[Array, Array, Array]:
-    """∫C J_0 and ∫C q J_0 at the nodes of an integral up to r, and their weights."""
-    at, weight = gauss_legendre(40)
-    plain, once, _ = spectrum.correlations(0.5 * r * (1 + at))
-    return plain, once, 0.5 * r * weight
+def _near_correlations(waves: Waves, r: Array) -> tuple[Array, Array, Array]:
+    """∫C J_0 and ∫C q J_0 at the nodes of an integral up to r (N,), and their weights: (N, R)."""
+    at, weight = gauss_legendre(FELT_NODES)
+    r = 0.5 * r[:, None]
+    bessel = j0((r * (1 + at))[:, :, None] * waves.q[:, None])
+    plain = np.einsum("nrq,nq->nr", bessel, waves.weight)
+    once = np.einsum("nrq,nq->nr", bessel, waves.weight * waves.q)
+    return plain, once, r * weight
 
 
 # ------------------------------------------------------------------------------ of a state

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["DOUBTS", "own_columns"]
+__all__ = ["DOUBTS", "lowest_separations", "own_columns"]
 
 AT_ONCE = 256
 """States handed to a thread at a time."""
@@ -98,6 +98,18 @@ def own_columns(
     return found | {"status": fate, "iterations": evaluations, "doubt": doubt, "error": error}
 
 
+def lowest_separations(contact: Contact, arrays: Mapping[str, Array], count: int) -> Array:
+    """Separations d [m] below which the models of asperities of contacts (N,) end.
+
+    Raises
+    ------
+    NotCompiled
+        Models that the kernel does not know.
+    """
+    numbers = Numbers(contact, arrays, count)
+    return np.asarray(numbers.origin + numbers.skins[:, 0, f.SIGMA_S] * numbers.deepest)
+
+
 def solve(
     numbers: Numbers, target: Array | None, given: Array, threads: int = 1
 ) -> tuple[Array, Index, Index, Array, Array]:
@@ -110,13 +122,13 @@ def solve(
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
     if numbers.ground is not None:
         fate[~numbers.ground.displacements.known] = f.NO_SERIES
-    rule = rules(bool(numbers.inside[0, 0] > 0))
+    rule, samples = rules(bool(numbers.inside[0, 0] > 0)), is_rough()  # threads do not see that
 
     def solve_from(start: int) -> None:
         here = slice(start, start + AT_ONCE)
         found = goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]
         if numbers.ground is not None:
-            solve_on_ground(numbers, numbers.ground, here, rule, found)
+            solve_on_ground(numbers, numbers.ground, here, rule, samples, found)
             return
         from .balance import solve_own
 
@@ -143,16 +155,17 @@ def solve_on_ground(
     ground: Grounds,
     here: slice,
     rule: Array,
+    samples: bool,
     found: tuple[NDArray[np.generic], ...],
 ) -> None:
     """Solve states of particles on one field of heights, into what is to be found."""
-    from .grounded import SPLINES, solve_grounded
+    from .grounded import EXACT, ROUGH, SPLINES, solve_grounded
 
     known = ground.displacements
     solve_grounded(
         *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
         *(ground.numbers[here], ground.seats[here], ground.sections[here]),
         *(known.series, known.alone, known.which[here], known.basis[here]),
-        *(SPLINES, rule),
+        *(SPLINES, rule, ROUGH if samples else EXACT),
         *found,
     )
