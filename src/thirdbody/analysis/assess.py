@@ -305,7 +305,8 @@ class _Work:
             start = time.monotonic()
             try:
                 if not alone:
-                    columns_at(contact, load, loads, inputs, few)
+                    with roughly():
+                        columns_at(contact, load, loads, inputs, few)
                 elif np.any(own_columns(contact, inputs, load, loads)["doubt"] != ""):
                     return
             except NotCompiled:
