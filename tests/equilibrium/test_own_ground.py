@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.contact.broken_averages import roughly
+from thirdbody.contact.interface import interface
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.engine import grounds
 from thirdbody.equilibrium.engine.run import NO_SERIES, NO_TABLE, SQUEEZED, own_columns
 from thirdbody.equilibrium.states import state_columns
+from thirdbody.equilibrium.status import Status
 from thirdbody.laws.field.own import RollOff
 from thirdbody.laws.field.programme import MOMENTS
 from thirdbody.laws.field.spectrum import rolled_off
@@ -349,3 +352,61 @@ def test_displacements_are_the_integrals_over_distances(alpha):
             # the tables themselves have so many terms over τ
             assert np.max(np.abs(basis @ series[0] - under)) <= bound + 1e-7
             assert np.max(np.abs(basis @ series[1] - all_over)) <= bound + 1e-7
+
+
+@pytest.mark.parametrize("name", ["hard", "two different sides", "hard and squashed"])
+def test_samples_hold_to_states_solved_by_themselves(name):
+    """Separations of one contact side by side, descending and not, share what is found."""
+    case, more = SEVERAL[name] if name in SEVERAL else CASES[name]
+    vary, _ = drawn(more, 12, 5, ROUGH if name in SEVERAL else USUAL)
+    heights = np.array([4.0, 2.6, 1.9, 0.7, 3.1, 1.9])
+    d = (vary["roughness.sigma"][:, None] * heights).ravel()
+    each = {key: np.repeat(values, len(heights)) for key, values in vary.items()}
+    want = own_columns(case, each, "d", d)
+    with roughly():
+        got, again = own_columns(case, each, "d", d), own_columns(case, each, "d", d)
+    solved = (got["doubt"] == "") & (want["doubt"] == "")
+    assert solved.mean() > 0.7
+    off = errors(got, want, each["roughness.sigma"])[solved]
+    assert 0 < off.max() <= 1e-6
+    assert np.all(off <= got["error"][solved])
+    for column in NUMBERS:
+        np.testing.assert_array_equal(got[column], again[column])
+
+
+def test_samples_of_a_load_hold_to_states_solved_by_themselves():
+    case, more = SEVERAL["three kinds of sizes"]
+    vary, loads = drawn({"roughness.alpha": (2.51, 29.9), **more}, 30, 6, ROUGH)
+    want = own_columns(case, vary, "F_star", loads)
+    with roughly():
+        got = own_columns(case, vary, "F_star", loads)
+    solved = (got["doubt"] == "") & (want["doubt"] == "")
+    assert solved.mean() > 0.7
+    off = errors(got, want, vary["roughness.sigma"])[solved]
+    assert off.max() <= 1e-6
+    assert np.all(off <= got["error"][solved])
+
+
+@pytest.mark.parametrize("particles", [HARD, None])
+def test_below_the_table_of_the_law_and_above_what_it_carries(particles):
+    """Its border is that of NumPy, to 1e-9 of σ, and to 1e-2 of the load."""
+    case = contact(particles).replace(
+        surfaces=tb.MaterialPair(STEEL.replace(H=8e9), STEEL.replace(H=8e9))
+    )
+    lowest = interface(case).lowest
+    sigma = case.roughness.sigma
+    d = lowest + sigma * np.array([-1.0, -1e-3, -1e-9, 1e-9, 1e-3, 1.0])
+    vary = {"roughness.R": np.full(len(d), case.roughness.R)}
+    got, want = own_columns(case, vary, "d", d), by_numpy(case, d, vary, "d")
+    assert want["status_code"].tolist() == [Status.TOO_DEEP] * 3 + [Status.OK] * 3
+    sure = got["doubt"] == ""
+    assert np.all(sure[:3])
+    np.testing.assert_array_equal(got["status"][sure], want["status_code"][sure])
+    most = float(want["F_star"][3])
+    loads = most * np.array([0.5, 0.99, 1.01, 2.0])
+    vary = {"roughness.R": np.full(len(loads), case.roughness.R)}
+    got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
+    assert want["status_code"].tolist() == [Status.OK] * 2 + [Status.TOO_MUCH] * 2
+    sure = got["doubt"] == ""
+    np.testing.assert_array_equal(got["status"][sure], want["status_code"][sure])
+    assert sure[-1] or particles is None

@@ -78,13 +78,14 @@ LONG, CLOSE, ABOVE = 128, 0.1, 48
 these."""
 LOOSE, CLEARLY = 1e-5, 0.999
 """Accuracy of u [σ] coming down, and part of a load below which a row carries less even so."""
-OF_ROOT, OF_ROWS, WORST, MANY, LEAST, SHARES, LEVEL, OF_CELLS, NEGLIGIBLE = range(9)
+OF_ROOT, OF_ROWS, WORST, MANY, LEAST, SHARES, OF_CELLS, NEGLIGIBLE, OF_TABLES = range(9)
 """Of the care with which a state is solved: accuracy of u [σ] of rows beside the root and of any
 that the spline needs, the largest error, rows beside a cell and the least of them, whether states
-of one contact side by side share their rows, level of the rules that lay cells over the gap and
-what these may leave out, and the part of the load from where on rows are solved."""
-EXACT = np.array([1e-13, 1e-9, 1e-9, BESIDE, NEAREST, 0, 1, SETTLED, 1e-8])
-ROUGH = np.array([1e-8, 1e-8, 1e-6, 9, 6, 1, 0, 1e-7, 1e-4])
+of one contact side by side share their rows, what cells over the gap may leave out, the part of the
+load from where on rows are solved, and the error of NumPy's tables, iterated to 1e-12 of σ (some
+ten times that where particles press down each other's), or of far integrals that are not exact."""
+EXACT = np.array([1e-13, 1e-9, 1e-9, BESIDE, NEAREST, 0, SETTLED, 1e-8, 4e-11])
+ROUGH = np.array([1e-10, 1e-10, 1e-6, 18, 14, 1, 1e-7, 1e-4, 3e-7])
 """Care for a state, and for one of many samples."""
 AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
@@ -98,9 +99,6 @@ SAFE, FADES = 20.0, 0.43
 FEWER, PART = 3, 1.0
 """So many rows less on either side say how much the others leave out: this part of the difference,
 at most, where each row fades to 0.43 (0.43³ is 0.08)."""
-OF_TABLES = 4e-11
-"""What the ground of tables, which is iterated to 1e-12, may be off: some ten times that where
-particles press down each other's."""
 DONE, GUESSED, NONE = 2, 1, 0
 """Of a row: solved, guessed roughly, or neither."""
 
@@ -560,7 +558,7 @@ def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts
         return h, rounds, fate, math.inf
     if target > 0:
         h = own[LOWEST] + (k + t) * own[STEP]
-    error = own[LEFT] + OF_TABLES + _error_of(field, k, low, high, rows)
+    error = own[LEFT] + care[OF_TABLES] + _error_of(field, k, low, high, rows)
     error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
     if slope < 0:
         error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
@@ -576,7 +574,7 @@ def _lay_section(given, sides, rules, care, scratch, cells, floor, section):
     if count <= 0:
         return 0.0, TOO_LONG
     laid, left = lay_gaps(
-        given, sides, panels, count, rules[int(care[LEVEL])], rules[0, POLYNOMIAL:], care[OF_CELLS],
+        given, sides, panels, count, rules[1], rules[0, POLYNOMIAL:], care[OF_CELLS],
         cells, floor, edges, values[0], values[1], out,
     )  # fmt: skip
     section[CELLS] = laid
@@ -674,7 +672,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
             error[i] = math.inf
             continue
         own = grounds[i]
-        own[LEFT] += worst
+        left_before = own[LEFT]
         if not (same and care[SHARES] == 1 and fate[i - 1] == OK and _is_ground_alike(
             i, skins, tables, grounds, seats, which, basis
         )):  # fmt: skip
@@ -686,7 +684,9 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
                 for m in range(series.shape[2]):
                     kernels[m] += basis[i, j] * series[which[i], j, m]
         lay_field(held)
+        own[LEFT] += worst
         field = own, seats[i], sections[i], kernels, skins[i], surface, cells, floor
         h[i], count[i], fate[i], error[i] = _ground_state(
             field, held, splines, care, target[i], h[i], lines, work, poly, lasts, rows[i], out
         )
+        own[LEFT] = left_before

@@ -128,7 +128,9 @@ def solve(
         here = slice(start, start + AT_ONCE)
         found = goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]
         if numbers.ground is not None:
-            solve_on_ground(numbers, numbers.ground, here, rule, samples, found)
+            solve_on_ground(numbers, numbers.ground, here, rule, found, samples=samples)
+            if samples:
+                solve_with_care(numbers.ground, start + np.flatnonzero(found[3] == f.NOT_RESOLVED))
             return
         from .balance import solve_own
 
@@ -137,6 +139,14 @@ def solve(
             *(numbers.inside, numbers.coating),
             *found,
         )
+
+    def solve_with_care(ground: Grounds, some: Index) -> None:
+        results = h, evaluations, fate, error, rows
+        fate[some] = f.OK
+        found = tuple(values[some] for values in results)
+        solve_on_ground(numbers, ground, some, rule, (goal[some], *found))
+        for values, again in zip(results, found, strict=True):
+            values[some] = again
 
     starts = range(0, count, AT_ONCE)
     if (workers := min(threads, len(starts))) > 1:
@@ -153,10 +163,10 @@ def solve(
 def solve_on_ground(
     numbers: Numbers,
     ground: Grounds,
-    here: slice,
+    here: slice | Index,
     rule: Array,
-    samples: bool,
-    found: tuple[NDArray[np.generic], ...],
+    found: tuple[NDArray[Any], ...],
+    samples: bool = False,
 ) -> None:
     """Solve states of particles on one field of heights, into what is to be found."""
     from .grounded import EXACT, ROUGH, SPLINES, solve_grounded
