@@ -23,7 +23,7 @@ from ..equilibrium.states import OWN_SPOTS, vary_contact
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
 from ..quantities.carried import takes_units
 from ..quantities.progress import LONG, SURE, Cost, Stages, count_contacts, duration, solving
-from ..quantities.say import number, percent, value_of
+from ..quantities.say import number, percent, span, value_of
 from ..quantities.value import problem_with
 from .assessment import (
     COARSE,
@@ -394,8 +394,9 @@ def _page(
 
 PARTS = ("error bars", "what decides", "what would change the mode")
 """What an assessment does one after the other."""
-TINY = 1e-3
-"""Probability beyond which a nominal value no longer belongs to its distribution."""
+TINY, SAME = 1e-3, 1e-9
+"""Probability beyond which a nominal value no longer belongs to its distribution, and what the end
+of a range may be off."""
 
 
 def _whence(contact: Contact, vary: Iterable[str]) -> list[str]:
@@ -408,6 +409,14 @@ def _whence(contact: Contact, vary: Iterable[str]) -> list[str]:
         named = [words_of(contact, k) for k in vary if k.startswith("roughness.") == finished]
         if named:
             out.append(f"Ranges of {source}: {'; '.join(named)}.")
+    drawn = contact.roughness.ranges.get("alpha", (math.inf, -math.inf))
+    low, high = contact.asperity_law.bandwidths
+    if "roughness.alpha" in vary and (drawn[0] < low or drawn[1] > high):
+        out.append(
+            f"The law of the asperities knows a {words_of(contact, 'roughness.alpha')} from "
+            f"{span(low, high, '1')}, so far it varies here; the process leaves "
+            f"{span(*drawn, '1')} open: the bands lack what lies outside."
+        )
     return out
 
 
@@ -467,7 +476,8 @@ def _is_beyond(distribution: Uncertain, value: float) -> bool:
     """Whether a value is none that a range has; its ends are."""
     low, high = distribution.quantile(0.0), distribution.quantile(1.0)
     if math.isfinite(low) and math.isfinite(high):
-        return not low <= value <= high
+        edge = SAME * max(abs(low), abs(high))
+        return not low - edge <= value <= high + edge
     return not TINY < distribution.cdf(value) < 1 - TINY
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL
-from ..equilibrium.modes import CriticalStatus
+from ..equilibrium.modes import WINDOW, CriticalStatus
 from ..equilibrium.status import Status
 from ..equilibrium.words import (
     critical_load,
@@ -326,8 +326,24 @@ class Assessment:
 
     def _decisive(self) -> str:
         if self.decisive in CRITICAL:
+            other = "F_cr1" if self.decisive == "F_cr2" else "F_cr2"
+            if self._may_be_nearer(other):
+                low, high = (number(end) for end in WINDOW)
+                return (
+                    f"{self.decisive}, the nearest critical load between F* = {low} and {high} "
+                    f"({other}, beyond these, may be nearer)"
+                )
             return f"{self.decisive}, the critical load nearest to this load"
         return f"the {self.called}"
+
+    def _may_be_nearer(self, other: str) -> bool:
+        """Whether a critical load outside the loads that are searched may be the nearest."""
+        nominal = self.propagation.nominal
+        load, decisive = nominal["F_star"], nominal.get(self.decisive, math.nan)
+        edge = {0.0: WINDOW[0], math.inf: WINDOW[1]}.get(nominal.get(other, math.nan))
+        if edge is None or not (0 < decisive < math.inf and load > 0):
+            return False
+        return abs(math.log(edge / load)) < abs(math.log(decisive / load))
 
     @property
     def called(self) -> str:

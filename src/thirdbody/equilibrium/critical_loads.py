@@ -109,6 +109,17 @@ def critical_loads(
             Problem("count", "must be a whole number above 0", repr(count), code=Mistake.KIND)
         )
     contact, vary = carrying(contact, vary)
+    uneven = [
+        Problem(
+            f"vary[{name!r}]",
+            Mistake.SHAPE.clause(f"must be one number or count = {count} numbers"),
+            f"{np.size(v)} numbers",
+        )
+        for name, v in vary.items()
+        if np.shape(v) not in {(), (1,), (count,)}
+    ]
+    if uneven:
+        raise InvalidValue(*uneven)
     if contact.two_body:
         raise InvalidValue("a contact without particles has no critical loads", code=Mistake.BEYOND)
     if not load_falls(contact):

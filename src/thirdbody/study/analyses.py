@@ -30,6 +30,10 @@ if TYPE_CHECKING:
 __all__ = ["assess_study", "design_study"]
 
 
+WITHOUT_OIL = (
+    "This page is for the solids alone: the oil of [film] carries nothing here. What the film "
+    "carries: thirdbody film."
+)
 MOST_ASSESSED = 7
 """Loads that are assessed; of more, some evenly spread: each takes a second or several."""
 
@@ -123,10 +127,10 @@ def _assess_body(study: Study, progress: bool) -> Assessment | Assessments:
         notes = [pressing.sentence(), *(f"Warning: {text}." for text in pressing.warnings)]
         if pressing.kind != "flat":
             largest = value_of(pressing.maximum, "Pa")
-            notes.append(
-                "This page is for the mean pressure; for the largest: "
-                f"--set load.pressure={largest!r}."
-            )
+            way = f"; for the largest: --set load.pressure={largest!r}"
+            if study.film is not None:  # whose load is that of the body
+                way = f"; the largest is {largest}"
+            notes.append(f"This page is for the mean pressure{way}.")
         pages.append(replace(page, notes=(*notes, *page.notes)))
     if len(pages) == 1:
         return pages[0]
@@ -158,6 +162,8 @@ def _assess(
         elif (uncertainty.samples or 0) > MOST_COSTLY and costly(study.contact, value["vary"]):
             value["samples"], taken = MOST_COSTLY, (TAKEN.format(asked=uncertainty.samples),)
     pages = assess_each(study.contact, name, loads, **value, title=study.title, progress=report)
+    if study.film is not None:
+        taken = (WITHOUT_OIL, *taken)
     return [
         replace(page, notes=(*taken, *page.notes)) if isinstance(page, Assessment) else page
         for page in pages
