@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from . import interaction as interaction
     from . import life as life
     from . import load_sharing as load_sharing
+    from . import machine_elements as machine_elements
     from . import mixed_film as mixed_film
     from . import oil_filter as oil_filter
     from . import oil_particles as oil_particles
@@ -35,6 +36,7 @@ __all__ = [
     "interaction",
     "life",
     "load_sharing",
+    "machine_elements",
     "mixed_film",
     "oil_filter",
     "oil_particles",
@@ -51,3 +53,7 @@ def __getattr__(name: str) -> Any:
     if name in __all__:
         return import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
