@@ -74,13 +74,18 @@ class Particles(Value):
         out: list[str] = []
         if not isinstance(self.material, Material):
             out.append(
-                Problem("material", "must be a Material", repr(self.material), code=Mistake.KIND)
+                Problem(
+                    "material",
+                    "must be a Material, e.g. materials['SiO2']",
+                    repr(self.material),
+                    code=Mistake.KIND,
+                )
             )
         if not isinstance(self.diameter, Distribution):
             out.append(
                 Problem(
                     "diameter",
-                    "must be a size distribution",
+                    "must be a size distribution, e.g. distributions.Monodisperse(mean=300e-9)",
                     repr(self.diameter),
                     code=Mistake.KIND,
                 )
