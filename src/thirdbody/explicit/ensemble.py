@@ -167,7 +167,7 @@ def surface_of(contact: Contact, *, size: int, spacing: float, seed: int = 0) ->
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> rough = surface_of(contact, size=256, spacing=2e-7)
+    >>> rough = tb.explicit.surface_of(contact, size=256, spacing=2e-7)
     >>> round(rough.rms_height * 1e9, 6)
     100.0
     """
@@ -247,7 +247,7 @@ def ensemble(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=300e-9, R=3e-6),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=4e11,
     ...                            diameter=tb.distributions.Monodisperse(mean=6e-7)))
-    >>> found = ensemble(contact, surfaces=2, F_star=[1e-3], size=128, spacing=2e-7)
+    >>> found = tb.explicit.ensemble(contact, surfaces=2, F_star=[1e-3], size=128, spacing=2e-7)
     >>> found.table.particle_load_share_cv.dims, found.surfaces
     (('F_star',), 2)
     """
