@@ -242,12 +242,13 @@ def ensemble(
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.explicit.ensemble import ensemble
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=300e-9, R=3e-6),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=4e11,
     ...                            diameter=tb.distributions.Monodisperse(mean=6e-7)))
-    >>> found = tb.explicit.ensemble(contact, surfaces=2, F_star=[1e-3], size=128, spacing=2e-7)
+    >>> found = ensemble(contact, surfaces=2, F_star=[1e-3], size=128, spacing=2e-7)
     >>> found.table.particle_load_share_cv.dims, found.surfaces
     (('F_star',), 2)
     """

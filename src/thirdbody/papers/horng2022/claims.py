@@ -33,7 +33,7 @@ def claims() -> tuple[Claim, ...]:
 
     Examples
     --------
-    >>> from thirdbody.papers.horng2022 import claims
+    >>> from thirdbody.papers.horng2022.claims import claims
     >>> len(claims())
     84
     """
