@@ -76,10 +76,11 @@ class Mistake(StrEnum):
 
     Examples
     --------
-    >>> Problem("sigma", "must be > 0", "-1", code=Mistake.RANGE).code
+    >>> import thirdbody as tb
+    >>> tb.errors.Problem("sigma", "must be > 0", "-1", code=tb.errors.Mistake.RANGE).code
     <Mistake.RANGE: 'range'>
-    >>> must = Mistake.KIND.clause("must be a number")
-    >>> must, Problem("sigma", must, "'a'").code is Mistake.KIND
+    >>> must = tb.errors.Mistake.KIND.clause("must be a number")
+    >>> must, tb.errors.Problem("sigma", must, "'a'").code is tb.errors.Mistake.KIND
     ('must be a number', True)
     """
 
@@ -172,7 +173,10 @@ class Problem(str):
 
     Examples
     --------
-    >>> found = Problem("sigma", "must be > 0", "-1", hint="m are meant", owner="Roughness")
+    >>> import thirdbody as tb
+    >>> found = tb.errors.Problem(
+    ...     "sigma", "must be > 0", "-1", hint="m are meant", owner="Roughness"
+    ... )
     >>> str(found), found.place
     ('Roughness.sigma = -1 must be > 0; m are meant', 'Roughness.sigma')
     >>> str(found.under("roughness"))
@@ -256,7 +260,10 @@ class Note(str):
 
     Examples
     --------
-    >>> note = Note("A_t reaches 0.3", code="area", effect=0.17, action="press it point by point")
+    >>> import thirdbody as tb
+    >>> note = tb.errors.Note(
+    ...     "A_t reaches 0.3", code="area", effect=0.17, action="press it point by point"
+    ... )
     >>> str(note)
     'A_t reaches 0.3; press it point by point'
     """
@@ -363,8 +370,9 @@ class NoEquilibrium(ThirdBodyError, RuntimeError):
 
     Examples
     --------
+    >>> import thirdbody as tb
     >>> from thirdbody.equilibrium.status import Status
-    >>> NoEquilibrium("the load is too small", Status.TOO_LITTLE).status.word
+    >>> tb.errors.NoEquilibrium("the load is too small", Status.TOO_LITTLE).status.word
     'no_equilibrium_below'
     """
 

@@ -49,7 +49,8 @@ class HertzPoint(NamedTuple):
 
     Examples
     --------
-    >>> point = hertz_point(1.0, R=5e-3, E_star=115e9)
+    >>> import thirdbody as tb
+    >>> point = tb.reference.hertz_point(1.0, R=5e-3, E_star=115e9)
     >>> f"{point.contact_radius * 1e6:.1f} µm, {point.peak_pressure / 1e6:.0f} MPa"
     '31.9 µm, 468 MPa'
     """
@@ -93,7 +94,8 @@ def hertz_point(force: ArrayLike, *, R: float, E_star: float) -> HertzPoint:
 
     Examples
     --------
-    >>> ball = hertz_point(10.0, R=5e-3, E_star=112e9)
+    >>> import thirdbody as tb
+    >>> ball = tb.reference.hertz_point(10.0, R=5e-3, E_star=112e9)
     >>> round(float(ball.contact_radius) * 1e6, 3), round(float(ball.peak_pressure) / 1e9, 4)
     (69.439, 0.9902)
     """
@@ -134,7 +136,8 @@ def gaussian_integral(h: ArrayLike, *, n: float) -> Array:
 
     Examples
     --------
-    >>> gaussian_integral([0.0, 3.0, 5.0], n=2.5)
+    >>> import thirdbody as tb
+    >>> tb.reference.gaussian_integral([0.0, 3.0, 5.0], n=2.5)
     array([6.16634219e-01, 1.70872996e-04, 1.35259200e-08])
     """
     if not n >= 0:
@@ -157,7 +160,11 @@ class SummitSum(NamedTuple):
 
     Examples
     --------
-    >>> low, high = (exponential_gw(h, eta=2e10, sigma_s=1e-7, R=3e-6, E_star=1e11) for h in (2, 1))
+    >>> import thirdbody as tb
+    >>> low, high = (
+    ...     tb.reference.exponential_gw(h, eta=2e10, sigma_s=1e-7, R=3e-6, E_star=1e11)
+    ...     for h in (2, 1)
+    ... )
     >>> round(float(high.pressure / low.pressure), 6), round(float(high.area / low.area), 6)
     (2.718282, 2.718282)
     """
@@ -218,7 +225,8 @@ def exponential_gw(
 
     Examples
     --------
-    >>> s = exponential_gw([0.0, 4.0], eta=5e12, sigma_s=1e-8, R=1e-6, E_star=1e11)
+    >>> import thirdbody as tb
+    >>> s = tb.reference.exponential_gw([0.0, 4.0], eta=5e12, sigma_s=1e-8, R=1e-6, E_star=1e11)
     >>> (s.pressure / s.area / 1e9).round(6)
     array([5.641896, 5.641896])
     """
@@ -257,7 +265,8 @@ def exponential_ceb(
 
     Examples
     --------
-    >>> s = exponential_ceb(1.5, eta=5e12, sigma_s=1e-8, R=1e-6, E_star=1e11, H=2e9)
+    >>> import thirdbody as tb
+    >>> s = tb.reference.exponential_ceb(1.5, eta=5e12, sigma_s=1e-8, R=1e-6, E_star=1e11, H=2e9)
     >>> round(float(s.area), 6)
     0.025338
     """
@@ -296,7 +305,8 @@ def exponential_plastic(
 
     Examples
     --------
-    >>> s = exponential_plastic(2.0, eta=5e12, sigma_s=1e-8, R=1e-6, H=2e9)
+    >>> import thirdbody as tb
+    >>> s = tb.reference.exponential_plastic(2.0, eta=5e12, sigma_s=1e-8, R=1e-6, H=2e9)
     >>> round(float(s.pressure / s.area) / 1e9, 12)
     2.0
     """
@@ -337,7 +347,8 @@ def exponential_ke(
 
     Examples
     --------
-    >>> s = exponential_ke(
+    >>> import thirdbody as tb
+    >>> s = tb.reference.exponential_ke(
     ...     1.5, eta=5e12, sigma_s=1e-8, R=1e-6, E_star=1e11, H=2e9, K=0.454 + 0.41 * 0.29)
     >>> round(float(s.area), 6)
     0.021504
@@ -400,7 +411,8 @@ def persson_area(pressure: ArrayLike, *, E_star: float, g: float) -> Array:
 
     Examples
     --------
-    >>> round(float(persson_area(1e9, E_star=1e11, g=0.1)), 9)
+    >>> import thirdbody as tb
+    >>> round(float(tb.reference.persson_area(1e9, E_star=1e11, g=0.1)), 9)
     0.158519419
     """
     _slope_problem(E_star, g)
@@ -435,7 +447,8 @@ def bush_gibson_thomas_area(pressure: ArrayLike, *, E_star: float, g: float) -> 
 
     Examples
     --------
-    >>> round(float(bush_gibson_thomas_area(1e6, E_star=1e11, g=0.1)), 9)
+    >>> import thirdbody as tb
+    >>> round(float(tb.reference.bush_gibson_thomas_area(1e6, E_star=1e11, g=0.1)), 9)
     0.000250663
     """
     _slope_problem(E_star, g)
@@ -482,7 +495,8 @@ def elliptic_hertz(ratio: float) -> EllipticHertz:
 
     Examples
     --------
-    >>> round(elliptic_hertz(4.0).R_A, 5)
+    >>> import thirdbody as tb
+    >>> round(tb.asperity.elliptic_hertz(4.0).R_A, 5)
     0.97555
     """
     k = 1.0

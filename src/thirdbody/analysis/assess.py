@@ -129,7 +129,9 @@ def assess(
     ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
-    >>> page = assess(contact, vary={"roughness.sigma": (80e-9, 120e-9)}, pressure=5e6, samples=256)
+    >>> page = tb.assess(
+    ...     contact, vary={"roughness.sigma": (80e-9, 120e-9)}, pressure=5e6, samples=256
+    ... )
     >>> page.mode, page.decisive, page.changes[0].mode
     ('hybrid', 'F_cr1', 'p-s')
     """

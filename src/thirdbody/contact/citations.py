@@ -28,7 +28,7 @@ def cite(contact: Contact) -> str:
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=1e-7, R=3e-6))
-    >>> print(cite(contact).splitlines()[0])
+    >>> print(tb.cite(contact).splitlines()[0])
     Zhao, Maietta, Chang 2000, J. Tribol. 122, 86, doi:10.1115/1.555332
     """
     laws: list[Law] = [contact.asperity_law]

@@ -48,8 +48,8 @@ class Contact(Value):
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> contact = Contact(surfaces=tb.MaterialPair(steel, steel),
-    ...                   roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> contact.two_body
     True
     """

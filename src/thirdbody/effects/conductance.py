@@ -316,8 +316,11 @@ class ThermalConductance(AbstractOutput):
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"].replace(thermal_conductivity=50)
-    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), outputs=ThermalConductance(),
-    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     outputs=tb.outputs.ThermalConductance(),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ... )
     >>> state = tb.solve(contact, pressure=5e6)
     >>> f"{state.outputs['hc']:.4g} W/(m² K)"
     '1.179e+05 W/(m² K)'
@@ -444,7 +447,7 @@ class ElectricalConductance(AbstractOutput):
     >>> brass = tb.Material(E=110e9, nu=0.34, H=1.3e9, resistivity=6.4e-8)
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(brass, brass),
     ...                      roughness=tb.Roughness(sigma=200e-9, R=5e-6),
-    ...                      outputs=ElectricalConductance())
+    ...                      outputs=tb.outputs.ElectricalConductance())
     >>> state = tb.solve(contact, pressure=5e6)
     >>> f"{state.outputs['rho_c'] / 1e-6 * 1e6:.1f} µΩ on 1 mm²"
     '21.8 µΩ on 1 mm²'

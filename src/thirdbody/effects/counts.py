@@ -44,7 +44,7 @@ class Counts(AbstractOutput):
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), outputs=Counts(),
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), outputs=tb.outputs.Counts(),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> state = tb.solve(contact, pressure=5e6)
     >>> f"{state.outputs['n_ss']:.3g} asperities a square metre"

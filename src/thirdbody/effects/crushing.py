@@ -54,9 +54,13 @@ class Crushing(AbstractOutput):
     >>> dust = tb.Particles(material=quartz, areal_density=1e7,
     ...                     diameter=tb.TruncatedGaussian(mean=10e-6, std=2e-6),
     ...                     strength=tb.grains.WeibullStrength.of(quartz))
-    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=dust,
-    ...                      particle_law=tb.particle.Series(seat="plane"),
-    ...                      roughness=tb.Roughness(sigma=1e-6, R=50e-6), outputs=Crushing())
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     particles=dust,
+    ...     particle_law=tb.particle.Series(seat="plane"),
+    ...     roughness=tb.Roughness(sigma=1e-6, R=50e-6),
+    ...     outputs=tb.outputs.Crushing(),
+    ... )
     >>> found = tb.solve(contact, d=2e-6).outputs
     >>> f"{100 * found['broken_share']:.0f} % broken, x* = {found['x_star'] * 1e6:.1f} µm"
     '53 % broken, x* = 11.7 µm'

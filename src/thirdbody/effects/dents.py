@@ -104,8 +104,12 @@ class Dents(AbstractOutput):
     >>> steel = tb.materials["S45C"]
     >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e10,
     ...                     diameter=tb.TruncatedGaussian(mean=500e-9, std=100e-9))
-    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=dust,
-    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6), outputs=Dents())
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     particles=dust,
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     outputs=tb.outputs.Dents(),
+    ... )
     >>> found = tb.solve(contact, pressure=5e6).outputs
     >>> f"{found['n_dents_1']:.2g} dents, {found['dent_depth_1'] * 1e9:.0f} nm deep on average"
     '8.8e+09 dents, 17 nm deep on average'

@@ -188,7 +188,7 @@ class Friction(AbstractOutput):
     ...                       diameter=tb.TruncatedGaussian(mean=500e-9, std=100e-9))
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=silica,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
-    ...                      outputs=Friction(tau_ss=580e6, tau_sa=200e6))
+    ...                      outputs=tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6))
     >>> state = tb.solve(contact, pressure=5e6)
     >>> f"μ = {state.outputs['mu']:.3f}, rolling {state.outputs['rolling_share']:.0%}"
     'μ = 0.069, rolling 100%'

@@ -137,8 +137,11 @@ class StaticFriction(AbstractOutput):
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), outputs=StaticFriction(),
-    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     outputs=tb.outputs.StaticFriction(),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ... )
     >>> state = tb.solve(contact, pressure=5e6)
     >>> round(float(state.outputs["mu_static"]), 3)
     0.335

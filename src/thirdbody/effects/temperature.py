@@ -135,8 +135,13 @@ class FlashTemperature(AbstractOutput):
     >>> steel = tb.materials["S45C"].replace(
     ...     thermal_conductivity=50, density=7850, specific_heat=480)
     >>> contact = tb.Contact(
-    ...     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
-    ...     outputs=(tb.outputs.Friction(tau_ss=580e6), FlashTemperature(v=1.0, A_n=1e-6)))
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     outputs=(
+    ...         tb.outputs.Friction(tau_ss=580e6),
+    ...         tb.outputs.FlashTemperature(v=1.0, A_n=1e-6),
+    ...     ),
+    ... )
     >>> state = tb.solve(contact, pressure=5e6)
     >>> f"{state.outputs['dT_ss_load']:.2f} K, hottest {state.outputs['dT_ss_peak']:.2f} K"
     '2.77 K, hottest 6.31 K'

@@ -104,7 +104,7 @@ class Wear(AbstractOutput):
     ...     surfaces=tb.MaterialPair(steel, soft), particles=dust,
     ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     ...     outputs=(Friction(tau_ss=580e6, tau_sa=200e6),
-    ...              Wear(K_ss=1e-5, K_sa=0.0, f_ab=0.1, f_roll=0.001, renewal=100.0)))
+    ...              tb.outputs.Wear(K_ss=1e-5, K_sa=0.0, f_ab=0.1, f_roll=0.001, renewal=100.0)))
     >>> worn = tb.solve(contact, pressure=5e6).outputs
     >>> f"surface 1 {worn['wear_1']:.1e}, surface 2 {worn['wear_2']:.1e} m³ per m² and m"
     'surface 1 7.2e-06, surface 2 5.7e-09 m³ per m² and m'

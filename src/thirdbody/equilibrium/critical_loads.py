@@ -100,7 +100,7 @@ def critical_loads(
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
     >>> vary = {"roughness.sigma": np.linspace(90e-9, 110e-9, 21)}
-    >>> loads, status = critical_loads(contact, vary=vary, count=21)["F_cr1"]
+    >>> loads, status = tb.equilibria.critical_loads(contact, vary=vary, count=21)["F_cr1"]
     >>> bool(np.all(np.diff(loads) < 0)), str(status[0])
     (True, 'found')
     """

@@ -396,7 +396,7 @@ def pull_off(contact: Contact) -> tuple[float, float]:
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(rubber, rubber),
     ...                      roughness=tb.Roughness(sigma=1e-6, R=100e-6),
     ...                      asperity_law=tb.asperity.JKR(w=0.05, unloading=True))
-    >>> pull_off(contact)[0] > 0
+    >>> tb.equilibria.pull_off(contact)[0] > 0
     True
     """
     from scipy.optimize import minimize_scalar

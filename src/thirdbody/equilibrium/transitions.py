@@ -39,7 +39,8 @@ class Critical(Record):
 
     Examples
     --------
-    >>> Critical(value=7.15e-06, status="found").to_dict()
+    >>> import thirdbody as tb
+    >>> tb.results.Critical(value=7.15e-06, status="found").to_dict()
     {'value': 7.15e-06, 'status': 'found'}
     """
 

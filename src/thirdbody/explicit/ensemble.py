@@ -167,7 +167,7 @@ def surface_of(contact: Contact, *, size: int, spacing: float, seed: int = 0) ->
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> rough = surface_of(contact, size=256, spacing=2e-7)
+    >>> rough = tb.explicit.surface_of(contact, size=256, spacing=2e-7)
     >>> round(rough.rms_height * 1e9, 6)
     100.0
     """
@@ -242,6 +242,7 @@ def ensemble(
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.explicit.ensemble import ensemble
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=300e-9, R=3e-6),

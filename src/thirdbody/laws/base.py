@@ -86,7 +86,10 @@ class Branch(NamedTuple):
     --------
     Hertz, with y = ω/ω_1 and the pressure 0.4 H at first yield:
 
-    >>> elastic = Branch("elastic", lambda y: 0.4 * y**1.5, lambda y: y, lambda y: 0.6 * y**0.5)
+    >>> import thirdbody as tb
+    >>> elastic = tb.asperity.Branch(
+    ...     "elastic", lambda y: 0.4 * y**1.5, lambda y: y, lambda y: 0.6 * y**0.5
+    ... )
     >>> elastic.force(4.0) / elastic.area(4.0)
     0.8
     """

@@ -97,6 +97,7 @@ def model(
 
     Examples
     --------
+    >>> from thirdbody.papers.ghaednia2013 import model
     >>> state = model("fractal").solve(1e7)
     >>> round(float(state.A_real / state.A_0), 3)
     0.01

@@ -88,6 +88,8 @@ def contact(
 
     Examples
     --------
+    >>> import thirdbody as tb
+    >>> from thirdbody.papers.ghaednia2014 import contact
     >>> dusty = contact()
     >>> bare = dusty.replace(particles=None)
     >>> A, A_bare = (tb.solve(one, pressure=1e6).A_t for one in (dusty, bare))
@@ -130,6 +132,7 @@ def stacked(
 
     Examples
     --------
+    >>> from thirdbody.papers.ghaednia2014 import stacked
     >>> state = stacked().solve(1e6)
     >>> round(state.A_real / state.A_0, 4)
     0.0087
@@ -208,6 +211,8 @@ def conductance_ratio(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from thirdbody.papers.ghaednia2014 import conductance_ratio
     >>> float(conductance_ratio("elastic", np.array([1e8])).round(2)[0])
     0.95
     """

@@ -64,6 +64,8 @@ class Verdict:
 
     Examples
     --------
+    >>> from thirdbody.papers.horng2022 import Verdict
+    >>> from thirdbody.papers.ledger import Measurement
     >>> Verdict(Measurement.from_values(0.9), "pass", "0.9; allowed < 1").passed
     True
     """
@@ -104,6 +106,7 @@ class Claim:
 
     Examples
     --------
+    >>> from thirdbody.papers.ledger import Measurement
     >>> from thirdbody.papers.horng2022.claims import claims
     >>> claim = claims()[0]
     >>> claim.judge(Measurement.absent("no such curve")).word

@@ -53,6 +53,7 @@ def explicit_particles() -> dict[str, Any]:
 
     Examples
     --------
+    >>> from thirdbody.papers.seats import explicit_particles
     >>> runs = explicit_particles()
     >>> runs["parameters"]["sigma"], len(runs["points"])
     (3e-07, 12)
@@ -99,6 +100,7 @@ def contact(diameter: float, seat: Seat = "rough", h_0: float = 0.0) -> tb.Conta
 
     Examples
     --------
+    >>> from thirdbody.papers.seats import contact
     >>> dusty = contact(300e-9)
     >>> round(dusty.E_ss / 1e9, 6)
     112.0
@@ -139,6 +141,8 @@ def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from thirdbody.papers.seats import figure
     >>> len(figure(loads=np.geomspace(1e-6, 3e-4, 8)).axes)
     3
     """

@@ -73,7 +73,8 @@ class TruncatedGaussian(Distribution):
 
     Examples
     --------
-    >>> sizes = TruncatedGaussian(mean=300e-9, std=24e-9, n=3)
+    >>> import thirdbody as tb
+    >>> sizes = tb.TruncatedGaussian(mean=300e-9, std=24e-9, n=3)
     >>> [round(x * 1e9, 6) for x in sizes.support]
     [228.0, 372.0]
     """
@@ -202,7 +203,8 @@ class LogNormal(Distribution):
 
     Examples
     --------
-    >>> round(LogNormal(median=1e-6, gsd=1.5).mean_diameter * 1e6, 6)
+    >>> import thirdbody as tb
+    >>> round(tb.LogNormal(median=1e-6, gsd=1.5).mean_diameter * 1e6, 6)
     1.085674
     """
 
@@ -278,7 +280,8 @@ class Weibull(Distribution):
 
     Examples
     --------
-    >>> round(Weibull(scale=1e-6, shape=2).mean_diameter * 1e6, 6)
+    >>> import thirdbody as tb
+    >>> round(tb.distributions.Weibull(scale=1e-6, shape=2).mean_diameter * 1e6, 6)
     0.886227
     """
 
@@ -344,7 +347,8 @@ class Uniform(Distribution):
 
     Examples
     --------
-    >>> round(Uniform(low=1e-7, high=3e-7).mean_diameter * 1e9, 6)
+    >>> import thirdbody as tb
+    >>> round(tb.distributions.Uniform(low=1e-7, high=3e-7).mean_diameter * 1e9, 6)
     200.0
     """
 

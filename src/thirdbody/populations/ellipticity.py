@@ -120,7 +120,8 @@ class Ellipticity(Value):
 
     Examples
     --------
-    >>> some = Ellipticity(ratios=(1, 2, 5), weights=(5, 3, 2))
+    >>> import thirdbody as tb
+    >>> some = tb.surfaces.Ellipticity(ratios=(1, 2, 5), weights=(5, 3, 2))
     >>> [tuple(each) for each in some.classes]
     [(1.0, 1.0, 0.5), (2.0, 1.0, 0.3), (5.0, 1.0, 0.2)]
     """
@@ -222,8 +223,10 @@ class Ellipticity(Value):
 
         Examples
         --------
-        >>> from thirdbody import distributions
-        >>> slender = Ellipticity.from_distribution(distributions.Uniform(low=1, high=5))
+        >>> import thirdbody as tb
+        >>> slender = tb.surfaces.Ellipticity.from_distribution(
+        ...     tb.distributions.Uniform(low=1, high=5)
+        ... )
         >>> mean = sum(share * (ratio + 1 / ratio) for ratio, _, share in slender.classes)
         >>> len(slender.ratios), round(mean, 6)
         (5, 3.402359)
@@ -293,7 +296,8 @@ class Ellipticity(Value):
 
         Examples
         --------
-        >>> some = Ellipticity.from_curvatures([[4e5, 1e5], [4e5, 1e5]], R=5e-6)
+        >>> import thirdbody as tb
+        >>> some = tb.surfaces.Ellipticity.from_curvatures([[4e5, 1e5], [4e5, 1e5]], R=5e-6)
         >>> [round(number, 12) for number in some.classes[0]]
         [4.0, 1.0, 1.0]
         """
@@ -376,7 +380,10 @@ class Ellipticity(Value):
         Crossed ridges of equal tips touch like spheres of a smaller radius.
 
         >>> import math
-        >>> crossed = Ellipticity.combined(first_ratio=4, second_ratio=4, angle=math.pi / 2)
+        >>> import thirdbody as tb
+        >>> crossed = tb.surfaces.Ellipticity.combined(
+        ...     first_ratio=4, second_ratio=4, angle=math.pi / 2
+        ... )
         >>> [round(number, 9) for number in crossed.classes[0]]
         [1.0, 0.8, 1.0]
         """

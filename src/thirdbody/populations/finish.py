@@ -84,7 +84,8 @@ class Finish(Value):
 
     Examples
     --------
-    >>> ground = Finish(Ra=0.2e-6, process="ground")
+    >>> import thirdbody as tb
+    >>> ground = tb.surfaces.Finish(Ra=0.2e-6, process="ground")
     >>> round(ground.heights[1] * 1e9, 1)
     250.7
     """

@@ -56,7 +56,8 @@ class Heights(Named):
 
     Examples
     --------
-    >>> heights = ExponentialHeights()
+    >>> import thirdbody as tb
+    >>> heights = tb.heights.ExponentialHeights()
     >>> float(heights.pieces[0]), round(float(heights.pdf(0.0)), 6)
     (-1.0, 0.367879)
     """
@@ -121,7 +122,8 @@ class GaussianHeights(Heights):
 
     Examples
     --------
-    >>> round(float(GaussianHeights().pdf(0.0)), 6)
+    >>> import thirdbody as tb
+    >>> round(float(tb.heights.GaussianHeights().pdf(0.0)), 6)
     0.398942
     """
 
@@ -154,7 +156,8 @@ class ExponentialHeights(Heights):
 
     Examples
     --------
-    >>> float(ExponentialHeights().pdf(-1.5))
+    >>> import thirdbody as tb
+    >>> float(tb.heights.ExponentialHeights().pdf(-1.5))
     0.0
     """
 
@@ -197,7 +200,8 @@ class WeibullHeights(Heights):
 
     Examples
     --------
-    >>> round(WeibullHeights(shape=1.8).lowest, 6)
+    >>> import thirdbody as tb
+    >>> round(tb.heights.WeibullHeights(shape=1.8).lowest, 6)
     -1.739515
     """
 
@@ -269,7 +273,8 @@ class JohnsonHeights(Heights):
 
     Examples
     --------
-    >>> law = JohnsonHeights(skewness=-0.7, kurtosis=4.2)
+    >>> import thirdbody as tb
+    >>> law = tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2)
     >>> law.family, [round(p, 4) for p in law.parameters]
     ('SU', [2.2537, 2.9955, 1.8837, 2.1586])
     """
@@ -457,7 +462,8 @@ class HistogramHeights(Heights):
 
     Examples
     --------
-    >>> law = HistogramHeights(edges=(0, 1, 2), counts=(1, 1))
+    >>> import thirdbody as tb
+    >>> law = tb.heights.HistogramHeights(edges=(0, 1, 2), counts=(1, 1))
     >>> [round(z, 6) for z in law.pieces]
     [-1.732051, 0.0, 1.732051]
     """

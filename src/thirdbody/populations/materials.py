@@ -77,7 +77,8 @@ class Material(Value):
 
     Examples
     --------
-    >>> steel = Material(E=205e9, nu=0.29, H=5e9)
+    >>> import thirdbody as tb
+    >>> steel = tb.Material(E=205e9, nu=0.29, H=5e9)
     >>> round(steel.plane_strain_modulus / 1e9, 2)
     223.82
     """
@@ -143,8 +144,9 @@ class MaterialPair(Value):
 
     Examples
     --------
-    >>> steel = materials["S45C"]
-    >>> round(MaterialPair(steel, steel).E_star / 1e9, 2)
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> round(tb.MaterialPair(steel, steel).E_star / 1e9, 2)
     111.91
     """
 
@@ -210,11 +212,12 @@ class MaterialLibrary(Mapping[str, Material]):
 
     Examples
     --------
-    >>> materials["Si3N4"].E / 1e9
+    >>> import thirdbody as tb
+    >>> tb.materials["Si3N4"].E / 1e9
     310.0
-    >>> materials.search("bearing ceramic")
+    >>> tb.materials.search("bearing ceramic")
     ['Si3N4']
-    >>> materials.entries()["Si3N4"]["range"]["H"]
+    >>> tb.materials.entries()["Si3N4"]["range"]["H"]
     [14810000000.0, 16920000000.0]
     """
 

@@ -52,9 +52,9 @@ class Particles(Value):
 
     Examples
     --------
-    >>> from thirdbody import distributions, materials
-    >>> dust = Particles(material=materials["SiO2"], areal_density=1e11,
-    ...                  diameter=distributions.Monodisperse(mean=3e-7))
+    >>> import thirdbody as tb
+    >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e11,
+    ...                     diameter=tb.distributions.Monodisperse(mean=3e-7))
     >>> round(dust.coverage, 6)
     0.007069
     """
@@ -185,10 +185,10 @@ class Particles(Value):
 
         Examples
         --------
-        >>> from thirdbody import materials, LogNormal
-        >>> dust = Particles.from_concentration(
+        >>> import thirdbody as tb
+        >>> dust = tb.Particles.from_concentration(
         ...     "0.1 wt%", gap="1 um", particle_density="2.65 g/cm^3",
-        ...     diameter=LogNormal(median=300e-9, gsd=1.5), material=materials["SiO2"])
+        ...     diameter=tb.LogNormal(median=300e-9, gsd=1.5), material=tb.materials["SiO2"])
         >>> f"{dust.areal_density:.4g}"
         '1.109e+10'
         """
@@ -250,8 +250,8 @@ class Particles(Value):
 
         Examples
         --------
-        >>> from thirdbody import materials
-        >>> oil = Particles.from_iso4406("18/16/13", gap="1 um", material=materials["S45C"])
+        >>> import thirdbody as tb
+        >>> oil = tb.Particles.from_iso4406("18/16/13", gap="1 um", material=tb.materials["S45C"])
         >>> round(oil.areal_density), oil.iso4406(gap="1 um")
         (1803, '18/16/13')
         """
@@ -295,9 +295,9 @@ class Particles(Value):
 
         Examples
         --------
-        >>> from thirdbody import materials
-        >>> oil = Particles.from_cleanliness_class("nas1638", "6", gap=1e-6,
-        ...                                        material=materials["S45C"])
+        >>> import thirdbody as tb
+        >>> oil = tb.Particles.from_cleanliness_class("nas1638", "6", gap=1e-6,
+        ...                                           material=tb.materials["S45C"])
         >>> round(oil.areal_density), oil.iso4406(gap=1e-6)
         (195, '15/15/12')
         >>> oil.cleanliness_class("nas1638", gap=1e-6)
@@ -358,9 +358,9 @@ class Particles(Value):
 
         Examples
         --------
-        >>> from thirdbody import materials
-        >>> dust = Particles.test_dust("A2", concentration="0.1 wt%", gap="1 um",
-        ...                            material=materials["SiO2"])
+        >>> import thirdbody as tb
+        >>> dust = tb.Particles.test_dust("A2", concentration="0.1 wt%", gap="1 um",
+        ...                               material=tb.materials["SiO2"])
         >>> f"{dust.areal_density:.3g}", f"{dust.diameter.mean_diameter:.3g}"
         ('5.62e+07', '1.28e-06')
         """
@@ -396,9 +396,9 @@ class Particles(Value):
 
         Examples
         --------
-        >>> from thirdbody import distributions, materials
-        >>> dust = Particles(material=materials["SiO2"], areal_density=1e3,
-        ...                  diameter=distributions.Monodisperse(mean=8e-6))
+        >>> import thirdbody as tb
+        >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e3,
+        ...                     diameter=tb.distributions.Monodisperse(mean=8e-6))
         >>> dust.iso4406(gap="1 um")
         '17/17/0'
         """

@@ -58,7 +58,8 @@ class Roughness(Value):
 
     Examples
     --------
-    >>> rough = Roughness(sigma=100e-9, R=2.8e-6)
+    >>> import thirdbody as tb
+    >>> rough = tb.Roughness(sigma=100e-9, R=2.8e-6)
     >>> round(rough.sigma_s * 1e9, 3), round(rough.y_s / rough.sigma, 4)
     (90.589, 1.0093)
     """
@@ -117,9 +118,10 @@ class Roughness(Value):
 
         Examples
         --------
-        >>> ground = Finish(Ra=0.4e-6, process="ground")
-        >>> lapped = Finish(Ra=0.1e-6, process="lapped")
-        >>> rough = Roughness.from_drawing(ground, lapped)
+        >>> import thirdbody as tb
+        >>> ground = tb.surfaces.Finish(Ra=0.4e-6, process="ground")
+        >>> lapped = tb.surfaces.Finish(Ra=0.1e-6, process="lapped")
+        >>> rough = tb.Roughness.from_drawing(ground, lapped)
         >>> round(rough.sigma * 1e9), round(rough.R * 1e6)
         (517, 12)
         >>> [round(end * 1e6) for end in rough.ranges["R"]]
@@ -196,7 +198,8 @@ class Roughness(Value):
         for Gaussian isotropic heights: McCool 1986, doi:10.1016/0043-1648(86)90045-1, and Nayak
         1971, doi:10.1115/1.3451608.
 
-        >>> round(Roughness(sigma=300e-9, R=3e-6).slope, 3)
+        >>> import thirdbody as tb
+        >>> round(tb.Roughness(sigma=300e-9, R=3e-6).slope, 3)
         0.244
         """
         return (2 * self.sigma / self.R * (9 * math.pi / 64 / self.alpha) ** 0.5) ** 0.5

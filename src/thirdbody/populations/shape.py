@@ -28,7 +28,8 @@ class Sphere(Shape):
 
     Examples
     --------
-    >>> Sphere() == Sphere()
+    >>> import thirdbody as tb
+    >>> tb.grains.Sphere() == tb.grains.Sphere()
     True
     """
 
@@ -66,7 +67,8 @@ class Angular(Shape):
 
     Examples
     --------
-    >>> grit = Angular(roundness=0.25, angle="35 deg")
+    >>> import thirdbody as tb
+    >>> grit = tb.grains.Angular(roundness=0.25, angle="35 deg")
     >>> round(grit.edge, 4), round(grit.tip_radius, 4)
     (0.0875, 0.125)
     """
@@ -107,7 +109,8 @@ class Angular(Shape):
 
         Examples
         --------
-        >>> round(Angular.from_spq(0.5, roundness=0.2).angle, 6)  # 30°
+        >>> import thirdbody as tb
+        >>> round(tb.grains.Angular.from_spq(0.5, roundness=0.2).angle, 6)  # 30°
         0.523599
         """
         if isinstance(spq, (bool, str)) or not hasattr(spq, "__float__") or not 0 < spq < 1:

@@ -178,7 +178,8 @@ class Monodisperse(Distribution):
 
     Examples
     --------
-    >>> round(Monodisperse(mean=2e-7).moment(2) * 1e14, 12)
+    >>> import thirdbody as tb
+    >>> round(tb.distributions.Monodisperse(mean=2e-7).moment(2) * 1e14, 12)
     4.0
     """
 

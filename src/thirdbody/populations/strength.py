@@ -75,7 +75,8 @@ class WeibullStrength(Value):
 
     Examples
     --------
-    >>> quartz = WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55)
+    >>> import thirdbody as tb
+    >>> quartz = tb.grains.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55)
     >>> f"{quartz.of_size(1e-5) / 1e6:.0f} MPa at 10 µm"
     '843 MPa at 10 µm'
     """
@@ -128,8 +129,8 @@ class WeibullStrength(Value):
 
         Examples
         --------
-        >>> from thirdbody import materials
-        >>> WeibullStrength.of(materials["quartz"]).sigma_0
+        >>> import thirdbody as tb
+        >>> tb.grains.WeibullStrength.of(tb.materials["quartz"]).sigma_0
         67000000.0
         """
         if not isinstance(material, Material):
@@ -159,7 +160,8 @@ class WeibullStrength(Value):
 
         Examples
         --------
-        >>> alumina = WeibullStrength.from_toughness(4.1e6)
+        >>> import thirdbody as tb
+        >>> alumina = tb.grains.WeibullStrength.from_toughness(4.1e6)
         >>> f"{alumina.of_size(20e-6) / 1e9:.2f} GPa at 20 µm"
         '1.65 GPa at 20 µm'
         """

@@ -39,7 +39,8 @@ class Histogram(Distribution):
 
     Examples
     --------
-    >>> sizes = Histogram(edges=(0.0, 1e-7, 3e-7), counts=(1, 1))
+    >>> import thirdbody as tb
+    >>> sizes = tb.distributions.Histogram(edges=(0.0, 1e-7, 3e-7), counts=(1, 1))
     >>> round(sizes.mean_diameter * 1e9, 6)
     125.0
     """
@@ -150,7 +151,10 @@ class PowerLaw(Distribution):
 
     Examples
     --------
-    >>> sizes = PowerLaw(edges=(4e-6, 6e-6, 14e-6), counts=(3, 1), slopes=(3.4, 2.5))
+    >>> import thirdbody as tb
+    >>> sizes = tb.distributions.PowerLaw(
+    ...     edges=(4e-6, 6e-6, 14e-6), counts=(3, 1), slopes=(3.4, 2.5)
+    ... )
     >>> round(sizes.mean_diameter * 1e6, 4)
     5.5787
     """
@@ -284,9 +288,9 @@ class Mixture(Distribution):
 
     Examples
     --------
-    >>> from thirdbody import distributions
-    >>> parts = (distributions.Monodisperse(mean=1e-7), distributions.Monodisperse(mean=3e-7))
-    >>> both = Mixture(parts=parts, weights=(3, 1))
+    >>> import thirdbody as tb
+    >>> parts = (tb.distributions.Monodisperse(mean=1e-7), tb.distributions.Monodisperse(mean=3e-7))
+    >>> both = tb.distributions.Mixture(parts=parts, weights=(3, 1))
     >>> round(both.mean_diameter * 1e9, 6)
     150.0
     """

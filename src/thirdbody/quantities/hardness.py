@@ -42,6 +42,7 @@ def tables() -> dict[str, dict[str, Any]]:
 
     Examples
     --------
+    >>> from thirdbody.quantities.hardness import tables
     >>> list(tables())
     ['iso18265', 'astm-e140']
     """
@@ -134,6 +135,7 @@ def convert(value: float, start: str, end: str, *, table: str = "iso18265") -> f
 
     Examples
     --------
+    >>> from thirdbody.quantities.hardness import convert
     >>> round(convert(62, "HRC", "HV")), round(convert(300, "HV", "HB"))
     (746, 285)
     >>> round(convert(700, "HV", "GPa"), 3)
@@ -175,6 +177,7 @@ def pressure(value: float, scale: str) -> float:
 
     Examples
     --------
+    >>> from thirdbody.quantities.hardness import pressure
     >>> [round(pressure(*number) / 1e9, 2) for number in ((700, "HV"), (62, "HRC"), (200, "HB"))]
     [7.4, 7.89, 2.23]
     """

@@ -175,6 +175,7 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
 
     Examples
     --------
+    >>> from thirdbody.study.dirty_oil import dirty_oil
     >>> import warnings; warnings.simplefilter("ignore")
     >>> from importlib import resources
     >>> from thirdbody import load_study

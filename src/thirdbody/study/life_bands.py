@@ -459,6 +459,7 @@ def propagate_life(
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.study.life_bands import propagate_life
     >>> quartz = tb.materials["quartz"]
     >>> oil = tb.oil.OilCircuit(
     ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz),

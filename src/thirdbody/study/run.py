@@ -36,6 +36,7 @@ def run_study(study: Study) -> StudyResult:
 
     Examples
     --------
+    >>> from thirdbody.study import run_study
     >>> from thirdbody.study import check
     >>> steel = {"first": "S45C", "second": "S45C"}
     >>> study = check({"surfaces": steel, "roughness": {"sigma": "100 nm", "R": "2.8 um"},

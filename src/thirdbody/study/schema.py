@@ -35,6 +35,7 @@ def study_schema() -> dict[str, Any]:
 
     Examples
     --------
+    >>> from thirdbody.study import study_schema
     >>> schema = study_schema()
     >>> schema["else"]["required"]  # where there is no [life], an oil without a contact
     ['surfaces', 'roughness']

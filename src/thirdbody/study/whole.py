@@ -155,7 +155,9 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 
     Examples
     --------
+    >>> from pathlib import Path
     >>> import tempfile
+    >>> import thirdbody as tb
     >>> file = Path(tempfile.mkdtemp()) / "study.toml"
     >>> _ = file.write_text('''
     ... [surfaces]
@@ -167,7 +169,7 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     ... [load]
     ... pressure = "5 MPa"
     ... ''')
-    >>> study = load_study(file, ["roughness.sigma=200 nm"])
+    >>> study = tb.load_study(file, ["roughness.sigma=200 nm"])
     >>> study.contact.roughness.sigma, study.values.tolist()
     (2e-07, [5000000.0])
     """

@@ -135,6 +135,7 @@ def reference_viscosity(turns: float, *, D: float) -> float:
 
     Examples
     --------
+    >>> from thirdbody.systems.bearing_life import reference_viscosity
     >>> round(reference_viscosity(25.0, D=0.05) * 1e6, 3)
     16.432
     """
@@ -165,6 +166,7 @@ def viscosity_ratio(viscosity: float, *, turns: float, D: float) -> float:
 
     Examples
     --------
+    >>> from thirdbody.systems.bearing_life import viscosity_ratio
     >>> round(viscosity_ratio(32e-6, turns=25.0, D=0.05), 3)
     1.947
     """
@@ -241,6 +243,7 @@ def contamination_factor(place: str, state: str, *, kappa: float, D: float) -> f
 
     Examples
     --------
+    >>> from thirdbody.systems.bearing_life import contamination_factor
     >>> round(contamination_factor("bath", "-/13/10", kappa=1.0, D=0.05), 6)
     0.605879
     >>> round(contamination_factor("filter", "18/15/12", kappa=0.5, D=0.1), 6)
@@ -299,6 +302,7 @@ def life_factor(bearing: str, *, kappa: float, load: float) -> float:
 
     Examples
     --------
+    >>> from thirdbody.systems.bearing_life import life_factor
     >>> round(life_factor("ball", kappa=0.7, load=0.1), 6)
     1.127238
     """

@@ -75,6 +75,7 @@ class BearingSize(NamedTuple):
 
     Examples
     --------
+    >>> from thirdbody.systems.bearing_sizes import bearing_size
     >>> found = bearing_size("6205-2RS/C3")
     >>> found.name, found.outer_diameter, found.balls, found.clearance
     ('6205', 0.052, 9, (1.3e-05, 2.8e-05))

@@ -60,6 +60,7 @@ class Chuck(Value):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.chuck import Chuck
     >>> silicon = tb.Material(E=160e9, nu=0.22, H=12e9)
     >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e4,
     ...                     diameter=tb.LogNormal(median=3e-6, gsd=1.8))

@@ -39,7 +39,8 @@ class Hertz(NamedTuple):
 
     Examples
     --------
-    >>> hertz = Point(R=9.5e-3).hertz(20.0, E=223.8e9)
+    >>> import thirdbody as tb
+    >>> hertz = tb.films.Point(R=9.5e-3).hertz(20.0, E=223.8e9)
     >>> round(hertz.area * hertz.mean, 9), round(hertz.maximum / hertz.mean, 9)
     (20.0, 1.5)
     """
@@ -64,7 +65,8 @@ class Point(Value):
 
     Examples
     --------
-    >>> round(float(Point(R=9.5e-3).hertz(20.0, E=223.8e9).mean) / 1e6)
+    >>> import thirdbody as tb
+    >>> round(float(tb.films.Point(R=9.5e-3).hertz(20.0, E=223.8e9).mean) / 1e6)
     542
     """
 
@@ -154,7 +156,8 @@ class Line(Value):
 
     Examples
     --------
-    >>> round(float(Line(R=0.01, length=0.02).hertz(2000.0, E=226e9).maximum) / 1e6)
+    >>> import thirdbody as tb
+    >>> round(float(tb.films.Line(R=0.01, length=0.02).hertz(2000.0, E=226e9).maximum) / 1e6)
     600
     """
 
@@ -240,7 +243,8 @@ class Oil(Value):
 
     Examples
     --------
-    >>> oil = Oil(eta=0.04, alpha=2e-8, eyring_stress=5e6)
+    >>> import thirdbody as tb
+    >>> oil = tb.films.Oil(eta=0.04, alpha=2e-8, eyring_stress=5e6)
     >>> barus = oil.replace(viscosity="barus")
     >>> float(oil.at_pressure(0.0)), bool(oil.at_pressure(1e9) < barus.at_pressure(1e9))
     (0.04, True)

@@ -130,6 +130,7 @@ class Connector(Value):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.connector import Connector
     >>> bronze = tb.materials["CuSn8"]
     >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e6,
     ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))

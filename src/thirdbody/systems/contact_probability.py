@@ -97,6 +97,7 @@ class ContactProbability(Value):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.contact_probability import ContactProbability
     >>> steel = tb.materials["S45C"]
     >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e9,
     ...                     diameter=tb.distributions.Monodisperse(mean=10e-6))

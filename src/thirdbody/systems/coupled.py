@@ -347,7 +347,7 @@ def coupled(
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     ...                      outputs=tb.outputs.Friction(tau_ss=580e6))
-    >>> answer = coupled(contact, pressure=5e6, sliding_speed=2.0,
+    >>> answer = tb.equilibria.coupled(contact, pressure=5e6, sliding_speed=2.0,
     ...     feedback=[feedback.Softening(T_melt=1793, T_0=293, exponent=1.03)],
     ...     cooling=feedback.ThermalPath(h_1=5e3, h_2=5e3, T_1=293, T_2=293), limits="speed")
     >>> for each in answer.states:

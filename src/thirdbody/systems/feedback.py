@@ -53,6 +53,7 @@ class JunctionGrowth(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.feedback import JunctionGrowth
     >>> law = JunctionGrowth(alpha=9)
     >>> print(f"{law.hardness(5e9, tau=1e9) / 1e9:.3f} GPa")
     4.000 GPa
@@ -135,6 +136,7 @@ class Softening(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.feedback import Softening
     >>> law = Softening(T_melt=1793, T_0=293, exponent=1.0)
     >>> law.share(1043.0), law.share(100.0)
     (0.5, 1.0)
@@ -189,6 +191,7 @@ class Thinning(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.feedback import Thinning
     >>> oil = Thinning.between(0.05, T_1=40.0, eta_2=0.0068, T_2=100.0)
     >>> print(f"{oil.beta:.4f} 1/K; at 70 °C {oil.share(70.0):.3f} of that at 40 °C")
     0.0333 1/K; at 70 °C 0.369 of that at 40 °C
@@ -236,6 +239,7 @@ class ThermalPath(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.feedback import ThermalPath
     >>> ThermalPath(h_1=1e4, h_2=0.0, T_1=293.0, T_2=293.0).temperature(2e5, v=1.0)
     313.0
     """
@@ -302,6 +306,7 @@ class HalfSpaces(Value):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.feedback import HalfSpaces
     >>> steel = tb.materials["S45C"].replace(
     ...     thermal_conductivity=50, density=7850, specific_heat=480)
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),

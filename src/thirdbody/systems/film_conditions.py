@@ -63,6 +63,7 @@ class Entrainment(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.film_conditions import Entrainment
     >>> dirt = Entrainment(concentration=1e-5, entry_ratio=1.0, friction=0.1)
     >>> round(float(dirt.largest(0.3e-6, R=9.5e-3)) * 1e6)
     190

@@ -85,9 +85,11 @@ class AbstractFilm(Law):
 
     Examples
     --------
-    >>> sorted(FORMULAS)
+    >>> import thirdbody as tb
+    >>> from thirdbody.systems.film_formulas import full_range
+    >>> sorted(tb.films.FORMULAS)
     ['dowson-line', 'hamrock-dowson', 'moes-line', 'nijenbanning-venner-moes']
-    >>> isinstance(full_range("line"), AbstractFilm), full_range("line").shape
+    >>> isinstance(full_range("line"), tb.films.AbstractFilm), full_range("line").shape
     (True, 'line')
     """
 
@@ -252,7 +254,10 @@ class DowsonLine(_Fitted):
 
     Examples
     --------
-    >>> h = DowsonLine().central(load=1e5, speed=1.0, eta=0.04, alpha=2e-8, R=0.0127, E=226.37e9)
+    >>> import thirdbody as tb
+    >>> h = tb.films.DowsonLine().central(
+    ...     load=1e5, speed=1.0, eta=0.04, alpha=2e-8, R=0.0127, E=226.37e9
+    ... )
     >>> round(float(h) * 1e9, 1)
     390.5
     """
@@ -295,7 +300,8 @@ class HamrockDowson(_Fitted):
 
     Examples
     --------
-    >>> film = HamrockDowson()
+    >>> import thirdbody as tb
+    >>> film = tb.films.HamrockDowson()
     >>> h = film.central(load=50.0, speed=1.0, eta=0.04, alpha=2e-8, R=0.0127, E=226.37e9)
     >>> round(float(h) * 1e9, 1)
     274.7
@@ -400,7 +406,8 @@ class NijenbanningVennerMoes(_Joined):
 
     Examples
     --------
-    >>> film = NijenbanningVennerMoes()
+    >>> import thirdbody as tb
+    >>> film = tb.films.NijenbanningVennerMoes()
     >>> h = film.central(load=50.0, speed=1.0, eta=0.04, alpha=2e-8, R=0.0127, E=226.37e9)
     >>> round(float(h) * 1e9, 1)
     307.0
@@ -469,7 +476,10 @@ class MoesLine(_Joined):
 
     Examples
     --------
-    >>> h = MoesLine().central(load=1e5, speed=1.0, eta=0.04, alpha=2e-8, R=0.0127, E=226.37e9)
+    >>> import thirdbody as tb
+    >>> h = tb.films.MoesLine().central(
+    ...     load=1e5, speed=1.0, eta=0.04, alpha=2e-8, R=0.0127, E=226.37e9
+    ... )
     >>> round(float(h) * 1e9)
     390
     """

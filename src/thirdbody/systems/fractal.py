@@ -53,6 +53,7 @@ class FractalLoad(NamedTuple):
 
     Examples
     --------
+    >>> from thirdbody.systems.fractal import MajumdarBhushan
     >>> load = MajumdarBhushan(D=1.5, G=1e-12, E_star=1e11, H=2e9).load(1e-10)
     >>> bool(load.total == load.elastic + load.plastic)
     True
@@ -113,6 +114,7 @@ class MajumdarBhushan(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.fractal import MajumdarBhushan
     >>> surface = MajumdarBhushan(D=1.5, G=1e-12, E_star=1e11, H=2e9)
     >>> load = surface.load(1e-10)
     >>> round(float(load.elastic), 8), round(float(load.plastic), 8)
@@ -251,6 +253,7 @@ class NixGao(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.fractal import NixGao
     >>> float(NixGao(h_star=300e-9)(100e-9))
     2.0
     """
@@ -422,6 +425,7 @@ class GhaedniaMultiscale(Value):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.fractal import GhaedniaMultiscale, Sinusoid, Stack
     >>> steel = tb.materials["S45C"]
     >>> pair = tb.MaterialPair(steel, steel)
     >>> waves = (Sinusoid(amplitude=1e-6, frequency=1e3), Sinusoid(amplitude=2e-7, frequency=1e4))

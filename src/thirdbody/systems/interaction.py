@@ -92,6 +92,7 @@ class MeanInteraction:
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.interaction import mean_interaction
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
@@ -252,6 +253,7 @@ class LocalInteraction:
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.interaction import local_interaction
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))

@@ -72,6 +72,7 @@ def radial_integral(eps: float, *, exponent: float = BALLS) -> float:
 
     Examples
     --------
+    >>> from thirdbody.systems.load_sharing import radial_integral
     >>> round(radial_integral(0.5), 4), round(1 / radial_integral(0.5), 2)
     (0.2288, 4.37)
     """
@@ -197,6 +198,7 @@ def share_radial_load(
 
     Examples
     --------
+    >>> from thirdbody.systems.load_sharing import share_radial_load
     >>> found = share_radial_load(1000.0, bodies=9, stiffness=1e10)
     >>> round(found.largest * 9 / 1000, 2), found.carrying
     (4.37, 5)

@@ -198,6 +198,7 @@ class BallBearing(RadialBearing):
 
     Examples
     --------
+    >>> from thirdbody.systems.machine_elements import BallBearing
     >>> bearing = BallBearing(bore=25e-3, outer_diameter=52e-3, ball_diameter=7.938e-3, balls=9)
     >>> round(float(bearing.load_on_one(2000.0, 113e9)) / 2000 * 9, 2)
     4.37
@@ -333,6 +334,7 @@ class RollerBearing(RadialBearing):
 
     Examples
     --------
+    >>> from thirdbody.systems.machine_elements import RollerBearing
     >>> bearing = RollerBearing(bore=25e-3, outer_diameter=52e-3, roller_diameter=7.5e-3,
     ...                         length=7.5e-3, rollers=12)
     >>> round(float(bearing.load_on_one(2000.0, 113e9)) / 2000 * 12, 2)
@@ -463,6 +465,7 @@ def preloaded_load(force: float, preload: float) -> float:
 
     Examples
     --------
+    >>> from thirdbody.systems.machine_elements import preloaded_load
     >>> preloaded_load(0.0, 100.0), round(preloaded_load(100.0, 100.0), 1)
     (100.0, 154.2)
     """
@@ -524,6 +527,7 @@ class BallScrew(Body):
 
     Examples
     --------
+    >>> from thirdbody.systems.machine_elements import BallScrew
     >>> screw = BallScrew(diameter=6.35e-3, pitch_diameter=40e-3, lead=10e-3, balls=60)
     >>> round(float(screw.load_on_one(2000.0, 113e9)), 1)
     47.3
@@ -653,6 +657,7 @@ class LinearGuide(Body):
 
     Examples
     --------
+    >>> from thirdbody.systems.machine_elements import LinearGuide
     >>> guide = LinearGuide(diameter=4e-3, rows=2, balls=12)
     >>> round(float(guide.load_on_one(1000.0, 113e9)), 2)
     58.93
@@ -742,6 +747,7 @@ class Gear(Body):
 
     Examples
     --------
+    >>> from thirdbody.systems.machine_elements import Gear
     >>> pair = Gear(pinion_teeth=20, wheel_teeth=60, module=2e-3, face_width=20e-3)
     >>> round(pair.conjunction.R * 1e3, 3), round(float(pair.hertz(1000.0, 113e9).maximum) / 1e6)
     (5.13, 611)

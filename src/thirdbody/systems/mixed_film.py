@@ -87,6 +87,7 @@ def mean_gap(h: ArrayLike, *, sigma: float) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.systems.mixed_film import mean_gap
     >>> round(float(mean_gap(1.0, sigma=1.0)), 6)
     1.083315
     """
@@ -121,6 +122,7 @@ def height_of(gap: ArrayLike, *, sigma: float) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.systems.mixed_film import height_of, mean_gap
     >>> float(height_of(mean_gap(63e-9, sigma=100e-9), sigma=100e-9)).__round__(15)
     6.3e-08
     """
@@ -199,8 +201,13 @@ class MixedFilm(StateRecord):
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> found = mixed_film(contact, conjunction=tb.films.Point(R=9.5e-3), load=20.0, speed=0.5,
-    ...                    oil=tb.films.Oil(eta=0.02, alpha=2e-8))
+    >>> found = tb.films.mixed_film(
+    ...     contact,
+    ...     conjunction=tb.films.Point(R=9.5e-3),
+    ...     load=20.0,
+    ...     speed=0.5,
+    ...     oil=tb.films.Oil(eta=0.02, alpha=2e-8),
+    ... )
     >>> found.regime, round(found.film_share + found.solid_share, 12)
     ('mixed', 1.0)
     """
@@ -331,7 +338,9 @@ def mixed_film(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> ball, oil = tb.films.Point(R=9.5e-3), tb.films.Oil(eta=0.02, alpha=2e-8)
     >>> import warnings; warnings.simplefilter("ignore")
-    >>> state = mixed_film(contact, conjunction=ball, oil=oil, load=20.0, speed=[0.02, 0.5])
+    >>> state = tb.films.mixed_film(
+    ...     contact, conjunction=ball, oil=oil, load=20.0, speed=[0.02, 0.5]
+    ... )
     >>> state.film_share.round(3).tolist(), state.regime.tolist()
     ([0.01, 0.535], ['boundary', 'mixed'])
     """

@@ -83,7 +83,8 @@ class Filter(Value):
 
     Examples
     --------
-    >>> fine = Filter.from_text("5=75, 10=1000")
+    >>> import thirdbody as tb
+    >>> fine = tb.oil.Filter.from_text("5=75, 10=1000")
     >>> fine.beta([5e-6, 20e-6]).round(6).tolist()
     [75.0, 1000.0]
     """
@@ -241,7 +242,8 @@ class Filter(Value):
 
         Examples
         --------
-        >>> data_sheet = Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0))
+        >>> import thirdbody as tb
+        >>> data_sheet = tb.oil.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0))
         >>> float(data_sheet.penetration(7e-6).round(6)), float(data_sheet.beta(7e-6).round(2))
         (0.313002, 9.08)
         """

@@ -62,6 +62,7 @@ class FilmDents(NamedTuple):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> steel = tb.materials["S45C"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)
@@ -98,6 +99,7 @@ class SeverityIndex(NamedTuple):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> steel = tb.materials["S45C"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)
@@ -176,6 +178,7 @@ class FilmParticles(Value):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> steel = tb.materials["S45C"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)

@@ -39,6 +39,7 @@ class Bump(NamedTuple):
 
     Examples
     --------
+    >>> from thirdbody.systems.plate_over_particle import Bump
     >>> Bump(height=1e-7, radius=4.3e-3, force=2.9, squeeze=9.9e-6, thin=True).force
     2.9
     """
@@ -85,6 +86,7 @@ class PlateOverParticle(Value):
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.plate_over_particle import PlateOverParticle
     >>> silicon = tb.Material(E=160e9, nu=0.22, H=12e9)
     >>> chuck = PlateOverParticle(plate=silicon, flat=tb.materials["S45C"], thickness=725e-6,
     ...                           pressure=1e5)

@@ -95,6 +95,7 @@ class RoughBody:
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.rough_body import rough_sphere
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))

@@ -53,6 +53,7 @@ def jackson_streator(q: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.systems.fractal import jackson_streator
     >>> jackson_streator([0.1, 0.5, 0.9]).round(6)
     array([0.211025, 0.681555, 0.952254])
     """
@@ -81,6 +82,7 @@ class Sinusoid(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.fractal import Sinusoid
     >>> wave = Sinusoid(amplitude=1e-7, frequency=1e5)
     >>> round(wave.full_contact_pressure(1e11) / 1e9, 6)
     4.442883
@@ -103,6 +105,7 @@ class Convergence(NamedTuple):
 
     Examples
     --------
+    >>> from thirdbody.systems.fractal import Stack
     >>> stack = Stack.self_affine(hurst=0.8, amplitude=1e-7, frequency=1e3, ratio=2, count=8,
     ...                           E_star=1e11)
     >>> found = stack.convergence(1e6)
@@ -152,6 +155,7 @@ class Stack(Value):
 
     Examples
     --------
+    >>> from thirdbody.systems.fractal import Stack
     >>> stack = Stack.self_affine(
     ...     hurst=0.8, amplitude=1e-6, frequency=1e3, ratio=2, count=12, E_star=1e11)
     >>> stack.convergence(1e7).message

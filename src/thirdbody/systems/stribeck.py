@@ -75,8 +75,13 @@ def stribeck(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> curve = stribeck(contact, conjunction=tb.films.Point(R=9.5e-3),
-    ...                  oil=tb.films.Oil(eta=0.02, alpha=2e-8), load=20.0, speed=[0.1, 1.0, 10.0])
+    >>> curve = tb.films.stribeck(
+    ...     contact,
+    ...     conjunction=tb.films.Point(R=9.5e-3),
+    ...     oil=tb.films.Oil(eta=0.02, alpha=2e-8),
+    ...     load=20.0,
+    ...     speed=[0.1, 1.0, 10.0],
+    ... )
     >>> curve.film_share.round(2).values.tolist(), curve.h_T.attrs["units"]
     ([0.06, 0.87, 1.0], 'm')
     """

@@ -84,6 +84,7 @@ class WavyContact:
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.waviness import rigid_wave
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))

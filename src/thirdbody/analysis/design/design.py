@@ -264,9 +264,9 @@ def design(
     ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9)))
-    >>> best = design(contact, F_star=[1e-5, 1e-4], points=16,
+    >>> best = tb.design(contact, F_star=[1e-5, 1e-4], points=16,
     ...     vary={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
-    ...     objective=Objective(of="particle_load_share", aim="window"))
+    ...     objective=tb.objectives.Objective(of="particle_load_share", aim="window"))
     >>> best.feasible
     True
     """

@@ -64,7 +64,7 @@ def equal_share_size(
     ...     roughness=tb.Roughness(sigma=100e-9, R=3.5e-6),
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9)))
-    >>> round(equal_share_size(contact, pressure=5e6), 3)
+    >>> round(tb.equilibria.equal_share_size(contact, pressure=5e6), 3)
     2.509
     """
     from scipy.optimize import brentq

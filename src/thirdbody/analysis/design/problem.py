@@ -43,7 +43,8 @@ class Objective(Value):
 
     Examples
     --------
-    >>> Objective(of="particle_load_share", aim="window").high
+    >>> import thirdbody as tb
+    >>> tb.objectives.Objective(of="particle_load_share", aim="window").high
     0.75
     """
 
@@ -117,7 +118,8 @@ class Limit(Value):
 
     Examples
     --------
-    >>> Limit(of="plastic_share", most=0.1).share
+    >>> import thirdbody as tb
+    >>> tb.objectives.Limit(of="plastic_share", most=0.1).share
     1.0
     """
 
@@ -181,7 +183,7 @@ class Suspension(Value):
     >>> import thirdbody as tb
     >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=0.0,
     ...                     diameter=tb.LogNormal(median=300e-9, gsd=1.5))
-    >>> f"{Suspension(gap=1e-6, concentration=1e-3).areal_density(dust):.4g}"
+    >>> f"{tb.objectives.Suspension(gap=1e-6, concentration=1e-3).areal_density(dust):.4g}"
     '1.109e+10'
     """
 

@@ -61,11 +61,12 @@ class Uncertain:
 
     Examples
     --------
-    >>> Uncertain.uniform(low=80e-9, high=120e-9).quantile(0.5)
+    >>> import thirdbody as tb
+    >>> tb.Uncertain.uniform(low=80e-9, high=120e-9).quantile(0.5)
     1e-07
-    >>> round(Uncertain.normal(mean=7.7e9, std=0.5e9).quantile(0.975) / 1e9, 3)
+    >>> round(tb.Uncertain.normal(mean=7.7e9, std=0.5e9).quantile(0.975) / 1e9, 3)
     8.68
-    >>> Uncertain.lognormal(median=1e11, gsd=1.5).cdf(1e11)
+    >>> tb.Uncertain.lognormal(median=1e11, gsd=1.5).cdf(1e11)
     0.5
     """
 
@@ -184,7 +185,8 @@ class Uncertain:
         Examples
         --------
         >>> from uncertainties import ufloat
-        >>> Uncertain.from_ufloat(ufloat(100e-9, 5e-9))
+        >>> import thirdbody as tb
+        >>> tb.Uncertain.from_ufloat(ufloat(100e-9, 5e-9))
         Uncertain(kind='normal', first=1e-07, second=5e-09)
         """
         if not is_uncertain(number):

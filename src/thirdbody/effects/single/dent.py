@@ -56,6 +56,7 @@ def dent_diameter(depth: ArrayLike, *, radius: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.dent import dent_diameter
     >>> float(dent_diameter(1.0, radius=5.0))
     6.0
     """
@@ -83,6 +84,8 @@ def dent_volume(residual: ArrayLike, *, depth: ArrayLike, radius: ArrayLike) -> 
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from thirdbody.effects.single.dent import dent_volume
     >>> round(float(dent_volume(1.0, depth=1.0, radius=1.0)) / np.pi, 12)  # half a sphere
     0.666666666667
     """
@@ -111,6 +114,7 @@ def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.dent import flattened_diameter
     >>> float(flattened_diameter(6.0, gap=1.0))
     12.0
     """
@@ -140,6 +144,7 @@ def fragments(x: ArrayLike, *, size: float) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.dent import fragments
     >>> fragments([0.5, 2.0], size=1.0).tolist()
     [1.0, 8.0]
     """
@@ -169,6 +174,7 @@ def dents_after(rate: ArrayLike, *, overrollings: ArrayLike, area: ArrayLike) ->
 
     Examples
     --------
+    >>> from thirdbody.effects.single.dent import dents_after
     >>> print(dents_after(10.0, overrollings=[1.0, 1e6], area=1e-3).round(2))
     [   9.95 1000.  ]
     """
@@ -184,8 +190,9 @@ class Dent(NamedTuple):
 
     Examples
     --------
-    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> import thirdbody as tb
+    >>> from thirdbody.effects.single.dent import dent_of
+    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=silica, film=0.5e-6, entry=1.0)
@@ -230,6 +237,7 @@ def sink(
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.effects.single.dent import sink
     >>> steel = tb.materials["S45C"]
     >>> sink(tb.materials["SiO2"], hardness=steel.H), sink(steel, hardness=steel.H)
     (1.0, nan)
@@ -336,8 +344,9 @@ def dent_of(
 
     Examples
     --------
-    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> import thirdbody as tb
+    >>> from thirdbody.effects.single.dent import dent_of
+    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=silica, film=0.5e-6, entry=1.0)

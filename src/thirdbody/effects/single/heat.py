@@ -103,6 +103,7 @@ def peclet(a: Number, *, v: float, D: float) -> Number:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import peclet
     >>> round(peclet(1e-6, v=10.0, D=5e-6), 12)
     1.0
     """
@@ -157,6 +158,7 @@ def moving_rise(Pe: Number, *, kind: Kind = "mean", flux: Flux = "uniform") -> N
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import moving_rise
     >>> float(moving_rise(0.0, kind="max").round(12))
     1.0
     >>> float(moving_rise(1.0).round(4))  # quadrature: 0.5554
@@ -191,6 +193,7 @@ def body_conductance(
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import body_conductance
     >>> f"{body_conductance(1e-6, k=50, D=1.3e-5, v=1.0):.3g} W/K"
     '0.00019 W/K'
     """
@@ -263,6 +266,7 @@ def sudden_share(Fo: Number, *, kind: Kind = "mean", flux: Flux = "uniform") -> 
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import sudden_share
     >>> float(sudden_share(1e6, kind="max").round(4))
     0.9997
     """
@@ -300,6 +304,7 @@ def partition(Q: Number, *, G_1: Number, G_2: Number, T_1: Number, T_2: Number) 
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import partition
     >>> partition(3.0, G_1=1.0, G_2=2.0, T_1=0.0, T_2=0.0)
     1.0
     """
@@ -338,6 +343,7 @@ def bridge(
     --------
     Heat at end 2 alone leaves through body 2, and through the particle and body 1 in series.
 
+    >>> from thirdbody.effects.single.heat import bridge
     >>> one, two = bridge((0.0, 6.0), G=(1.0, 1.0), R=1.0)
     >>> float(one), float(two)
     (2.0, 4.0)
@@ -394,6 +400,7 @@ def sphere_resistance(
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import sphere_resistance
     >>> R = sphere_resistance(0.1, a_2=0.1, r=1.0, k=1.0, ends=("uniform", "mean"))
     >>> f"{R:.3f}; series: 5.858"
     '5.872; series: 5.858'
@@ -447,6 +454,7 @@ def spot_resistance(
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import spot_resistance
     >>> float(spot_resistance(1e-6, rho_1=2e-7, rho_2=2e-7))
     0.1
     """
@@ -487,6 +495,7 @@ def spreading(epsilon: Number, *, form: Spreading = "power") -> Number:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import spreading
     >>> round(spreading(0.1), 4), round(spreading(0.1, form="series"), 4)
     (0.8538, 0.8594)
     """

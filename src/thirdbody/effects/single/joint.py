@@ -55,6 +55,7 @@ def absolute_slope(*, sigma: Number, R: Number, alpha: float) -> Number:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import absolute_slope
     >>> f"{absolute_slope(sigma=100e-9, R=2.8e-6, alpha=5.0):.4f}"
     '0.0822'
     """
@@ -101,6 +102,7 @@ def cooper_mikic_yovanovich(pressure: Number, *, H: float, k: float, m: float, s
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import cooper_mikic_yovanovich
     >>> round(float(cooper_mikic_yovanovich(0.01, H=1, k=1, m=1, sigma=1)), 5)
     0.01561
     """
@@ -135,6 +137,7 @@ def cooper_mikic_yovanovich_fit(
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import cooper_mikic_yovanovich_fit
     >>> round(cooper_mikic_yovanovich_fit(0.01, H=1, k=1, m=1, sigma=1), 5)
     0.01574
     """
@@ -166,6 +169,7 @@ def mikic_elastic(pressure: Number, *, E_star: float, k: float, m: float, sigma:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.heat import mikic_elastic
     >>> h = [mikic_elastic(p, E_star=1.1e11, k=50, m=0.08, sigma=1e-7) for p in (1e6, 2e6)]
     >>> round(h[1] / h[0], 3)
     1.919

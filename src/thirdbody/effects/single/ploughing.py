@@ -83,6 +83,7 @@ def groove_area(depth: ArrayLike, *, radius: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.ploughing import groove_area
     >>> round(float(groove_area(0.5, radius=1.0)), 12)
     0.614184849304
     """
@@ -125,6 +126,7 @@ def coefficient(depth: ArrayLike, *, radius: ArrayLike, rear: ArrayLike = 0.0) -
 
     Examples
     --------
+    >>> from thirdbody.effects.single.ploughing import coefficient
     >>> print(coefficient([1e-4, 1.0], radius=1.0).round(6))
     [0.006002 1.      ]
     """
@@ -241,6 +243,7 @@ def rear_support(depth_over_yield: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.ploughing import rear_support
     >>> round(float(rear_support(54.0)), 4)
     0.3702
     """
@@ -280,6 +283,7 @@ def residual_depth(depth: ArrayLike, *, depth_over_yield: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.ploughing import residual_depth
     >>> round(float(residual_depth(10.0, depth_over_yield=10.0)), 9)
     3.781706758
     """

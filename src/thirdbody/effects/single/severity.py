@@ -53,6 +53,7 @@ def severity(load: ArrayLike, *, x: ArrayLike, H_1: ArrayLike, H_2: ArrayLike) -
 
     Examples
     --------
+    >>> from thirdbody.effects.single.severity import severity
     >>> f, x, H = 1e-3, 4e-6, 7e9
     >>> round(float(severity(f, x=x, H_1=H, H_2=H)), 6)
     0.034105
@@ -88,6 +89,7 @@ def threshold(H_s: ArrayLike, *, H_b: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from thirdbody.effects.single.severity import threshold
     >>> round(float(threshold(2e9, H_b=8e9)), 5)
     0.01499
     """

@@ -101,7 +101,7 @@ def table(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> made = table(contact, tolerance=1e-4)
+    >>> made = tb.table(contact, tolerance=1e-4)
     >>> made.p(250e-9) > made.p(300e-9) > 0 > made.dp_dh(300e-9)
     True
     """

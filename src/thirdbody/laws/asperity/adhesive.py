@@ -58,7 +58,9 @@ class JKR(AbstractAsperityLaw):
 
     Examples
     --------
-    >>> law = JKR(w=0.05)
+    >>> import math
+    >>> import thirdbody as tb
+    >>> law = tb.asperity.JKR(w=0.05)
     >>> F = law.force(1e-30, R=1e-6, E_star=1e11, H=5e9)
     >>> round(float(F) / (math.pi * 0.05 * 1e-6), 6)
     -1.333333
@@ -152,7 +154,9 @@ class DMT(GW):
 
     Examples
     --------
-    >>> law = DMT(w=0.05)
+    >>> import math
+    >>> import thirdbody as tb
+    >>> law = tb.asperity.DMT(w=0.05)
     >>> F = law.force(1e-30, R=1e-6, E_star=1e11, H=5e9)
     >>> round(float(F) / (math.pi * 0.05 * 1e-6), 6)
     -2.0

@@ -39,7 +39,8 @@ class CEB(PeakPressureLaw):
 
     Examples
     --------
-    >>> CEB(K=0.6).jumps[1.0]
+    >>> import thirdbody as tb
+    >>> tb.asperity.CEB(K=0.6).jumps[1.0]
     Jump(force=0.5, area=0.0, stiffness=1.0)
     """
 

@@ -64,7 +64,8 @@ class Coated(AbstractAsperityLaw):
 
     Examples
     --------
-    >>> same = Coated(E_1=2e11, nu_1=0.3, t=1e-8, E_2=2e11, nu_2=0.3)
+    >>> import thirdbody as tb
+    >>> same = tb.asperity.Coated(E_1=2e11, nu_1=0.3, t=1e-8, E_2=2e11, nu_2=0.3)
     >>> E_star = 2e11 / (1 - 0.3**2)
     >>> F = same.force(1e-8, R=1e-6, E_star=E_star, H=5e9)
     >>> round(float(F / (4 / 3 * E_star * 1e-6**0.5 * 1e-8**1.5)), 9)

@@ -53,7 +53,8 @@ class EllipticCEB(PeakPressureLaw):
 
     Examples
     --------
-    >>> law = EllipticCEB(ratio=1.0, K=0.6)
+    >>> import thirdbody as tb
+    >>> law = tb.asperity.EllipticCEB(ratio=1.0, K=0.6)
     >>> float(law.reduced("area", 2.0))
     3.0
     """
@@ -135,7 +136,8 @@ class EllipticZMC(ZMC):
 
     Examples
     --------
-    >>> float(EllipticZMC(ratio=1.0).reduced("area", 1.0))
+    >>> import thirdbody as tb
+    >>> float(tb.asperity.EllipticZMC(ratio=1.0).reduced("area", 1.0))
     1.0
     """
 

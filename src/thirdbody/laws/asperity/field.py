@@ -79,8 +79,11 @@ class Field(AbstractAsperityLaw):
     --------
     >>> import thirdbody as tb
     >>> steel = tb.materials["S45C"]
-    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), asperity_law=Field(),
-    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     asperity_law=tb.asperity.Field(),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ... )
     >>> round(tb.solve(contact, F_star=1e-3).h / 100e-9, 2) > 1.5
     True
     """

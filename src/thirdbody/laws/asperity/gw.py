@@ -29,7 +29,8 @@ class GW(AbstractAsperityLaw):
 
     Examples
     --------
-    >>> round(float(GW().force(1e-8, R=1e-6, E_star=1e11, H=5e9)) * 1e6, 6)
+    >>> import thirdbody as tb
+    >>> round(float(tb.asperity.GW().force(1e-8, R=1e-6, E_star=1e11, H=5e9)) * 1e6, 6)
     133.333333
     """
 

@@ -33,7 +33,8 @@ class Hermite(ZMC):
 
     Examples
     --------
-    >>> law = Hermite()
+    >>> import thirdbody as tb
+    >>> law = tb.asperity.Hermite()
     >>> [round(float(p), 6) for p in (law.pressure(0.0)[0], law.pressure(1.0)[0])]
     [0.4, 1.0]
     """

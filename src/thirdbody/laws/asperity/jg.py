@@ -52,7 +52,8 @@ class JG(AbstractAsperityLaw):
 
     Examples
     --------
-    >>> law = JG(nu=0.29, yield_strain=1 / 200)
+    >>> import thirdbody as tb
+    >>> law = tb.asperity.JG(nu=0.29, yield_strain=1 / 200)
     >>> F_c = law.reduced("force", 1.0)
     >>> round(float(law.reduced("force", 110.0) / F_c), 3)
     501.588

@@ -49,7 +49,8 @@ class KE(PeakPressureLaw):
 
     Examples
     --------
-    >>> law = KE(nu=0.29)
+    >>> import thirdbody as tb
+    >>> law = tb.asperity.KE(nu=0.29)
     >>> y = 3.0
     >>> F_c = law.reduced("force", 1 - 1e-15)
     >>> round(float(law.reduced("force", y) / F_c), 6)

@@ -71,6 +71,7 @@ class ElasticLayer(Value):
 
     Examples
     --------
+    >>> from thirdbody.laws.asperity.layer import ElasticLayer
     >>> layer = ElasticLayer(modulus_ratio=10, nu_1=0.25, nu_2=0.3)
     >>> [round(float(x), 8) for x in layer.contact(1.0)]
     [0.79698952, 2.2768495, 0.4256602]

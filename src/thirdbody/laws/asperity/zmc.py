@@ -49,7 +49,8 @@ class ZMC(AbstractAsperityLaw):
 
     Examples
     --------
-    >>> law = ZMC()
+    >>> import thirdbody as tb
+    >>> law = tb.asperity.ZMC()
     >>> omega_1 = law.yield_interference(R=1e-6, E_star=112e9, H=5e9)
     >>> p = law.mean_pressure(omega_1 * 54, R=1e-6, E_star=112e9, H=5e9)
     >>> round(float(p) / 5e9, 12)

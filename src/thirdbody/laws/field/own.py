@@ -80,7 +80,7 @@ class OwnSpectrum(Value):
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=300e-9, R=3e-6))
     >>> from thirdbody.explicit import surface_of
-    >>> own = OwnSpectrum.of(surface_of(contact, size=128, spacing=200e-9), box=True)
+    >>> own = tb.asperity.OwnSpectrum.of(surface_of(contact, size=128, spacing=200e-9), box=True)
     >>> 4 < own.spectrum.alpha < 6
     True
     """
@@ -222,7 +222,8 @@ class RollOff(Value):
 
     Examples
     --------
-    >>> RollOff(hurst=0.5).spectrum_of(5.0).alpha.__round__(6)
+    >>> import thirdbody as tb
+    >>> tb.asperity.RollOff(hurst=0.5).spectrum_of(5.0).alpha.__round__(6)
     5.0
     """
 

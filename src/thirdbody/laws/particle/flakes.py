@@ -58,7 +58,7 @@ class Flakes(Series):
     >>> pair = tb.MaterialPair(body, body)
     >>> x, gap = 1e-7, 0.9e-7
     >>> ball, flake = (
-    ...     Flakes(aspect=aspect).single(x, gap, surfaces=pair, particle=body)["force"]
+    ...     tb.particle.Flakes(aspect=aspect).single(x, gap, surfaces=pair, particle=body)["force"]
     ...     for aspect in (1, 2)
     ... )
     >>> round(float(flake / ball), 9)

@@ -86,7 +86,8 @@ class Horng2022(AbstractParticleLaw):
 
     Examples
     --------
-    >>> Horng2022(preset="window").plastic
+    >>> import thirdbody as tb
+    >>> tb.particle.Horng2022(preset="window").plastic
     False
     """
 

@@ -129,7 +129,8 @@ class Series(SeatedLaw, _OfTips):
 
     Examples
     --------
-    >>> law = Series()
+    >>> import thirdbody as tb
+    >>> law = tb.particle.Series()
     >>> law.seat, law.shadow
     ('rough', 'footprint')
     """

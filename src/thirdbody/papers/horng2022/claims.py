@@ -33,6 +33,7 @@ def claims() -> tuple[Claim, ...]:
 
     Examples
     --------
+    >>> from thirdbody.papers.horng2022.claims import claims
     >>> len(claims())
     84
     """
@@ -49,6 +50,7 @@ def errata() -> tuple[Errata, ...]:
 
     Examples
     --------
+    >>> from thirdbody.papers.horng2022 import errata
     >>> errata()[0].erratum
     1
     """

@@ -73,6 +73,7 @@ class Reading:
 
     Examples
     --------
+    >>> from thirdbody.papers.horng2022.readings import READINGS
     >>> READINGS["published"].contact("SiO2", 100, 300).particle_law.preset  # σ and x_a [nm]
     'published'
     """
@@ -287,6 +288,8 @@ class Curves:
 
     Examples
     --------
+    >>> from thirdbody.papers.horng2022 import Curves
+    >>> from thirdbody.papers.horng2022.readings import READINGS
     >>> curve = Curves(READINGS["published"])("SiO2", 100, 300)  # σ and x_a [nm]
     >>> bool(curve.particle_share[0] > curve.particle_share[-1])
     True

@@ -160,6 +160,7 @@ def reproduce(
     Examples
     --------
     >>> import tempfile
+    >>> from thirdbody.papers.horng2022 import reproduce
     >>> done = reproduce(tempfile.mkdtemp())  # doctest: +SKIP
     >>> done.totals["published"]  # doctest: +SKIP
     66

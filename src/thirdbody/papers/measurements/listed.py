@@ -35,6 +35,8 @@ def rows() -> tuple[Row, ...]:
 
     Examples
     --------
+    >>> from thirdbody.papers.measurements import rows
+    >>> from thirdbody.papers.measurements.listed import NAMES
     >>> len(rows()) == len(NAMES)
     True
     """

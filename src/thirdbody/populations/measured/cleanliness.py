@@ -124,7 +124,8 @@ def sizes_above(sizes: ArrayLike, *, counts: ArrayLike, largest: float) -> Distr
 
     Examples
     --------
-    >>> found = sizes_above([4e-6, 6e-6], counts=[2000.0, 500.0], largest=70e-6)
+    >>> import thirdbody as tb
+    >>> found = tb.dust.sizes_above([4e-6, 6e-6], counts=[2000.0, 500.0], largest=70e-6)
     >>> round(2000 * float(found.partial_moment(0, 6e-6, 1.0)), 6)
     500.0
     """
@@ -177,7 +178,8 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
 
     Examples
     --------
-    >>> read_iso4406("18/16/13")
+    >>> import thirdbody as tb
+    >>> tb.dust.read_iso4406("18/16/13")
     (18, 16, 13)
     """
     most = len(_table("cleanliness")["iso4406"]["most"]) - 1
@@ -275,7 +277,8 @@ def suspension_of_iso4406(
 
     Examples
     --------
-    >>> n, sizes = suspension_of_iso4406("18/16/13")
+    >>> import thirdbody as tb
+    >>> n, sizes = tb.dust.suspension_of_iso4406("18/16/13")
     >>> f"{n / 1e6:.0f} per mL from {sizes.support[0] * 1e6:.0f} µm"
     '1803 per mL from 4 µm'
     """
@@ -328,8 +331,8 @@ def iso4406_of(*, density: float, diameter: Distribution) -> str:
 
     Examples
     --------
-    >>> from thirdbody import distributions
-    >>> iso4406_of(density=300e6, diameter=distributions.Monodisperse(mean=5e-6))
+    >>> import thirdbody as tb
+    >>> tb.dust.iso4406_of(density=300e6, diameter=tb.distributions.Monodisperse(mean=5e-6))
     '15/0/0'
     """
     scale = _table("cleanliness")["iso4406"]
@@ -353,7 +356,8 @@ def iso4406_of_counts(counts: ArrayLike) -> str:
 
     Examples
     --------
-    >>> iso4406_of_counts([1803e6, 452e6, 57e6])
+    >>> import thirdbody as tb
+    >>> tb.dust.iso4406_of_counts([1803e6, 452e6, 57e6])
     '18/16/13'
     """
     scale = _table("cleanliness")["iso4406"]
@@ -373,7 +377,8 @@ def counted_sizes() -> tuple[float, ...]:
 
     Examples
     --------
-    >>> counted_sizes()
+    >>> import thirdbody as tb
+    >>> tb.dust.counted_sizes()
     (4e-06, 6e-06, 1.4e-05)
     """
     return tuple(1e-6 * size for size in _table("cleanliness")["iso4406"]["sizes"])
@@ -390,7 +395,8 @@ def iso4406_range(number: int) -> tuple[float, float]:
 
     Examples
     --------
-    >>> low, high = iso4406_range(18)
+    >>> import thirdbody as tb
+    >>> low, high = tb.dust.iso4406_range(18)
     >>> f"{low / 1e6:g} to {high / 1e6:g} per mL"
     '1300 to 2500 per mL'
     """
@@ -436,7 +442,8 @@ def suspension_of_class(
 
     Examples
     --------
-    >>> n, sizes = suspension_of_class("nas1638", "6")
+    >>> import thirdbody as tb
+    >>> n, sizes = tb.dust.suspension_of_class("nas1638", "6")
     >>> f"{n / 1e6:.0f} per mL"
     '195 per mL'
     """
@@ -489,8 +496,9 @@ def class_of(kind: str, *, density: float, diameter: Distribution) -> str:
 
     Examples
     --------
-    >>> density, diameter = suspension_of_class("nas1638", "6")
-    >>> class_of("nas1638", density=density, diameter=diameter)
+    >>> import thirdbody as tb
+    >>> density, diameter = tb.dust.suspension_of_class("nas1638", "6")
+    >>> tb.dust.class_of("nas1638", density=density, diameter=diameter)
     '6'
     """
     scale, limits = _class_table(kind)
@@ -561,7 +569,8 @@ def dust_sizes(
 
     Examples
     --------
-    >>> sizes = dust_sizes("A2")
+    >>> import thirdbody as tb
+    >>> sizes = tb.dust.dust_sizes("A2")
     >>> volume = sizes.partial_moment(3, 0, 10e-6) / sizes.moment(3)
     >>> round(float(volume), 6)  # printed: 50 to 54 %
     0.52

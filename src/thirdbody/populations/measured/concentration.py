@@ -25,7 +25,8 @@ class Concentration(NamedTuple):
 
     Examples
     --------
-    >>> concentration("50 ppm")
+    >>> import thirdbody as tb
+    >>> tb.dust.concentration("50 ppm")
     Concentration(amount=5e-05, by='mass')
     """
 
@@ -69,7 +70,8 @@ def concentration(value: float | str, by: Amount = "number") -> Concentration:
 
     Examples
     --------
-    >>> concentration("0.1 wt%"), concentration("5000 / mL")
+    >>> import thirdbody as tb
+    >>> tb.dust.concentration("0.1 wt%"), tb.dust.concentration("5000 / mL")
     (Concentration(amount=0.001, by='mass'), Concentration(amount=5000000000.0, by='number'))
     """
     if by not in get_args(Amount):
@@ -148,9 +150,9 @@ def particles_in(
 
     Examples
     --------
-    >>> from thirdbody import distributions
-    >>> sizes = distributions.Monodisperse(mean=1e-6)
-    >>> n = particles_in(concentration("0.1 wt%"), sizes, particle_density=2650)
+    >>> import thirdbody as tb
+    >>> sizes = tb.distributions.Monodisperse(mean=1e-6)
+    >>> n = tb.dust.particles_in(tb.dust.concentration("0.1 wt%"), sizes, particle_density=2650)
     >>> f"{n:.4g}"
     '6.274e+14'
     """

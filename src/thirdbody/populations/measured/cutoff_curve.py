@@ -53,6 +53,7 @@ class Curve:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from thirdbody.populations.measured.topography import from_topography
     >>> curve = from_topography("example").curve()
     >>> bool(np.all(np.diff(curve["R"]) > 0))
@@ -70,6 +71,7 @@ class Curve:
 
         Examples
         --------
+        >>> import numpy as np
         >>> from thirdbody.populations.measured.topography import from_topography
         >>> curve = from_topography("example").curve()
         >>> bool(np.all(curve.per_octave("R") > 0.1))

@@ -95,7 +95,8 @@ def by_number(
 
     Examples
     --------
-    >>> round(by_number(LogNormal(median=10e-6, gsd=2), "volume").median * 1e6, 4)
+    >>> import thirdbody as tb
+    >>> round(tb.sizes.by_number(tb.LogNormal(median=10e-6, gsd=2), "volume").median * 1e6, 4)
     2.3661
     """
     if weighting not in WEIGHTINGS:
@@ -186,8 +187,11 @@ class MeasuredSizes(Value):
 
     Examples
     --------
-    >>> data = MeasuredSizes(sizes=Histogram(edges=(1e-6, 2e-6, 4e-6), counts=(1, 7)),
-    ...                      weighting="volume")
+    >>> import thirdbody as tb
+    >>> data = tb.sizes.MeasuredSizes(
+    ...     sizes=tb.distributions.Histogram(edges=(1e-6, 2e-6, 4e-6), counts=(1, 7)),
+    ...     weighting="volume",
+    ... )
     >>> round(data.by_number().mean_diameter * 1e6, 4)
     1.9556
     """
@@ -289,9 +293,10 @@ class Fit:
 
     Examples
     --------
+    >>> import thirdbody as tb
     >>> from thirdbody.populations.distributions import Histogram
     >>> bins = Histogram(edges=(0.5e-6, 1e-6, 2e-6, 4e-6, 8e-6, 16e-6), counts=(3, 14, 38, 36, 9))
-    >>> fit = MeasuredSizes(sizes=bins, weighting="volume").fits()[0]
+    >>> fit = tb.sizes.MeasuredSizes(sizes=bins, weighting="volume").fits()[0]
     >>> fit.kind, round(fit.worst, 3), f"{fit.by_number().mean_diameter * 1e6:.2f} µm by number"
     ('log-normal', 0.012, '1.41 µm by number')
     """
@@ -385,10 +390,12 @@ def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> Me
 
     Examples
     --------
+    >>> from pathlib import Path
     >>> import tempfile
+    >>> import thirdbody as tb
     >>> file = Path(tempfile.mkdtemp()) / "sizes.csv"
     >>> _ = file.write_text("low [um],high [um],volume [%]\\n1,2,40\\n2,4,60\\n")
-    >>> read_sizes(file, weighting="volume").sizes.edges
+    >>> tb.sizes.read_sizes(file, weighting="volume").sizes.edges
     (1e-06, 2e-06, 4e-06)
     """
     if weighting not in WEIGHTINGS:

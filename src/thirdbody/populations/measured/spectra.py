@@ -73,7 +73,8 @@ class SpectralMoments(Value):
 
     Examples
     --------
-    >>> m = SpectralMoments(m0=1e-14, m2=3.3e-3, m4=5.5e9)
+    >>> import thirdbody as tb
+    >>> m = tb.surfaces.SpectralMoments(m0=1e-14, m2=3.3e-3, m4=5.5e9)
     >>> round(m.alpha, 3), round(m.R * 1e6, 3), round(m.eta * 1e-10, 3)
     (5.051, 8.962, 5.105)
     >>> (m + m).sigma == 2**0.5 * m.sigma
@@ -144,7 +145,8 @@ class SpectralMoments(Value):
 
         Examples
         --------
-        >>> SpectralMoments(m0=1e-14, m2=3.3e-3, m4=5.5e9).roughness().sigma
+        >>> import thirdbody as tb
+        >>> tb.surfaces.SpectralMoments(m0=1e-14, m2=3.3e-3, m4=5.5e9).roughness().sigma
         1e-07
         """
         if self.alpha <= 1.5 * (1 + 1e-9):

@@ -72,7 +72,10 @@ def self_affine(
 
     Examples
     --------
-    >>> rough = self_affine(sigma=1e-7, hurst=0.8, shortest=8e-7, longest=6e-6, spacing=1e-7)
+    >>> import thirdbody as tb
+    >>> rough = tb.surfaces.self_affine(
+    ...     sigma=1e-7, hurst=0.8, shortest=8e-7, longest=6e-6, spacing=1e-7
+    ... )
     >>> round(rough.rms_height * 1e9, 9)
     100.0
     """
@@ -138,8 +141,9 @@ def from_moments(
 
     Examples
     --------
-    >>> asked = SpectralMoments(m0=1e-14, m2=3.3e-3, m4=5.5e9)
-    >>> found = from_moments(asked, spacing=1.5e-7).moments_at(0, method="spectrum")
+    >>> import thirdbody as tb
+    >>> asked = tb.surfaces.SpectralMoments(m0=1e-14, m2=3.3e-3, m4=5.5e9)
+    >>> found = tb.surfaces.from_moments(asked, spacing=1.5e-7).moments_at(0, method="spectrum")
     >>> round(found.m4 / asked.m4, 9), round(found.alpha / asked.alpha, 9)
     (1.0, 1.0)
     """

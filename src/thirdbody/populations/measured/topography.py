@@ -98,13 +98,15 @@ def from_topography(
 
     Examples
     --------
-    >>> surface = from_topography("example")
+    >>> import numpy as np
+    >>> import thirdbody as tb
+    >>> surface = tb.surfaces.from_topography("example")
     >>> rough = surface.roughness()
     >>> round(surface.cutoff * 1e6, 3), rough.alpha > 1.5
     (0.8, True)
     >>> x = np.arange(256) * 1e-7
     >>> wave = 1e-8 * np.sin(2 * np.pi * x / 6.4e-6)
-    >>> moments = from_topography(wave, spacing=1e-7, detrend="none", cutoff=0).moments
+    >>> moments = tb.surfaces.from_topography(wave, spacing=1e-7, detrend="none", cutoff=0).moments
     >>> round(moments.sigma * 1e9, 4)
     7.0711
     """

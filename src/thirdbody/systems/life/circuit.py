@@ -69,6 +69,7 @@ def settling_speed(
 
     Examples
     --------
+    >>> from thirdbody.systems.life.circuit import settling_speed
     >>> w = settling_speed(10e-6, particle_density=2650, oil_density=870, viscosity=0.03)
     >>> f"{float(w):.5e}"
     '3.23367e-06'
@@ -164,10 +165,10 @@ class OilCircuit(Value):
     >>> import thirdbody as tb
     >>> from thirdbody.systems.oil_filter import Filter
     >>> quartz = tb.materials["quartz"]
-    >>> oil = OilCircuit(
+    >>> oil = tb.oil.OilCircuit(
     ...     volume=0.2,
-    ...     start=OilDirt.from_iso4406("18/16/13", material=quartz),
-    ...     ingress=Ingress.of_dust("A3", rate="125 mg/h", material=quartz),
+    ...     start=tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz),
+    ...     ingress=tb.oil.Ingress.of_dust("A3", rate="125 mg/h", material=quartz),
     ...     filters=Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3),
     ... )
     >>> oil.steady_code()  # nothing holds particles of 4 µm

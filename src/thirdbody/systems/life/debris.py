@@ -63,8 +63,10 @@ class Debris(Value):
 
     Examples
     --------
-    >>> debris = Debris.boundary_lubricated()
-    >>> debris.shares(SizeClasses(edges=(0.25e-6, 0.5e-6, 1e-6, 2e-6, 4e-6))).round(3).tolist()
+    >>> import thirdbody as tb
+    >>> debris = tb.oil.Debris.boundary_lubricated()
+    >>> classes = tb.oil.SizeClasses(edges=(0.25e-6, 0.5e-6, 1e-6, 2e-6, 4e-6))
+    >>> debris.shares(classes).round(3).tolist()
     [0.175, 0.53, 0.273, 0.022]
     """
 
@@ -126,7 +128,8 @@ class Debris(Value):
 
         Examples
         --------
-        >>> Debris.from_report(sizes=[1e-6, 2e-6, 5e-6], counts=[90, 10]).diameter.support
+        >>> import thirdbody as tb
+        >>> tb.oil.Debris.from_report(sizes=[1e-6, 2e-6, 5e-6], counts=[90, 10]).diameter.support
         (1e-06, 5e-06)
         """
         edges, numbers = tuple(map(float, sizes)), tuple(map(float, counts))

@@ -50,7 +50,9 @@ def oil_layer(
 
     Examples
     --------
-    >>> one = SizeClasses(edges=(1e-6, 1.0001e-6))
+    >>> import thirdbody as tb
+    >>> from thirdbody.systems.life.entry import oil_layer
+    >>> one = tb.oil.SizeClasses(edges=(1e-6, 1.0001e-6))
     >>> [float(oil_layer(one, film=h)[0].round(9)) for h in (3e-7, 5e-6)]
     [1e-06, 5e-06]
     """
@@ -101,11 +103,12 @@ def entry_ratio_from_dents(
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.oil_particles import FilmParticles
     >>> steel = tb.materials["S45C"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=0.02)
     >>> seen = float(oil.after(1e6)) * 1e-6
-    >>> round(entry_ratio_from_dents(seen, area=1e-6, overrollings=1e6, oil=oil), 12)
+    >>> round(tb.oil.entry_ratio_from_dents(seen, area=1e-6, overrollings=1e6, oil=oil), 12)
     0.02
     """
     values = {"count": count, "area": area, "overrollings": overrollings}

@@ -35,6 +35,7 @@ class FatiguePair(Record):
 
     Examples
     --------
+    >>> from thirdbody.systems.life.fatigue import miner_pair
     >>> pair = miner_pair([0.0, 3.6e5], codes=["-/19/16", "-/13/10"], end=7.2e5, place="bath",
     ...                   bearing="ball", kappa=1.0, D=0.05, load_ratio=0.1, L_10=3.6e7)
     >>> round(pair.forgets / 3600), round(pair.remembers / 3600)
@@ -109,6 +110,7 @@ def miner_pair(
 
     Examples
     --------
+    >>> from thirdbody.systems.life.fatigue import miner_pair
     >>> clean = miner_pair([0.0], codes=["-/13/10"], end=3.6e6, place="bath", bearing="ball",
     ...                    kappa=1.0, D=0.05, load_ratio=0.1, L_10=3.6e7)
     >>> round(clean.forgets / 3600), clean.forgets == clean.remembers

@@ -48,7 +48,7 @@ class Ingress(Value):
     Examples
     --------
     >>> import thirdbody as tb
-    >>> dust = Ingress.of_dust("A3", rate="125 mg/h", material=tb.materials["quartz"])
+    >>> dust = tb.oil.Ingress.of_dust("A3", rate="125 mg/h", material=tb.materials["quartz"])
     >>> f"{dust.rate:.3g} per second, {dust.mass_rate * 3.6e9:.0f} mg/h"
     '1.1e+06 per second, 125 mg/h'
     """

@@ -34,6 +34,7 @@ class Flowing(NamedTuple):
 
     Examples
     --------
+    >>> from thirdbody.systems.life.linear_flow import flowing
     >>> found = flowing(0.2, numbers=1e6, growth=0.0, source=0.0, loss=1e-3, time=200.0)
     >>> round(float(found.numbers))
     367879
@@ -137,6 +138,7 @@ def steady_numbers(losses: ArrayLike, *, births: ArrayLike, source: ArrayLike) -
 
     Examples
     --------
+    >>> from thirdbody.systems.life.linear_flow import steady_numbers
     >>> losses = [[1e-3, 0], [0, 5e-4]]
     >>> steady_numbers(losses, births=[[0, 0], [3e-5, 1e-4]], source=[1e5, 0]).round().tolist()
     [100000000.0, 7500000.0]
@@ -212,6 +214,7 @@ def reproduction(losses: ArrayLike, *, births: ArrayLike) -> float:
 
     Examples
     --------
+    >>> from thirdbody.systems.life.linear_flow import reproduction
     >>> round(reproduction([[1e-3, 0], [0, 5e-4]], births=[[0, 0], [3e-5, 1e-4]]), 12)
     0.2
     """

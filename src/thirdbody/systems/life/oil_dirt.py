@@ -37,7 +37,7 @@ class OilDirt(Value):
     Examples
     --------
     >>> import thirdbody as tb
-    >>> dirt = OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"])
+    >>> dirt = tb.oil.OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"])
     >>> f"{dirt.number / 1e6:.0f} per mL, {dirt.mass_per_volume * 1e3:.2f} mg/L"
     '1803 per mL, 1.46 mg/L'
     """

@@ -378,12 +378,13 @@ def run_oil_history(
 
     Examples
     --------
-    >>> from thirdbody import materials
+    >>> import thirdbody as tb
+    >>> from thirdbody.systems.life.oil_history import run_oil_history
     >>> from thirdbody.systems.life.oil_dirt import OilDirt
     >>> from thirdbody.systems.oil_filter import Filter
     >>> clean = Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3)
-    >>> dirt = OilDirt.from_iso4406("18/16/13", material=materials["quartz"])
-    >>> oil = OilCircuit(volume=0.2, start=dirt, ingress=(), filters=clean)
+    >>> dirt = OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"])
+    >>> oil = tb.oil.OilCircuit(volume=0.2, start=dirt, ingress=(), filters=clean)
     >>> found = run_oil_history(oil, duration=1800.0)
     >>> found.codes[0], found.codes[-1], found.ledger.residual < 1e-9
     ('18/16/13', '5/3/0', True)

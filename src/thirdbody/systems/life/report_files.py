@@ -62,7 +62,9 @@ def read_reports(
 
     Examples
     --------
+    >>> from pathlib import Path
     >>> import tempfile
+    >>> from thirdbody.systems.life.reports import read_reports
     >>> file = Path(tempfile.mkdtemp()) / "oil.csv"
     >>> _ = file.write_text("time [h],ISO 4406\\n0,20/18/15\\n250,18/16/13\\n")
     >>> times, codes, _ = read_reports(file)

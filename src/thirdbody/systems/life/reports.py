@@ -71,6 +71,7 @@ class Approach(NamedTuple):
 
     Examples
     --------
+    >>> from thirdbody.systems.life.reports import approach_of_reports
     >>> found = approach_of_reports([10000e6, 22092.95e6, 30529.91e6], step=3600.0)
     >>> f"{found.rate:.4g} 1/s towards {found.limit / 1e6:.5g} per mL"
     '0.0001 1/s towards 50000 per mL'
@@ -420,7 +421,7 @@ def oil_reports(
     >>> circuit = tb.oil.OilCircuit(
     ...     volume=0.2, start=tb.oil.OilDirt.from_iso4406("20/18/15", material=quartz), ingress=(),
     ...     filters=tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3))
-    >>> found = oil_reports([0.0, 9e5], reports=["20/18/15", "18/16/13"], circuit=circuit)
+    >>> found = tb.oil.oil_reports([0.0, 9e5], reports=["20/18/15", "18/16/13"], circuit=circuit)
     >>> [f"{rate:.2g}" for rate in found.rate]
     ['1.3e+06', '4.2e+05', '5.6e+04']
     """

@@ -55,7 +55,8 @@ class SizeClasses(Value):
 
     Examples
     --------
-    >>> classes = SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
+    >>> import thirdbody as tb
+    >>> classes = tb.oil.SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
     >>> classes.count, classes.edges[18]
     (32, 6e-06)
     """

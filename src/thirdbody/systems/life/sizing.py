@@ -68,6 +68,7 @@ def least_flow(circuit: OilCircuit, *, code: str, which: int = 0) -> float:
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.life.sizing import least_flow
     >>> quartz = tb.materials["quartz"]
     >>> oil = tb.oil.OilCircuit(
     ...     volume=0.2, start=(), filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
@@ -123,6 +124,7 @@ def filter_for_code(
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.life.sizing import filter_for_code
     >>> quartz = tb.materials["quartz"]
     >>> oil = tb.oil.OilCircuit(
     ...     volume=0.2, start=(), filters=tb.oil.Filter(sizes=(4e-6,), betas=(2.0,), flow=1e-3),
@@ -161,6 +163,7 @@ def time_of_event(circuit: OilCircuit, *, until: Until, duration: float) -> floa
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.life.sizing import time_of_event
     >>> dirt = tb.oil.OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"])
     >>> oil = tb.oil.OilCircuit(volume=0.2, start=dirt, ingress=(),
     ...                     filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3))
@@ -200,6 +203,7 @@ def longest_time(circuits: Mapping[str, OilCircuit], *, until: Until, duration: 
     Examples
     --------
     >>> import thirdbody as tb
+    >>> from thirdbody.systems.life.sizing import longest_time
     >>> dust = tb.oil.Ingress.of_dust("A3", rate="100 mg/h", material=tb.materials["quartz"])
     >>> def oil(grams):
     ...     sheet = tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3, capacity=1e-3 * grams)

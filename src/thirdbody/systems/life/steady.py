@@ -44,6 +44,7 @@ def describe_reproduction(R0: float, *, why: str = "") -> str:
 
     Examples
     --------
+    >>> from thirdbody.systems.life.steady import describe_reproduction
     >>> describe_reproduction(7e-5)[:53]
     'one particle of debris breeds 7×10⁻⁵ others before it'
     >>> describe_reproduction(0.0, why="there is none")
@@ -75,6 +76,7 @@ class ContactStock(Record):
 
     Examples
     --------
+    >>> from thirdbody.systems.life.steady import contact_stock
     >>> found = contact_stock(source=1e-6, capacity=2e-4, residence=100.0)
     >>> round(found.stock * 1e5, 5), round(found.time, 4)
     (6.66667, 66.6667)
@@ -119,6 +121,7 @@ def contact_stock(source: float, *, capacity: float, residence: float) -> Contac
 
     Examples
     --------
+    >>> from thirdbody.systems.life.steady import contact_stock
     >>> found = contact_stock(1e-6, capacity=2e-4, residence=100.0)
     >>> found.flow < 1e-6
     True
@@ -142,6 +145,7 @@ class SteadyPoint(Record):
 
     Examples
     --------
+    >>> from thirdbody.systems.life.steady import find_steady_points
     >>> [point.stable for point in find_steady_points(lambda x: x * (1 - x), low=-0.5, high=1.5)]
     [False, True]
     """
@@ -189,6 +193,7 @@ def find_steady_points(
 
     Examples
     --------
+    >>> from thirdbody.systems.life.steady import find_steady_points
     >>> found = find_steady_points(lambda x: 0.05 - x + 2 * x**2 / (1 + x**2), low=0.0, high=3.0)
     >>> len(found), [each.stable for each in found]
     (3, [True, False, True])

@@ -53,6 +53,7 @@ class ClippedGaussian(NamedTuple):
 
     Examples
     --------
+    >>> from thirdbody.systems.life.surfaces import clip_gaussian
     >>> round(clip_gaussian(1.0).sigma, 6)
     0.866653
     """
@@ -88,6 +89,7 @@ def clip_gaussian(level: float) -> ClippedGaussian:
 
     Examples
     --------
+    >>> from thirdbody.systems.life.surfaces import clip_gaussian
     >>> [round(each, 5) for each in clip_gaussian(1.0)]
     [0.08332, 0.86665, -1.25]
     """
@@ -129,6 +131,7 @@ def variance_slope(heights: ArrayLike, *, removal: ArrayLike) -> float:
     Examples
     --------
     >>> import numpy as np
+    >>> from thirdbody.systems.life.surfaces import variance_slope
     >>> z = np.array([-1.0, 0.0, 1.0])
     >>> variance_slope(z, removal=np.ones(3)), variance_slope(z, removal=[0, 0, 3])
     (0.0, -2.0)
@@ -169,6 +172,7 @@ def dent_roughness(depth: ArrayLike, *, coverage: ArrayLike) -> Array:
     Examples
     --------
     >>> import math
+    >>> from thirdbody.systems.life.surfaces import dent_roughness
     >>> round(float(dent_roughness(1.0, coverage=math.log(3))), 12)
     0.333333333333
     """
@@ -205,6 +209,7 @@ def archard_depth(K: ArrayLike, *, pressure: ArrayLike, distance: ArrayLike, H: 
 
     Examples
     --------
+    >>> from thirdbody.systems.life.surfaces import archard_depth
     >>> round(float(archard_depth(1e-6, pressure=5e6, distance=0.1 * 3.6e6, H=2.5e9)) * 1e3, 6)
     0.72
     """
@@ -239,6 +244,7 @@ def ball_scar_radius(
 
     Examples
     --------
+    >>> from thirdbody.systems.life.surfaces import ball_scar_radius
     >>> a = float(ball_scar_radius(1e-6, R=9.5e-3, load=20.0, distance=1000.0, H=7.37e9))
     >>> round(a * 1e3, 6)
     0.425646
@@ -276,9 +282,10 @@ class RunningIn(Value):
 
     Examples
     --------
-    >>> RunningIn(sigma_end=60e-9, length=1e-7).slope(100e-9, separation=2e-7)
+    >>> import thirdbody as tb
+    >>> tb.oil.RunningIn(sigma_end=60e-9, length=1e-7).slope(100e-9, separation=2e-7)
     -0.4
-    >>> round(RunningIn(sigma_end=0.0).slope(100e-9, separation=2e-7), 9)
+    >>> round(tb.oil.RunningIn(sigma_end=0.0).slope(100e-9, separation=2e-7), 9)
     -2.0
     """
 

@@ -61,7 +61,8 @@ class CodeReached(Until):
 
     Examples
     --------
-    >>> CodeReached(code="21/19/16").name
+    >>> import thirdbody as tb
+    >>> tb.oil.until.CodeReached(code="21/19/16").name
     'code 21/19/16'
     """
 
@@ -154,7 +155,8 @@ def iso4406(code: str, *, stops: bool = True) -> CodeReached:
 
     Examples
     --------
-    >>> iso4406("21/19/16").sentence
+    >>> import thirdbody as tb
+    >>> tb.oil.until.iso4406("21/19/16").sentence
     'the oil reaches 21/19/16'
     """
     return CodeReached(code=code, stops=stops)
@@ -196,7 +198,8 @@ class WearDepth(ContactUntil):
 
     Examples
     --------
-    >>> WearDepth(depth=5e-6).sentence
+    >>> import thirdbody as tb
+    >>> tb.oil.until.WearDepth(depth=5e-6).sentence
     'a surface is worn by 5 µm'
     """
 
@@ -229,7 +232,8 @@ class RoughnessBelow(ContactUntil):
 
     Examples
     --------
-    >>> RoughnessBelow(sigma=70e-9).sentence
+    >>> import thirdbody as tb
+    >>> tb.oil.until.RoughnessBelow(sigma=70e-9).sentence
     'the roughness has come down to 70 nm'
     """
 
@@ -261,7 +265,8 @@ class ParticleShare(ContactUntil):
 
     Examples
     --------
-    >>> ParticleShare(share=0.5).sentence
+    >>> import thirdbody as tb
+    >>> tb.oil.until.ParticleShare(share=0.5).sentence
     'particles carry 50 % of what the solids carry'
     """
 
@@ -300,7 +305,8 @@ def wear_depth(depth: float, *, stops: bool = True) -> WearDepth:
 
     Examples
     --------
-    >>> wear_depth(5e-6).name
+    >>> import thirdbody as tb
+    >>> tb.oil.until.wear_depth(5e-6).name
     'wear depth'
     """
     return WearDepth(depth=depth, stops=stops)
@@ -319,7 +325,8 @@ def roughness_below(sigma: float, *, stops: bool = True) -> RoughnessBelow:
 
     Examples
     --------
-    >>> roughness_below(7e-8).name
+    >>> import thirdbody as tb
+    >>> tb.oil.until.roughness_below(7e-8).name
     'roughness'
     """
     return RoughnessBelow(sigma=sigma, stops=stops)
@@ -338,7 +345,8 @@ def particle_share(share: float, *, stops: bool = True) -> ParticleShare:
 
     Examples
     --------
-    >>> particle_share(0.5).name
+    >>> import thirdbody as tb
+    >>> tb.oil.until.particle_share(0.5).name
     'particle share'
     """
     return ParticleShare(share=share, stops=stops)

@@ -130,7 +130,7 @@ def area(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> ax = area(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-4, 10)))
+    >>> ax = tb.plot.area(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-4, 10)))
     >>> ax.get_ylabel()
     'Real contact area $A_t/A_n$ [1]'
     """
@@ -179,7 +179,7 @@ def shares(
     ...                       areal_density=1e11)
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=debris,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> ax = shares(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-3, 10)), basis="area")
+    >>> ax = tb.plot.shares(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-3, 10)), basis="area")
     >>> ax.get_ylabel()
     'Particle area share $A_{sa}/A_t$ [%]'
     """
@@ -227,7 +227,7 @@ def separation(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> ax = separation(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-4, 10)))
+    >>> ax = tb.plot.separation(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-4, 10)))
     >>> len(ax.lines)
     1
     """
@@ -266,7 +266,7 @@ def regimes(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> ax = regimes(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-4, 10)))
+    >>> ax = tb.plot.regimes(tb.solve(contact, F_star=np.geomspace(1e-6, 1e-4, 10)))
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
     ['plastic', 'elastoplastic', 'elastic']
     """
@@ -356,7 +356,7 @@ def modes(
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=debris,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> state = tb.solve(contact, F_star=np.geomspace(1e-7, 1e-3, 40))
-    >>> ax = modes(state, transitions=tb.transitions(contact))
+    >>> ax = tb.plot.modes(state, transitions=tb.transitions(contact))
     >>> ax.get_xscale()
     'log'
     """

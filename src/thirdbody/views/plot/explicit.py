@@ -59,7 +59,8 @@ def explicit(state: ExplicitState) -> Figure:
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=rough.roughness(),
     ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=2e12,
     ...                            diameter=tb.distributions.Monodisperse(mean=2e-7)))
-    >>> len(explicit(tb.explicit.solve(contact, rough, F_star=2e-3)).axes)  # two are colour bars
+    >>> pressed = tb.explicit.solve(contact, rough, F_star=2e-3)
+    >>> len(tb.plot.explicit(pressed).axes)  # two are colour bars
     6
     """
     if not hasattr(state, "maps") or not hasattr(state, "particles"):

@@ -77,7 +77,9 @@ def mode_map(
     ...                       areal_density=1e11)
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=debris,
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> ax = mode_map(contact, ratio=np.geomspace(0.5, 5, 8), F_star=np.geomspace(1e-6, 1e-3, 8))
+    >>> ax = tb.plot.mode_map(
+    ...     contact, ratio=np.geomspace(0.5, 5, 8), F_star=np.geomspace(1e-6, 1e-3, 8)
+    ... )
     >>> ax.get_xlabel()
     'Particle size over roughness $x_a/\\\\sigma$ [1]'
     """

@@ -39,8 +39,9 @@ def surface(topography: Topography) -> Figure:
 
     Examples
     --------
+    >>> import thirdbody as tb
     >>> from thirdbody.populations.measured.topography import from_topography
-    >>> len(surface(from_topography("example")).axes)  # the colour bar is one
+    >>> len(tb.plot.surface(from_topography("example")).axes)  # the colour bar is one
     7
     """
     drawing = Figure(figsize=(10.5, 6.2), dpi=150, layout="constrained")

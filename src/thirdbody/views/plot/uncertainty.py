@@ -68,7 +68,7 @@ def bands(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> found = tb.propagate(contact, vary={"roughness.sigma": (80e-9, 120e-9)}, samples=64,
     ...                      pressure=np.geomspace(1e6, 1e7, 5), outputs=["A_t"])
-    >>> bands(found, "A_t").get_xscale()
+    >>> tb.plot.bands(found, "A_t").get_xscale()
     'log'
     """
     if of not in data.bands:
@@ -174,7 +174,7 @@ def tornado(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> found = tb.propagate(contact, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e7,
     ...                      samples=64, outputs=["A_t"])
-    >>> [text.get_text() for text in tornado(found, "A_t").get_yticklabels()]
+    >>> [text.get_text() for text in tb.plot.tornado(found, "A_t").get_yticklabels()]
     ['$R$']
     """
     if of not in data.nominal:
