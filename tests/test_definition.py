@@ -185,6 +185,7 @@ def chosen():
         yield pytest.param(name, marks=pytest.mark.slow if slow else ())
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("name", list(chosen()))
 def test_every_path_is_the_model(name):
     for path, off in compared(CASES[name]).items():

@@ -39,6 +39,7 @@ def row(page, name):
     return [re.sub("<[^>]*>", "", cell) for cell in re.findall(r"<td.*?</td>", line, re.DOTALL)]
 
 
+@pytest.mark.check
 def test_the_study_in_a_report_gives_the_same_report(folder):
     """With what was set, and with the filter: the same bytes."""
     page = (folder / "r.html").read_text()

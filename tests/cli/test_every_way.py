@@ -100,6 +100,7 @@ def first_numbers(result):
     return out if result.study.contact.two_body else [*out, percent(states.particle_load_share[0])]
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", SPREAD)
 def test_the_answer_stands_first_and_within_80_columns(kind):
     done = run("solve", template(kind))

@@ -34,6 +34,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.check
 def test_a_study_says_what_python_says():
     """The file of the template by hand."""
     asked = load_life("dry-contact.toml", [SHORT[1]])
@@ -68,6 +69,7 @@ def test_a_study_says_what_python_says():
     assert steady.numbers.sum() == pytest.approx(own.numbers[-1].sum(), rel=1e-4)
 
 
+@pytest.mark.check
 def test_the_answer_is_two_sentences_and_fits_80_columns():
     done = run("life", "dry-contact.toml", *SHORT)
     told = said(done)
@@ -84,6 +86,7 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
+@pytest.mark.check
 def test_particles_and_those_with_load_stand_on_one_basis():
     """Both per mm²: no more bear load than are there; the JSON holds those of the whole contact."""
     done = run("life", "dry-contact.toml", *SHORT, "--json")

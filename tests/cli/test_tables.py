@@ -57,6 +57,7 @@ def test_no_number_of_a_study_drawn_at_random_is_broken(width, seed):
     assert_whole(width, "solve", study, *more)
 
 
+@pytest.mark.check
 @pytest.mark.spread(3)
 @pytest.mark.parametrize("width", [60, 80])
 @pytest.mark.parametrize(

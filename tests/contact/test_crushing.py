@@ -450,6 +450,7 @@ def outputs_of_all():
             continue
 
 
+@pytest.mark.check
 @pytest.mark.spread(5)
 @pytest.mark.parametrize("sizes", ABOVE.values(), ids=ABOVE)
 @pytest.mark.parametrize("seat", ["rough", "plane"])

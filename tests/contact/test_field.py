@@ -142,8 +142,8 @@ def test_ground_by_its_own_equation():
     h, u = ground.h[rows], ground.u[rows]
     (seat,) = ground.seats
     columns, moments = seat.sums(h, u)
-    beta = seat.part.factor / bound.asperities.unit * moments
-    shade = seat.part.factor * columns[:, 5:6]
+    beta = seat.component.factor / bound.asperities.unit * moments
+    shade = seat.component.factor * columns[:, 5:6]
     pressed, weights = ground._of_asperities(h + ground.w[rows])
     again = 2 * math.sqrt(2) * ((1 - shade) * pressed + ground.k_pp * beta)
     assert again == pytest.approx(u, abs=1e-8)
@@ -235,6 +235,7 @@ def test_where_its_table_ends():
     assert -1 < soft.h / SIGMA < 0
 
 
+@pytest.mark.check
 def test_debris_that_covers_the_surface_is_solved_above_that():
     """Soft wide grains that spread: their ground has no answer down to the end of the table."""
     steel = tb.Material(E=100e9, nu=0.3, H=4.2e9)

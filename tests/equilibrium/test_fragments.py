@@ -61,6 +61,7 @@ def load_of_one(part, size, gap):
     return own + pieces * load_of_one(part, law.ratio * size, gap)
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("sizes", SIZES)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_plane_carries_what_single_particles_and_their_fragments_do(sizes, kind):

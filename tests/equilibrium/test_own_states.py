@@ -571,6 +571,7 @@ def test_particles_between_asperities_that_attract_are_known_where_those_push(la
     assert not np.any(sure[want["F_ss_star"] < 0])
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("indenter", [None, 70e9])
 def test_coated_asperities_hold_to_the_slow_path(indenter):
     law = tb.asperity.Coated(E_1=3e11, nu_1=0.25, t=50e-9, E_3=indenter)

@@ -12,6 +12,7 @@ from thirdbody.laws.asperity import REGISTRY
 GUIDE = Path(__file__).parents[2] / "docs" / "add-a-law.md"
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("check", battery.CHECKS, ids=lambda check: check.__name__)
 @pytest.mark.parametrize("subject", SUBJECTS, ids=lambda subject: subject.label)
 def test_law(subject: Subject, check):

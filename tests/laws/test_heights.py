@@ -189,6 +189,7 @@ def test_impossible_kurtosis_is_refused(skew, kurtosis):
 EDGE = np.random.default_rng(20).random((24, 3)).tolist()
 
 
+@pytest.mark.check
 @pytest.mark.spread(4)
 @pytest.mark.parametrize("at", EDGE, ids=lambda at: f"{at[0]:.3f}-{at[1]:.3f}")
 def test_edge_of_the_feasible_region(at):

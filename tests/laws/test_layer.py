@@ -199,6 +199,7 @@ def test_radius_out_of_range(a_t):
         layer(MILD).contact([1.0, a_t])
 
 
+@pytest.mark.check
 # ------------------------------------------------------------------------ table
 @pytest.mark.parametrize("case", [STIFF, SOFT])
 def test_table_is_the_solution(case):

@@ -210,6 +210,7 @@ def test_dmt_begins_with_a_pull():
     assert first == pytest.approx(-2, rel=1e-12)
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("name", FIRST)
 @pytest.mark.parametrize("radius", [1e-9, 2.8e-6, 1.0])
 def test_no_law_gives_no_number(name, radius):

@@ -219,6 +219,7 @@ def test_the_record_has_the_numbers_of_the_model(name):
     assert state.particle_load_share == pytest.approx(told, rel=1e-6)
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("name", ["x1", "chi0.7_alpha5", "chi0.4_alpha15"])
 def test_the_record_has_the_numbers_of_one_field(name):
     kept = [state for state in seats.comparison() if state["case"] == name]

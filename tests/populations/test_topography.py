@@ -212,6 +212,7 @@ def test_self_affine_moments_tend_to_the_integral():
     assert made.m4 / made.m0 == pytest.approx(0.375 * integral(4) / integral(0), rel=0.01)
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("alpha", [3.0, 5.0])
 def test_summits_counted_are_those_of_nayak(alpha):
     asked = tb.SpectralMoments(m0=1e-14, m2=2e-3, m4=alpha * 4e-6 / 1e-14)

@@ -203,7 +203,7 @@ HOOK = "called by the library alone"
 EITHER = "one of several units, which the number alone does not say"
 REFUSED = {
     r"Uncertain\..*": "the unit is that of the input it will stand for",
-    r"(Objective\.cost|Limit\.excess)\(metric\)": HOOK,
+    r"objectives\.(Objective\.cost|Limit\.excess)\(metric\)": HOOK,
     r"outputs\.AbstractOutput\.\w+\((state|contact)\)": "no number",
     r"explicit\.ensemble\((seats|cap)\)": "words as well",
     r"explicit\.\w+\.(draw|room)\(.*": HOOK,
@@ -221,8 +221,9 @@ REFUSED = {
     r"systems\.rough_body\.curve\(loads\)": EITHER,
     r"systems\.load_sharing\.share_radial_load\(stiffness\)": "its unit goes with the exponent",
     r"plot\.bands\(mark\)": "the unit is that of the load",
-    r"feedback\.\w+\.(share|between)\((T|T_1|T_2)\)": EITHER,
-    r"systems\.life\.until\.\w+\.excess\(state\)": HOOK,
+    r"systems\.machine_elements\.BallBearing\.widths\(loads\)": HOOK,
+    r"systems\.feedback\.\w+\.(share|between)\((T|T_1|T_2)\)": EITHER,
+    r"oil\.until\.\w+\.excess\(state\)": HOOK,
     r"systems\.life\.steady\.contact_stock\(capacity\)": "its unit goes with that of the source",
     r"systems\.life\.steady\.find_steady_points\((low|high)\)": "the unit of any unknown",
 }

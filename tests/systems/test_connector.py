@@ -273,6 +273,7 @@ def test_what_is_certain_is_what_the_sums_say(monkeypatch, number, height):
     np.testing.assert_allclose(sums[less], 0.0, rtol=0, atol=1e-12)
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("pushed_aside", [0.0, 0.6])
 @pytest.mark.parametrize("height", [0.0, 4e-6, 9e-6])
 @pytest.mark.parametrize(

@@ -292,6 +292,7 @@ def test_the_course_against_a_matrix_exponential(case):
     assert want[3] == pytest.approx(time, rel=1e-10)
 
 
+@pytest.mark.check
 def test_a_whole_circuit_against_an_integrator():
     fine = tb.Filter(sizes=(4e-6, 10e-6), betas=(10.0, 200.0), flow=5e-4)
     circuit = tb.OilCircuit(

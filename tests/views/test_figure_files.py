@@ -39,6 +39,7 @@ def ours(figure, file, kind):
     save_figure(figure, file, kind, **OPTIONS[kind])
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", OPTIONS)
 @pytest.mark.parametrize("layout", ["constrained", "tight", "none"])
 def test_a_figure_has_the_bytes_that_matplotlib_gives_it(kind, layout):

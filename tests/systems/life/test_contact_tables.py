@@ -45,6 +45,7 @@ def tables(unlike):
     return ContactTables(unlike, CLASSES, KINDS, sigma=(60e-9, 100e-9))
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("sigma", [100e-9, 73e-9])
 def test_tables_are_the_contact_at_random_states(unlike, tables, sigma):
     eta = mixture(4)
