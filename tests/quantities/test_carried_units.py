@@ -221,7 +221,6 @@ REFUSED = {
     r"systems\.rough_body\.curve\(loads\)": EITHER,
     r"systems\.load_sharing\.share_radial_load\(stiffness\)": "its unit goes with the exponent",
     r"plot\.bands\(mark\)": "the unit is that of the load",
-    r"systems\.machine_elements\.BallBearing\.widths\(loads\)": HOOK,
     r"systems\.feedback\.\w+\.(share|between)\((T|T_1|T_2)\)": EITHER,
     r"oil\.until\.\w+\.excess\(state\)": HOOK,
     r"systems\.life\.steady\.contact_stock\(capacity\)": "its unit goes with that of the source",

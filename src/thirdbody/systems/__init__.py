@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from . import interaction as interaction
     from . import life as life
     from . import load_sharing as load_sharing
-    from . import machine_elements as machine_elements
     from . import mixed_film as mixed_film
     from . import oil_filter as oil_filter
     from . import oil_particles as oil_particles
@@ -36,7 +35,6 @@ __all__ = [
     "interaction",
     "life",
     "load_sharing",
-    "machine_elements",
     "mixed_film",
     "oil_filter",
     "oil_particles",
@@ -50,7 +48,7 @@ def __getattr__(name: str) -> Any:
     """A module of this one, imported when it is first asked for: few commands need many."""
     from importlib import import_module
 
-    if name in __all__:
+    if name in (*__all__, "machine_elements"):
         return import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

@@ -101,6 +101,8 @@ CONVERT, LEAVES = _conversion()
 SETTLED, THINNEST = 2e-11, 1e-6
 """Last terms of a series over its largest value, at most; width of a cell over the largest size
 below which it is not halved."""
+BELOW = 1e-9
+"""Part of a gap by which another lies surely below it."""
 CLOSEST, TRIES = 1e-13, 12
 VALUE, SLOPE, PRESSED, TURNED, BASIS, U = range(6)
 """Rows of what asperities do at a separation."""
@@ -235,7 +237,8 @@ def lay_gaps(given, sides, panels, count, rule, places, settled, cells, floor, e
     edges[marked] = bottom
     for k in range(10):
         terms[k] = 0.0
-    add_plane(given, sides, panels, 0, count, bottom, rule, terms)
+    # of one size, what all are squeezed beyond begins below the last panel
+    add_plane(given, sides, panels, 0, count, bottom * (1 - BELOW), rule, terms)
     for k in range(COLUMNS):
         floor[k] = terms[F_SA + k]
     found, n, many, worst = 0, 0, 1, 0.0

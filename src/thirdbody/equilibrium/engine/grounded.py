@@ -91,6 +91,9 @@ AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
 KEPT, ROUNDS, OLDER = 6, 40, 5
 """Pairs of steps that are remembered, rounds at most, and rows from which others are guessed."""
+SMOOTH = 1e-1
+"""Sixth difference of the lift [σ] in rows next to the root, at most: of several grounds that
+answer the equations, rows may hold now one, now another."""
 SAME = 1e-4
 """Of a pair, what must be left beside the others."""
 BALANCED, STEPS = 4e-13, 60
@@ -297,7 +300,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
     """
     keep_apart()
     own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
-    last, rounds, before = int(own[ROWS]) - 1, 0, 0.0
+    last, rounds, before, left = int(own[ROWS]) - 1, 0, 0.0, False
     while k >= 0:
         if rows[5][k] == NONE:
             _guess_row(k, 1, rows, last)
@@ -306,6 +309,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
                 return -1, rounds, UNSOLVED
             rounds += n
         at = own[LOWEST] + k * own[STEP]
+        left = left or _leaves_table(own, lifts, k)
         if target > 0:
             load = _load_of(
                 own, skin, held, at, lifts[k], states[k, 0] * own[UNIT], states[k, BETA], out
@@ -318,7 +322,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
         elif at <= h:
             return k, rounds, OK
         k -= 1
-    return -1, rounds, TOO_MUCH if before < CLEARLY * target else UNSOLVED
+    return -1, rounds, TOO_MUCH if before < CLEARLY * target and not left else UNSOLVED
 
 
 @scalar
@@ -475,24 +479,36 @@ def _error_of(field, k, low, high, rows):
         if _leaves_table(own, lifts, i):
             return math.inf
         error += SAFE * misses[i] * FADES ** max(k - i, i - k - 1)
+    for i in range(max(low, k - 6), min(high - 5, k + 2)):
+        bend = lifts[i] - 6 * (lifts[i + 1] + lifts[i + 5]) + 15 * (lifts[i + 2] + lifts[i + 4])
+        if not abs(bend - 20 * lifts[i + 3] + lifts[i + 6]) <= SMOOTH:
+            return math.inf
     return error
 
 
 @scalar
 def _begin(field, held, care, target, h, rows, work, out):
-    """The row from which to come down, evaluations, and whether there is one."""
+    """The row from which to come down, evaluations, and whether there is one.
+
+    All the way down from particles that carry little, of the target or of what is carried at h.
+    """
     keep_apart()
-    own = field[0]
+    own, load, least = field[0], target, 0
     count = int(own[ROWS])
     work[3][0] = 0.0
-    if target > 0:
-        k, rounds = _first_row(field, held, care[NEGLIGIBLE] * target, count - 1, rows, work, out)
-        if k > LONG:  # all the way down from particles that carry little
-            near, n = _first_row(field, held, CLOSE * target, k, rows, work, out)
-            k, rounds = min(k, near + ABOVE), rounds + n
-        return k, rounds, True
-    k = math.floor((h - own[LOWEST]) / own[STEP])
-    return min(k + 1 + int(care[MANY]), count - 1), 0, 0 <= k < count - 1
+    if not target > 0:
+        k = math.floor((h - own[LOWEST]) / own[STEP])
+        least = min(k + 1 + int(care[MANY]), count - 1)
+        if not 0 <= k < count - 1:
+            return least, 0, False
+        load = _plain_load(field, held, k, rows, work, out)
+        if not load < math.inf:
+            return least, 1, True
+    k, rounds = _first_row(field, held, care[NEGLIGIBLE] * load, count - 1, rows, work, out)
+    if k > LONG:
+        near, n = _first_row(field, held, CLOSE * load, k, rows, work, out)
+        k, rounds = min(k, near + ABOVE), rounds + n
+    return max(k, least), rounds, True
 
 
 @scalar

@@ -48,6 +48,8 @@ CODES = {
 }
 
 
+CLEARLY = 0.999
+"""Part of a load that is carried at most where it is too much for sure."""
 ROUGH = 1e-6
 """Estimated error that does for one of many samples."""
 
@@ -156,8 +158,29 @@ def solve(
     else:
         for start in starts:
             solve_from(start)
+    if numbers.skins.shape[2] == f.OF_FIELD and numbers.ground is None:
+        doubt_ends(numbers, goal, fate, rule)
     fate[numbers.outside] = f.NO_TABLE
     return h, evaluations, fate, error, rows
+
+
+def doubt_ends(numbers: Numbers, goal: Array, fate: Index, rule: Array) -> None:
+    """Leave to NumPy loads that are too much by less than a thousandth on one field of heights."""
+    from .balance import solve_own
+
+    some = np.flatnonzero(fate == f.TOO_MUCH)
+    if not len(some):
+        return
+    h = np.broadcast_to(numbers.deepest, numbers.count)[some]
+    counts, fates = np.zeros((2, len(some)), np.int64)
+    rows = np.zeros((len(some), len(f.COLUMNS)))
+    solve_own(
+        *(numbers.skins[some], numbers.parts[some], numbers.bodies[some], rule),
+        *(numbers.inside, numbers.coating, np.zeros(len(some)), np.array(h)),
+        *(counts, fates, np.zeros(len(some)), rows),
+    )
+    most = (1 - np.minimum(rows[:, f.SHADE], 1.0)) * rows[:, f.F_SS] + rows[:, f.F_SA]
+    fate[some[~(most < CLEARLY * goal[some])]] = f.UNSOLVED
 
 
 def solve_on_ground(
@@ -165,7 +188,7 @@ def solve_on_ground(
     ground: Grounds,
     here: slice | Index,
     rule: Array,
-    found: tuple[NDArray[Any], ...],
+    found: tuple[NDArray[np.generic], ...],
     samples: bool = False,
 ) -> None:
     """Solve states of particles on one field of heights, into what is to be found."""
