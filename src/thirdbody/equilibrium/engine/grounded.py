@@ -490,7 +490,8 @@ def _error_of(field, k, low, high, rows):
 def _begin(field, held, care, target, h, rows, work, out):
     """The row from which to come down, evaluations, and whether there is one.
 
-    All the way down from particles that carry little, of the target or of what is carried at h.
+    All the way down from particles that carry little of the target or, of samples, of what is
+    carried at h; at h itself else from the highest row that decides what a spline is there.
     """
     keep_apart()
     own, load, least = field[0], target, 0
@@ -499,8 +500,8 @@ def _begin(field, held, care, target, h, rows, work, out):
     if not target > 0:
         k = math.floor((h - own[LOWEST]) / own[STEP])
         least = min(k + 1 + int(care[MANY]), count - 1)
-        if not 0 <= k < count - 1:
-            return least, 0, False
+        if not 0 <= k < count - 1 or care[SHARES] != 1:
+            return least, 0, 0 <= k < count - 1
         load = _plain_load(field, held, k, rows, work, out)
         if not load < math.inf:
             return least, 1, True
