@@ -596,7 +596,7 @@ def weigh_ground(field, h, u, lowest, nodes, found, columns, whole):
             p[n] += HERMITE[k, n] * u[k]
     found[BETA] = 0.0
     for s in range(len(seats)):
-        right = _first_squeezed(seats[s], h, u, rise, lowest[s])
+        right = _first_squeezed(seats[s], h, u, rise, math.nan if whole else lowest[s])
         if right != right:
             right = _first_squeezed(seats[s], h, u, rise, math.nan)
         lowest[s] = right
