@@ -52,9 +52,9 @@ __all__ = ["Ground", "GroundedPart", "LiftedSum", "put_on_ground"]
 STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
 ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
-"""Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
+"""Of the iteration: the most, the last change of u/σ and w, and how many steps it remembers."""
 FINE, MORE = 1e-12, 6
-"""Change of u/σ that is aimed at, in so many more rounds."""
+"""Change of u/σ and w that is aimed at, in so many more rounds."""
 CHORDS, SET_IN = 40, 1e-14
 """Of the search for the ground on which particles begin to be squeezed, and how near [σ]."""
 SPOTS = 0.25
@@ -303,9 +303,9 @@ class Ground:
             updated, now = self._round(self.h[rest], state)
             misses = [*misses, updated - state][-MEMORY:]
             states = [*states, state][-MEMORY:]
-            change = np.max(np.abs(now - u[rest]), axis=1)
-            u[rest], kept[rest] = now, state
-            w[rest, 0] = self._lift(self.h[rest], state[:, :-1])
+            lift = self._lift(self.h[rest], state[:, :-1])
+            change = np.maximum(np.max(np.abs(now - u[rest]), axis=1), np.abs(lift - w[rest, 0]))
+            u[rest], w[rest, 0], kept[rest] = now, lift, state
             left = np.where((change < CLOSE) | (left < MORE), left - 1, left)
             more = ((change >= FINE) & (left > 0)) | (len(states) < 2)
             rest, left = rest[more], left[more]
