@@ -144,7 +144,8 @@ def test_ground_by_its_own_equation():
     columns, moments = seat.sums(h, u)
     beta = seat.component.factor / bound.asperities.unit * moments
     shade = seat.component.factor * columns[:, 5:6]
-    pressed, weights = ground._of_asperities(h + ground.w[rows])
+    pressed = ground._of_asperities(h + ground.w[rows])
+    weights = ground._under_asperities(h + ground.w[rows])
     again = 2 * math.sqrt(2) * ((1 - shade) * pressed + ground.k_pp * beta)
     assert again == pytest.approx(u, abs=1e-8)
     assert 2 * math.sqrt(2) * np.sum(weights * beta, axis=1) == pytest.approx(

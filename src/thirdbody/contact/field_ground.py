@@ -11,6 +11,9 @@ which then see the separation h + w,
 
 .. math:: w = 2\sqrt2\sum_n k_n^{as}\beta_n\,a_n'(h + w)/a_0'(h + w) .
 
+From h + w = 3.5 on the right side levels out, to its value at 4.0 beyond 4.5: the asperities that
+touch there are higher than any of which twelve moments say something.
+
 k_n^pp and k_n^as leave out what lies nearer than one diameter, and half of one; their n = 0 is
 minus that distance, as the mean plane sinks with the nominal pressure and nothing else does.
 β_n are found by iteration at separations of a table; between these every column is a spline.
@@ -65,6 +68,11 @@ DENSITY = 8.5
 """Widths of the seat beyond which nothing is counted."""
 FAR = 30.0
 """Separation over σ from which asperities are as there: nothing of them is left."""
+LEVEL, LEVELS = 3.5, 1.0
+"""Separation over σ from which the ground under asperities levels out, and over how much more: to
+that of half as much more. Beyond, terms of twelve moments are large and cancel."""
+LIFTS = 12
+"""Chords by which the lift of asperities is found, at most."""
 PANELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.33, 0.4, 0.5, 0.6, 0.75, 1.0])
 NODES = 12
 """Of sums over seats: 2e-5 of a load."""
@@ -81,6 +89,18 @@ def rows_between(lowest: float | Array, reach: float | Array, width: float | Arr
     Floats or arrays, for the lowest and highest separation and the width of the seat [σ].
     """
     return np.maximum(8, np.ceil((reach - lowest) / (STEP * width) - 1e-9)).astype(int)
+
+
+def level_out(h: Array) -> Array:
+    """Separations over σ at which the ground under asperities is read: two slopes have no step."""
+    x = np.clip((h - LEVEL) / LEVELS, 0.0, 1.0)
+    levels = LEVEL + LEVELS * x * (1 - x * x * (1 - 0.5 * x))
+    return np.where(h > LEVEL, levels, h)
+
+
+def _series_of(tau: Array) -> Array:
+    """Chebyshev polynomials at each τ between 0 and 1: (N, 16)."""
+    return np.asarray(np.polynomial.chebyshev.chebvander(2 * tau - 1, TERMS - 1))
 
 
 def heights(u: Array, zeta: Array) -> Array:
@@ -235,23 +255,26 @@ class Ground:
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
         self.u, self.w = self._solve_separations()
 
-    def _of_asperities(self, h: Array) -> tuple[Array, Array]:
-        """k_n^zs a_n and k_n^as a_n′/a_0′ at h: (N, 13) each."""
+    def _of_asperities(self, h: Array) -> Array:
+        """k_n^zs a_n at h: (N, 13)."""
         surface, h = self.field.surface, np.clip(h, self.h[0], FAR)
+        columns = surface.columns(h)
+        ratios = np.hstack([np.ones((len(h), 1)), columns[:, FIRST:]])
+        return (_series_of(columns[:, TAU]) @ self._k_zs) * ratios * surface.load(h)[:, :1]
+
+    def _under_asperities(self, h: Array) -> Array:
+        """k_n^as a_n′/a_0′ at h, far above as where their ground levels out: (N, 13)."""
+        surface, h = self.field.surface, level_out(np.clip(h, self.h[0], FAR))
         columns, slopes = surface.columns(h), surface.columns(h, 1)
         load = surface.load(h)
-        basis = np.polynomial.chebyshev.chebvander(2 * columns[:, TAU] - 1, TERMS - 1)
-        one = np.ones((len(h), 1))
-        ratios = np.hstack([one, columns[:, FIRST:]])
-        more = np.hstack([0 * one, slopes[:, FIRST:]])
-        turned = ratios + more * (load[:, 0] / load[:, 1])[:, None]
-        a = ratios * load[:, :1]
-        return (basis @ self._k_zs) * a, (basis @ self._k_as) * turned
+        turned = columns[:, FIRST:] + slopes[:, FIRST:] * (load[:, 0] / load[:, 1])[:, None]
+        ratios = np.hstack([np.ones((len(h), 1)), turned])
+        return (_series_of(columns[:, TAU]) @ self._k_as) * ratios
 
     def _round(self, h: Array, state: Array) -> tuple[Array, Array]:
         """β_n and the shadow again, from those of the round before: (M, 14); and u_n."""
         beta, shade = state[:, :-1], np.clip(state[:, -1:], 0.0, 1.0)
-        pressed, _ = self._of_asperities(h + self._lift(h, beta))
+        pressed = self._of_asperities(h + self._lift(h, beta))
         u = self.twice * ((1 - shade) * pressed + self.k_pp * beta)
         out = np.zeros_like(state)
         for seat in self.seats:
@@ -265,8 +288,8 @@ class Ground:
         """w where particles carry β: (M,)."""
         w = before = np.zeros(len(h))
         miss = np.full(len(h), np.nan)
-        for _ in range(12):
-            _, weights = self._of_asperities(h + w)
+        for _ in range(LIFTS):
+            weights = self._under_asperities(h + w)
             lift = np.maximum(self.twice * np.sum(weights * beta, axis=1), self.h[0] - h)
             last, miss = miss, lift - w
             if np.max(np.abs(miss), initial=0.0) < 1e-12:

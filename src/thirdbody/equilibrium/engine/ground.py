@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from ...contact.field_ground import DENSITY as REACH
-from ...contact.field_ground import FAR, HIGHEST_SEAT, NODES, PANELS, SET_IN
+from ...contact.field_ground import FAR, HIGHEST_SEAT, LEVEL, LEVELS, LIFTS, NODES, PANELS, SET_IN
 from ...laws.field.programme import MOMENTS
 from ...laws.field.table import COLUMNS as OF_SURFACE
 from ...laws.field.table import FIRST, LOW, TAU
@@ -103,7 +103,7 @@ SETTLED, THINNEST = 2e-11, 1e-6
 below which it is not halved."""
 BELOW = 1e-9
 """Part of a gap by which another lies surely below it."""
-CLOSEST, TRIES = 1e-13, 12
+CLOSEST = 1e-13
 VALUE, SLOPE, PRESSED, TURNED, BASIS, U = range(6)
 """Rows of what asperities do at a separation."""
 
@@ -412,6 +412,15 @@ def _press(own, kernels, skin, surface, h, small):
 
 
 @scalar
+def _level_out(h):
+    """Separation [σ] at which the ground under asperities is read."""
+    if h <= LEVEL:
+        return h
+    x = min((h - LEVEL) / LEVELS, 1.0)
+    return LEVEL + LEVELS * x * (1 - x * x * (1 - 0.5 * x))
+
+
+@scalar
 def lift_of(own, kernels, skin, surface, h, state, small):
     """Lift of the asperities' ground [σ], by chords, and how far it is off.
 
@@ -420,8 +429,8 @@ def lift_of(own, kernels, skin, surface, h, state, small):
     keep_apart()
     w = before = found = 0.0
     miss = math.nan
-    for _ in range(TRIES):
-        _press(own, kernels, skin, surface, h + w, small)
+    for _ in range(LIFTS):
+        _press(own, kernels, skin, surface, _level_out(h + w), small)
         total = 0.0
         for n in range(BETA):
             total += small[TURNED, n] * state[n]
@@ -432,6 +441,8 @@ def lift_of(own, kernels, skin, surface, h, state, small):
         chord = miss * (w - before) / (last - miss)
         step = chord if abs(chord) <= 2 * abs(miss) else miss
         before, w = w, w + step
+    if h + w > LEVEL:
+        _press(own, kernels, skin, surface, h + w, small)
     return found, abs(miss)
 
 
