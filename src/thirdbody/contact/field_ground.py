@@ -329,8 +329,10 @@ class Ground:
             lift = self._lift(self.h[rest], state[:, :-1])
             change = np.maximum(np.max(np.abs(now - u[rest]), axis=1), np.abs(lift - w[rest, 0]))
             u[rest], w[rest, 0], kept[rest] = now, lift, state
+            if len(states) == 1:  # without particles the ground may be flat, and stay so
+                change[:] = np.inf
             left = np.where((change < CLOSE) | (left < MORE), left - 1, left)
-            more = ((change >= FINE) & (left > 0)) | (len(states) < 2)
+            more = (change >= FINE) & (left > 0)
             rest, left = rest[more], left[more]
             if not len(rest):
                 break
