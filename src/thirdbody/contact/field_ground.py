@@ -54,8 +54,11 @@ __all__ = ["Ground", "GroundedPart", "LiftedSum", "put_on_ground"]
 
 STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
-ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
-"""Of the iteration: the most, the last change of u/σ and w, and how many steps it remembers."""
+ROUNDS, CLOSE, MEMORY, OTHERS = 60, 1e-9, 4, (6, 8)
+"""Of the iteration: the most, the last change of u/σ and w, how many steps it remembers, and how
+many where that does not settle."""
+BEFORE = np.array([5.0, -10.0, 10.0, -5.0, 1.0])
+"""Parts of the rows above one that is solved by itself, of which the iteration begins."""
 FINE, MORE = 1e-12, 6
 """Change of u/σ and w that is aimed at, in so many more rounds."""
 CHORDS, SET_IN = 40, 1e-14
@@ -309,13 +312,17 @@ class Ground:
         for row in rest[::-1]:
             if row + 2 >= count:
                 return self._above(count, u, w)
-            kept[row] = 2 * kept[row + 1] - kept[row + 2]
-            if len(self._iterate_states(np.array([row]), u, w, kept)):
+            for memory in (MEMORY, *OTHERS):
+                near = kept[row + 1 : row + 1 + len(BEFORE)]
+                kept[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
+                if not len(self._iterate_states(np.array([row]), u, w, kept, memory)):
+                    break
+            else:
                 return self._above(row + 1, u, w)
         return u, w[:, 0]
 
     def _iterate_states(
-        self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array
+        self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array, memory: int = MEMORY
     ) -> NDArray[np.intp]:
         """Iteration after Anderson from the states kept; fills in rows, gives those not found."""
         state = kept[rest]
@@ -324,8 +331,8 @@ class Ground:
         left = np.full(len(rest), MORE)
         for _ in range(ROUNDS + MORE):
             updated, now = self._round(self.h[rest], state)
-            misses = [*misses, updated - state][-MEMORY:]
-            states = [*states, state][-MEMORY:]
+            misses = [*misses, updated - state][-memory:]
+            states = [*states, state][-memory:]
             lift = self._lift(self.h[rest], state[:, :-1])
             change = np.maximum(np.max(np.abs(now - u[rest]), axis=1), np.abs(lift - w[rest, 0]))
             u[rest], w[rest, 0], kept[rest] = now, lift, state
