@@ -30,6 +30,8 @@ from .fields import (
     IS_SOFT,
     KIND,
     ONE_SIZE,
+    PROJECTED,
+    SHADOW,
 )
 from .fields import (
     LOW as SMALLEST,
@@ -52,9 +54,9 @@ shade beside what those do that carry; what series leave out."""
 MEAN, SPREAD, TOP, DENSE, SECTION, LAST_SECTION, OF_SEAT = range(7)
 """Of a seat: its mean and width, and the largest size on it [σ]; particles per area; the first of
 its sections of sizes, and where they end."""
-POWER, CELLS, OF_SECTION = range(3)
+POWER, DARKER, CELLS, OF_SECTION = range(4)
 """Of a section: power of the root of the distance from its largest size like which all sets in, and
-how many cells there are."""
+whether the shadow sets in like one power less; how many cells there are."""
 WAVES = 2 * math.sqrt(2)
 PLACES = NODES * (len(PANELS) - 1)
 _ROOTS, _WEIGHTS = panel_rule(np.sqrt(PANELS), NODES)
@@ -123,8 +125,11 @@ def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, valu
         if not add_plane(given, sides, panels, 0, count, gap, rule, terms):
             return math.nan
         over = (top - gap) ** (-0.5 * power) if rooted else 1.0
-        for k in range(COLUMNS):
+        for k in range(COLUMNS - 1):
             values[k, j] = terms[F_SA + k] * over
+        if rooted and given[0, SHADOW] == PROJECTED:
+            over *= (top - gap) / top  # all of a size is dark once it is touched
+        values[COLUMNS - 1, j] = terms[F_SA + COLUMNS - 1] * over
     worst = wide = load = 0.0
     for j in range(OF_CELL):
         load = max(load, abs(values[0, j]))
@@ -280,6 +285,7 @@ def _add_gaps(section, cells, floor, whole, nodes, columns):
     keep_apart()
     count, gap, mass, loads = int(section[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
     top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], section[POWER] == 4
+    darker = section[DARKER] == 1
     s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = 0.0
     n = 0
     for j in range(PLACES):
@@ -296,11 +302,13 @@ def _add_gaps(section, cells, floor, whole, nodes, columns):
                 n += 1
             while g >= cells[n, UNTIL]:
                 n -= 1
-            cell, v, over = cells[n], g, 1.0
+            cell, v, over, dark = cells[n], g, 1.0, 1.0
             if cell[ROOTED] == 1:
                 over = top - g
                 v = math.sqrt(over)
+                dark = top if darker else over
                 if squared:
+                    dark *= over
                     over *= over
             x = cell[RATE] * (v - cell[START])
             a_0, a_5 = cell[POWERS], cell[POWERS + 1]
@@ -309,7 +317,7 @@ def _add_gaps(section, cells, floor, whole, nodes, columns):
                 a_0, a_5 = a_0 * x + cell[i], a_5 * x + cell[i + 1]
             load = max(over * a_0, 0.0)
             over *= m
-            s_5 += max(over * a_5, 0.0)
+            s_5 += max(m * dark * a_5, 0.0)
             if whole:
                 a_1, a_2, a_3, a_4 = cell[AREAS], cell[AREAS + 1], cell[AREAS + 2], cell[AREAS + 3]
                 for k in range(1, POWER_TERMS):

@@ -91,9 +91,6 @@ AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
 KEPT, ROUNDS, OLDER = 6, 40, 5
 """Pairs of steps that are remembered, rounds at most, and rows from which others are guessed."""
-SMOOTH = 1e-1
-"""Sixth difference of the lift [σ] in rows next to the root, at most: of several grounds that
-answer the equations, rows may hold now one, now another."""
 SAME = 1e-4
 """Of a pair, what must be left beside the others."""
 BALANCED, STEPS = 4e-13, 60
@@ -479,10 +476,6 @@ def _error_of(field, k, low, high, rows):
         if _leaves_table(own, lifts, i):
             return math.inf
         error += SAFE * misses[i] * FADES ** max(k - i, i - k - 1)
-    for i in range(max(low, k - 6), min(high - 5, k + 2)):
-        bend = lifts[i] - 6 * (lifts[i + 1] + lifts[i + 5]) + 15 * (lifts[i + 2] + lifts[i + 4])
-        if not abs(bend - 20 * lifts[i + 3] + lifts[i + 6]) <= SMOOTH:
-            return math.inf
     return error
 
 

@@ -337,6 +337,7 @@ class Grounds:
             self.parts[:, :, column] = value
         self.sections = np.zeros((*parts.shape[:2], g.OF_SECTION))
         self.sections[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
+        self.sections[:, :, g.DARKER] = parts[:, :, f.SHADOW] == f.PROJECTED
         self.seats = np.zeros((count, found[-1].component + 1, g.OF_SEAT))
         top = parts[:, :, f.HIGH] / sigma
         for s, each in enumerate(found):
