@@ -74,8 +74,9 @@ FAR = 30.0
 LEVEL, LEVELS = 3.5, 1.0
 """Separation over σ from which the ground under asperities levels out, and over how much more: to
 that of half as much more. Beyond, terms of twelve moments are large and cancel."""
-LIFTS = 12
-"""Chords by which the lift of asperities is found, at most."""
+LIFTS, LEAP = 12, 0.1
+"""Chords by which the lift of asperities is found, at most; and second difference of it from which
+on it may belong to another ground [σ]."""
 PANELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.33, 0.4, 0.5, 0.6, 0.75, 1.0])
 NODES = 12
 """Of sums over seats: 2e-5 of a load."""
@@ -274,10 +275,10 @@ class Ground:
         ratios = np.hstack([np.ones((len(h), 1)), turned])
         return (_series_of(columns[:, TAU]) @ self._k_as) * ratios
 
-    def _round(self, h: Array, state: Array) -> tuple[Array, Array]:
+    def _round(self, h: Array, state: Array, lift: Array) -> tuple[Array, Array]:
         """β_n and the shadow again, from those of the round before: (M, 14); and u_n."""
         beta, shade = state[:, :-1], np.clip(state[:, -1:], 0.0, 1.0)
-        pressed = self._of_asperities(h + self._lift(h, beta))
+        pressed = self._of_asperities(h + lift)
         u = self.twice * ((1 - shade) * pressed + self.k_pp * beta)
         out = np.zeros_like(state)
         for seat in self.seats:
@@ -287,9 +288,9 @@ class Ground:
                 out[:, -1] += seat.component.factor * columns[:, seat.shadow]
         return out, u
 
-    def _lift(self, h: Array, beta: Array) -> Array:
-        """w where particles carry β: (M,)."""
-        w = before = np.zeros(len(h))
+    def _lift(self, h: Array, beta: Array, start: Array) -> Array:
+        """w where particles carry β, from one that is near: (M,)."""
+        w = before = start
         miss = np.full(len(h), np.nan)
         for _ in range(LIFTS):
             weights = self._under_asperities(h + w)
@@ -305,21 +306,38 @@ class Ground:
         return lift
 
     def _solve_separations(self) -> tuple[Array, Array]:
-        """Solve all separations at once; those that fail, one by one from the ones above."""
+        """Solve all separations at once; those that fail or leap, one by one from the ones above.
+
+        Of several grounds that answer the equations, the one to which surfaces come together.
+        """
         count = len(self.h)
         u, w, kept = (np.zeros((count, more)) for more in (MOMENTS + 1, 1, MOMENTS + 2))
-        rest = self._iterate_states(np.arange(count), u, w, kept)
-        for row in rest[::-1]:
+        failed = np.zeros(count, bool)
+        failed[self._iterate_states(np.arange(count), u, w, kept)] = True
+        for row in range(count - 1, -1, -1):
             if row + 2 >= count:
-                return self._above(count, u, w)
-            for memory in (MEMORY, *OTHERS):
-                near = kept[row + 1 : row + 1 + len(BEFORE)]
-                kept[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
-                if not len(self._iterate_states(np.array([row]), u, w, kept, memory)):
-                    break
-            else:
-                return self._above(row + 1, u, w)
+                if failed[row]:
+                    return self._above(count, u, w)
+                continue
+            leap = abs(w[row, 0] - 2 * w[row + 1, 0] + w[row + 2, 0]) > LEAP
+            if failed[row] or leap:
+                before = u[row].copy(), w[row].copy(), kept[row].copy()
+                if self._solve_from_above(row, u, w, kept):
+                    continue
+                if failed[row]:
+                    return self._above(row + 1, u, w)
+                u[row], w[row], kept[row] = before
         return u, w[:, 0]
+
+    def _solve_from_above(self, row: int, u: Array, w: Array, kept: Array) -> bool:
+        """Solve one separation from what those above say of it; whether it settles."""
+        for memory in (MEMORY, *OTHERS):
+            for known in (kept, w):
+                near = known[row + 1 : row + 1 + len(BEFORE)]
+                known[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
+            if not len(self._iterate_states(np.array([row]), u, w, kept, memory)):
+                return True
+        return False
 
     def _iterate_states(
         self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array, memory: int = MEMORY
@@ -330,10 +348,11 @@ class Ground:
         misses: list[Array] = []
         left = np.full(len(rest), MORE)
         for _ in range(ROUNDS + MORE):
-            updated, now = self._round(self.h[rest], state)
+            h = self.h[rest]
+            lift = self._lift(h, state[:, :-1], w[rest, 0])
+            updated, now = self._round(h, state, lift)
             misses = [*misses, updated - state][-memory:]
             states = [*states, state][-memory:]
-            lift = self._lift(self.h[rest], state[:, :-1])
             change = np.maximum(np.max(np.abs(now - u[rest]), axis=1), np.abs(lift - w[rest, 0]))
             u[rest], w[rest, 0], kept[rest] = now, lift, state
             if len(states) == 1:  # without particles the ground may be flat, and stay so

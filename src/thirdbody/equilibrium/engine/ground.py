@@ -429,13 +429,14 @@ def _level_out(h):
 
 
 @scalar
-def lift_of(own, kernels, skin, surface, h, state, small):
+def lift_of(own, kernels, skin, surface, h, state, start, small):
     """Lift of the asperities' ground [σ], by chords, and how far it is off.
 
-    From none, as there may be several. What asperities press at h + w is left in the rows.
+    From one that is near, as there may be several. What asperities press at h + w is left in the
+    rows.
     """
     keep_apart()
-    w = before = found = 0.0
+    w = before = found = start
     miss = math.nan
     for _ in range(LIFTS):
         _press(own, kernels, skin, surface, _level_out(h + w), small)
@@ -623,14 +624,14 @@ def weigh_ground(field, h, u, lowest, nodes, found, columns, whole):
 
 
 @scalar
-def round_of(field, h, state, lowest, small, nodes, found, columns, whole):
-    """β_n and the shadow again, from those before, at h [σ].
+def round_of(field, h, state, lift, lowest, small, nodes, found, columns, whole):
+    """β_n and the shadow again, from those and the lift before, at h [σ].
 
     The lift and how far it is off; ``lowest`` as in `weigh_ground`.
     """
     keep_apart()
     own, _, _, kernels, skin, surface, _, _ = field
-    w, off = lift_of(own, kernels, skin, surface, h, state, small)
+    w, off = lift_of(own, kernels, skin, surface, h, state, lift, small)
     # the rows hold what asperities do a last step before, some 1e-13 of σ away
     bare, u = 1 - min(max(state[BETA], 0.0), 1.0), small[U]
     for n in range(BETA):

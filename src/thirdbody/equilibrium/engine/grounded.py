@@ -9,6 +9,7 @@ import numpy as np
 from numba import njit
 from scipy.interpolate import make_interp_spline
 
+from ...contact.field_ground import LEAP
 from ...contact.field_ground import TINY as TINIEST
 from ...laws.field.table import COLUMNS as OF_SURFACE
 from ..compiled.cached import Cached
@@ -96,9 +97,9 @@ SAME = 1e-4
 BALANCED, STEPS = 4e-13, 60
 SAFE, FADES = 20.0, 0.43
 """Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
-FEWER, PART = 3, 1.0
-"""So many rows less on either side say how much the others leave out: this part of the difference,
-at most, where each row fades to 0.43 (0.43³ is 0.08)."""
+FEWER, WILD = 3, 10.0
+"""So many rows less on either side say how much the others leave out: no more than the difference,
+where each row fades to 0.43 (0.43³ is 0.08); so many times that where a row is not found."""
 DONE, GUESSED, NONE = 2, 1, 0
 """Of a row: solved, guessed roughly, or neither."""
 
@@ -187,7 +188,9 @@ def _solve_row(field, k, accuracy, whole, rows, work):
     h, state, close = own[LOWEST] + k * own[STEP], states[k], False
     for n in range(ROUNDS):
         full = whole and close
-        lifts[k], off = round_of(field, h, state, lowest[k], small, nodes, found, columns[k], full)
+        lifts[k], off = round_of(
+            field, h, state, lifts[k], lowest[k], small, nodes, found, columns[k], full
+        )
         size = 0.0
         for m in range(UNKNOWNS):
             miss[m] = found[m] - state[m]
@@ -215,7 +218,7 @@ def _solve_row(field, k, accuracy, whole, rows, work):
 def _guess_row(k, way, rows, last):
     """Put what the rows before, on one side, say of row k into it."""
     keep_apart()
-    states, _, _, _, lowest, done = rows
+    states, lifts, _, _, lowest, done = rows
     known, near = 0, k + way
     while known < OLDER:
         m = k + way * (known + 1)
@@ -225,18 +228,22 @@ def _guess_row(k, way, rows, last):
     for s in range(lowest.shape[1]):
         lowest[k, s] = math.nan if known == 0 else 0.0
     if known == 0:
+        lifts[k] = 0.0
         for n in range(UNKNOWNS):
             states[k, n] = 0.0
         if 0 <= near <= last and done[near] != NONE:
+            lifts[k] = lifts[near]
             for n in range(UNKNOWNS):
                 states[k, n] = states[near, n]
         return
+    lifts[k] = 0.0
     for n in range(UNKNOWNS):
         states[k, n] = 0.0
     part = 1.0
     for j in range(1, known + 1):
         part *= -(known - j + 1) / j
         m = k + way * j
+        lifts[k] -= part * lifts[m]
         states[k, 0] -= part * math.log(states[m, 0])
         for n in range(1, UNKNOWNS):
             states[k, n] -= part * states[m, n] / states[m, 0]
@@ -289,6 +296,15 @@ def _first_row(field, held, load, high, rows, work, out):
 
 
 @scalar
+def _leaps(lifts, done, k, way):
+    """Whether the lift of row k may be that of another ground than those before it, on one side."""
+    far = k + 2 * way
+    if not 0 <= far < len(done) or done[k + way] == NONE or done[far] == NONE:
+        return False
+    return not abs(lifts[k] - 2 * lifts[k + way] + lifts[far]) <= LEAP
+
+
+@scalar
 def _come_down(field, held, k, target, h, rows, work, out):
     """Solve rows roughly from row k down to the one that carries the target or lies below h.
 
@@ -302,7 +318,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
         if rows[5][k] == NONE:
             _guess_row(k, 1, rows, last)
             n = _solve_row(field, k, LOOSE, False, rows, work)
-            if n < 0:
+            if n < 0 or _leaps(lifts, rows[5], k, 1):
                 return -1, rounds, UNSOLVED
             rounds += n
         at = own[LOWEST] + k * own[STEP]
@@ -324,7 +340,10 @@ def _come_down(field, held, k, target, h, rows, work, out):
 
 @scalar
 def _finish_rows(field, care, k, low, high, rows, work):
-    """Solve every row of a window as well as it counts in cell k; rounds, or −1."""
+    """Solve every row of a window as well as it counts in cell k.
+
+    Rounds, or −1, and where the window begins: above a row whose ground is not found.
+    """
     keep_apart()
     done, rounds, last = rows[5], 0, int(field[0][ROWS]) - 1
     first = high
@@ -338,11 +357,11 @@ def _finish_rows(field, care, k, low, high, rows, work):
             if done[i] != DONE:
                 accuracy = min(care[OF_ROOT] * 2.0 ** max(k - i, i - k - 1), care[OF_ROWS])
                 n = _solve_row(field, i, accuracy, True, rows, work)
-                if n < 0:
-                    return -1
+                if n < 0 or _leaps(rows[1], done, i, -1 if way == 0 else 1):
+                    return (rounds, i + 1) if i < k else (-1, low)
                 rounds += n
             i += 1 if way == 0 else -1
-    return rounds
+    return rounds, low
 
 
 @scalar
@@ -458,7 +477,7 @@ def _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out
         if c in (F_SS, F_SA):
             unit = load
         worst = max(worst, abs(out[c] - row[c]) / unit)
-    return PART * worst
+    return worst
 
 
 @scalar
@@ -520,7 +539,7 @@ def _settle_cell(field, held, splines, care, k, target, h, rows, work, poly, row
         if not 0 <= k < count - 1:
             break
         low, high = max(k - many, 0), min(k + 1 + many, count - 1)
-        n = _finish_rows(field, care, k, low, high, rows, work)
+        n, low = _finish_rows(field, care, k, low, high, rows, work)
         if n < 0:
             break
         rounds += n
@@ -569,7 +588,8 @@ def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts
     if target > 0:
         h = own[LOWEST] + (k + t) * own[STEP]
     error = own[LEFT] + care[OF_TABLES] + _error_of(field, k, low, high, rows)
-    error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
+    left = _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
+    error += left if low <= max(k - int(care[MANY]), 0) else WILD * left
     if slope < 0:
         error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
     return h, rounds, OK if error <= care[WORST] else NOT_RESOLVED, error
