@@ -74,9 +74,10 @@ FAR = 30.0
 LEVEL, LEVELS = 3.5, 1.0
 """Separation over σ from which the ground under asperities levels out, and over how much more: to
 that of half as much more. Beyond, terms of twelve moments are large and cancel."""
-LIFTS, LEAP = 12, 0.1
-"""Chords by which the lift of asperities is found, at most; and second difference of it from which
-on it may belong to another ground [σ]."""
+LIFTS, LEAP, CREEPS, KINK = 12, 0.1, (8, 32), 4.0
+"""Chords by which the lift of asperities is found, at most; second difference of it from which on
+it may belong to another ground [σ]; steps between two separations that show whether it does, as
+differences of a kink are so many times less in them."""
 PANELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.33, 0.4, 0.5, 0.6, 0.75, 1.0])
 NODES = 12
 """Of sums over seats: 2e-5 of a load."""
@@ -308,49 +309,63 @@ class Ground:
     def _solve_separations(self) -> tuple[Array, Array]:
         """Solve all separations at once; those that fail or leap, one by one from the ones above.
 
-        Of several grounds that answer the equations, the one to which surfaces come together.
+        Of several grounds that answer the equations, the one to which surfaces come together. Where
+        that ends the table ends.
         """
         count = len(self.h)
         u, w, kept = (np.zeros((count, more)) for more in (MOMENTS + 1, 1, MOMENTS + 2))
         failed = np.zeros(count, bool)
-        failed[self._iterate_states(np.arange(count), u, w, kept)] = True
-        for row in range(count - 1, -1, -1):
-            if row + 2 >= count:
-                if failed[row]:
-                    return self._above(count, u, w)
-                continue
-            leap = abs(w[row, 0] - 2 * w[row + 1, 0] + w[row + 2, 0]) > LEAP
-            if failed[row] or leap:
-                before = u[row].copy(), w[row].copy(), kept[row].copy()
-                if self._solve_from_above(row, u, w, kept):
-                    continue
-                if failed[row]:
-                    return self._above(row + 1, u, w)
-                u[row], w[row], kept[row] = before
+        failed[self._iterate_states(self.h, u, w, kept)] = True
+        if failed[-2:].any():
+            return self._above(count, u, w)
+        for row in range(count - 3, -1, -1):
+            if (failed[row] or _leaps(w[row : row + 3])) and not (
+                self._solve_from_above(row, u, w, kept) or self._creep_down(row, u, w, kept)
+            ):
+                return self._above(row + 1, u, w)
         return u, w[:, 0]
 
     def _solve_from_above(self, row: int, u: Array, w: Array, kept: Array) -> bool:
-        """Solve one separation from what those above say of it; whether it settles."""
+        """Solve one separation from what those above say of it; whether that goes on smoothly."""
+        here = slice(row, row + 1)
         for memory in (MEMORY, *OTHERS):
             for known in (kept, w):
                 near = known[row + 1 : row + 1 + len(BEFORE)]
                 known[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
-            if not len(self._iterate_states(np.array([row]), u, w, kept, memory)):
+            if not len(self._iterate_states(self.h[here], u[here], w[here], kept[here], memory)):
+                return not _leaps(w[row : row + 3])
+        return False
+
+    def _creep_down(self, row: int, u: Array, w: Array, kept: Array) -> bool:
+        """Solve one separation by small steps from the one above; whether they go on smoothly."""
+        for steps in CREEPS:
+            path = [kept[row + 1]] * 2, [w[row + 1]] * 2
+            for h in np.linspace(self.h[row + 1], self.h[row], steps + 1)[1:]:
+                state, lift = (2 * past[-1:] - past[-2:-1] for past in map(np.array, path))
+                ground = np.zeros((1, MOMENTS + 1))
+                if len(self._iterate_states(np.array([h]), ground, lift, state)):
+                    break
+                path[0].append(state[0])
+                path[1].append(lift[0])
+                if len(path[1]) > 4 and _leaps(np.array(path[1][-3:]) * KINK):
+                    break
+            else:
+                u[row], w[row], kept[row] = ground[0], lift[0], state[0]
                 return True
         return False
 
     def _iterate_states(
-        self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array, memory: int = MEMORY
+        self, h: Array, u: Array, w: Array, kept: Array, memory: int = MEMORY
     ) -> NDArray[np.intp]:
-        """Iteration after Anderson from the states kept; fills in rows, gives those not found."""
+        """Iteration after Anderson at h from the states kept; fills u, w, gives those not found."""
+        rest = np.arange(len(h))
         state = kept[rest]
         states: list[Array] = []
         misses: list[Array] = []
         left = np.full(len(rest), MORE)
         for _ in range(ROUNDS + MORE):
-            h = self.h[rest]
-            lift = self._lift(h, state[:, :-1], w[rest, 0])
-            updated, now = self._round(h, state, lift)
+            lift = self._lift(h[rest], state[:, :-1], w[rest, 0])
+            updated, now = self._round(h[rest], state, lift)
             misses = [*misses, updated - state][-memory:]
             states = [*states, state][-memory:]
             change = np.maximum(np.max(np.abs(now - u[rest]), axis=1), np.abs(lift - w[rest, 0]))
@@ -405,6 +420,11 @@ class Ground:
 def field_offset(seat: Seat, field: FieldSum) -> float:
     """h − (d + offset)/σ of a part."""
     return (field.rough.y_s - field.centre - seat.component.offset) / field.sigma
+
+
+def _leaps(lifts: Array) -> bool:
+    """Whether the first of three lifts (3, 1) may belong to another ground than the others."""
+    return not abs(float(lifts[0, 0] - 2 * lifts[1, 0] + lifts[2, 0])) <= LEAP
 
 
 def _next_state(states: list[Array], misses: list[Array]) -> Array:

@@ -319,6 +319,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
             _guess_row(k, 1, rows, last)
             n = _solve_row(field, k, LOOSE, False, rows, work)
             if n < 0 or _leaps(lifts, rows[5], k, 1):
+                rows[5][k] = NONE
                 return -1, rounds, UNSOLVED
             rounds += n
         at = own[LOWEST] + k * own[STEP]
@@ -358,6 +359,7 @@ def _finish_rows(field, care, k, low, high, rows, work):
                 accuracy = min(care[OF_ROOT] * 2.0 ** max(k - i, i - k - 1), care[OF_ROWS])
                 n = _solve_row(field, i, accuracy, True, rows, work)
                 if n < 0 or _leaps(rows[1], done, i, -1 if way == 0 else 1):
+                    done[i] = NONE
                     return (rounds, i + 1) if i < k else (-1, low)
                 rounds += n
             i += 1 if way == 0 else -1
