@@ -74,6 +74,8 @@ FAR = 30.0
 LEVEL, LEVELS = 3.5, 1.0
 """Separation over σ from which the ground under asperities levels out, and over how much more: to
 that of half as much more. Beyond, terms of twelve moments are large and cancel."""
+FLAT = 1.0
+"""Mean slope of u over ζ from which on particles leave nothing of the surface."""
 LIFTS, LEAP, CREEPS, KINK = 12, 0.1, (8, 32), 4.0
 """Chords by which the lift of asperities is found, at most; second difference of it from which on
 it may belong to another ground [σ]; steps between two separations that show whether it does, as
@@ -309,8 +311,8 @@ class Ground:
     def _solve_separations(self) -> tuple[Array, Array]:
         """Solve all separations at once; those that fail or leap, one by one from the ones above.
 
-        Of several grounds that answer the equations, the one to which surfaces come together. Where
-        that ends the table ends.
+        Of several grounds that answer the equations, the one to which surfaces come together. The
+        table ends where that does, or where it is pressed flat: high ground would lie below low.
         """
         count = len(self.h)
         u, w, kept = (np.zeros((count, more)) for more in (MOMENTS + 1, 1, MOMENTS + 2))
@@ -319,9 +321,10 @@ class Ground:
         if failed[-2:].any():
             return self._above(count, u, w)
         for row in range(count - 3, -1, -1):
-            if (failed[row] or _leaps(w[row : row + 3])) and not (
-                self._solve_from_above(row, u, w, kept) or self._creep_down(row, u, w, kept)
-            ):
+            whole = not failed[row] and not _leaps(w[row : row + 3])
+            whole = whole or self._solve_from_above(row, u, w, kept)
+            whole = whole or self._creep_down(row, u, w, kept)
+            if not whole or u[row, 1] >= FLAT:
                 return self._above(row + 1, u, w)
         return u, w[:, 0]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 from scipy.interpolate import make_interp_spline
 
-from ...contact.field_ground import LEAP
+from ...contact.field_ground import FLAT, LEAP
 from ...contact.field_ground import TINY as TINIEST
 from ...laws.field.table import COLUMNS as OF_SURFACE
 from ..compiled.cached import Cached
@@ -97,9 +97,9 @@ SAME = 1e-4
 BALANCED, STEPS = 4e-13, 60
 SAFE, FADES = 20.0, 0.43
 """Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
-FEWER, WILD = 3, 10.0
+FEWER, UNKNOWN = 3, 0.1
 """So many rows less on either side say how much the others leave out: no more than the difference,
-where each row fades to 0.43 (0.43³ is 0.08); so many times that where a row is not found."""
+where each row fades to 0.43 (0.43³ is 0.08). What a row that is not found may hold besides."""
 DONE, GUESSED, NONE = 2, 1, 0
 """Of a row: solved, guessed roughly, or neither."""
 
@@ -176,7 +176,7 @@ def _follow(pairs, memory, state, miss, turned):
 
 @scalar
 def _solve_row(field, k, accuracy, whole, rows, work):
-    """Solve the ground of row k from what stands there; rounds, or −1 where it does not settle.
+    """Solve the ground of row k from what stands there; rounds, or −1 where there is none.
 
     Its state and lift go into the rows and, if the whole is asked, its columns and what it misses.
     """
@@ -201,6 +201,8 @@ def _solve_row(field, k, accuracy, whole, rows, work):
             return -1
         if n > 0:
             _remember(pairs, memory, state, miss, old_state, old_miss)
+        if size <= accuracy and small[U, 1] >= FLAT:
+            return -1
         if full and size <= accuracy:
             misses[k], done[k] = max(size, off), DONE
             return n + 1
@@ -590,8 +592,9 @@ def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts
     if target > 0:
         h = own[LOWEST] + (k + t) * own[STEP]
     error = own[LEFT] + care[OF_TABLES] + _error_of(field, k, low, high, rows)
-    left = _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
-    error += left if low <= max(k - int(care[MANY]), 0) else WILD * left
+    error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
+    if low > max(k - int(care[MANY]), 0):
+        error += UNKNOWN * FADES ** (k - low + 1)
     if slope < 0:
         error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
     return h, rounds, OK if error <= care[WORST] else NOT_RESOLVED, error
