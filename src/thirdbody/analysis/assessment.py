@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -22,8 +23,9 @@ from ..equilibrium.words import (
     not_met,
     two_bodies,
 )
-from ..quantities import notebook
+from ..quantities.notebook import Card, Row, Shown
 from ..quantities.plain_data import plain_data
+from ..quantities.record import Record
 from ..quantities.say import join_words, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
 from .inputs import declared_quantity, words_of
@@ -92,7 +94,7 @@ class Section(NamedTuple):
 
 # -------------------------------------------------------------------------- the page
 @dataclass(frozen=True, kw_only=True)
-class Assessment:
+class Assessment(Shown, Record):
     """What an engineer wants to know of a contact under its operating load.
 
     Attributes
@@ -160,17 +162,11 @@ class Assessment:
             "citations": cite(propagation.contact).splitlines(),
         }
 
-    def _repr_html_(self) -> str:
+    def _cards(self) -> Iterator[Card]:
         """The page for notebooks: a table for each part."""
-        out = []
-        for section in self.sections():
-            rows = [
-                notebook.Row(cells[0], cells[1:])
-                for cells in (section.head, *section.rows)
-                if cells
-            ]
-            out.append(notebook.card(section.title, rows, section.sentences))
-        return f"<div>{''.join(out)}</div>"
+        for part in self.sections():
+            rows = [Row(cells[0], cells[1:]) for cells in (part.head, *part.rows) if cells]
+            yield Card(part.title, rows, part.sentences)
 
     # ------------------------------------------------------------------ words and tables
     def headline(self) -> str:
