@@ -128,12 +128,13 @@ def _at(record: object, path: str) -> Any:
 def with_names(path: str) -> Callable[[Record], object]:
     """A source of an `Entry`: one named tuple, or some, as dicts; None stays."""
 
-    def named(value: Any) -> object:
+    def as_dicts(record: Record) -> object:
+        value = _at(record, path)
         if value is None or hasattr(value, "_asdict"):
             return value and value._asdict()
         return [item._asdict() for item in value]
 
-    return lambda record: named(_at(record, path))
+    return as_dicts
 
 
 class MappedRecord(Record, Mapping[str, Any]):
