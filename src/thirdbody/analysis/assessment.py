@@ -24,8 +24,7 @@ from ..equilibrium.words import (
     two_bodies,
 )
 from ..quantities.notebook import Card, Row, Shown
-from ..quantities.plain_data import plain_data
-from ..quantities.record import Record
+from ..quantities.record import VERSION, Entry, Record
 from ..quantities.say import join_words, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
 from .inputs import declared_quantity, words_of
@@ -50,35 +49,29 @@ RARE = 1e-4
 """Probability below which a value counts as outside the range of an input."""
 
 
-class Change(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Change(Record):
     """How far one input, the others as they are, must go to change the mode."""
 
+    in_dict = (
+        *("input", "value", "mode", ("probability", "beyond")),
+        ("within_range", lambda change: change.beyond >= RARE),
+    )
     input: str
     value: float
     mode: str
     beyond: float
     """Probability that the input is there or farther."""
 
-    def to_dict(self) -> dict[str, Any]:
-        return {
-            "input": self.input,
-            "value": self.value,
-            "mode": self.mode,
-            "probability": self.beyond,
-            "within_range": self.beyond >= RARE,
-        }
 
-
-class Stop(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Stop(Record):
     """End of the search along one input: beyond it the contact is refused."""
 
     input: str
     value: float
     """The last value that was tried and is not refused."""
     why: str
-
-    def to_dict(self) -> dict[str, Any]:
-        return self._asdict()
 
 
 class Section(NamedTuple):
@@ -90,6 +83,12 @@ class Section(NamedTuple):
     sentences: tuple[str, ...] = ()
     drop: tuple[str, ...] = ()
     """Heads of columns in the order in which they go where the width is small."""
+
+
+SENTENCES: Entry = (
+    "sentences",
+    lambda page: {section.title: section.sentences for section in page.sections()},
+)
 
 
 # -------------------------------------------------------------------------- the page
@@ -123,6 +122,11 @@ class Assessment(Shown, Record):
         Where the search for another mode ends before a factor of 10, and why.
     """
 
+    in_dict = (
+        *("title", VERSION, ("contact", "propagation.contact"), "mode", "propagation", "decisive"),
+        *("matter", "tornado", "elasticity", "changes", "stops", "exact", SENTENCES, "notes"),
+        ("citations", lambda page: cite(page.propagation.contact).splitlines()),
+    )
     title: str
     propagation: Propagation
     mode: str
@@ -134,33 +138,6 @@ class Assessment(Shown, Record):
     exact: tuple[str, ...]
     notes: tuple[str, ...]
     stops: tuple[Stop, ...] = ()
-
-    def to_dict(self) -> dict[str, Any]:
-        """The whole page as plain data ready for JSON."""
-        from ..version import __version__
-
-        propagation = self.propagation
-        return {
-            "title": self.title,
-            "version": __version__,
-            "contact": propagation.contact.to_dict(),
-            "mode": self.mode,
-            **plain_data(
-                {
-                    "propagation": propagation,
-                    "decisive": self.decisive,
-                    "matter": self.matter,
-                    "tornado": self.tornado,
-                    "elasticity": self.elasticity,
-                    "changes": self.changes,
-                    "stops": self.stops,
-                }
-            ),
-            "exact": list(self.exact),
-            "sentences": {section.title: list(section.sentences) for section in self.sections()},
-            "notes": list(self.notes),
-            "citations": cite(propagation.contact).splitlines(),
-        }
 
     def _cards(self) -> Iterator[Card]:
         """The page for notebooks: a table for each part."""
