@@ -460,10 +460,15 @@ class Value(Shown):
         return out
 
     def to_dict(self) -> dict[str, Any]:
-        """Every field in SI, ready for JSON; ``type`` names the class."""
+        """Every field in SI, ready for JSON; ``type`` names the class.
+
+        A field that is declared as "where filled" is left out where it is empty.
+        """
         out: dict[str, object] = {"type": type(self).__name__}
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
-            out[item.name] = plain_data(getattr(self, item.name))
+            value = getattr(self, item.name)
+            if "in_dict" not in item.metadata or value:
+                out[item.name] = plain_data(value)
         return out
 
     @staticmethod
