@@ -141,9 +141,9 @@ class Assessment(Shown, Record):
 
     def _cards(self) -> Iterator[Card]:
         """The page for notebooks: a table for each part."""
-        for part in self.sections():
-            rows = [Row(cells[0], cells[1:]) for cells in (part.head, *part.rows) if cells]
-            yield Card(part.title, rows, part.sentences)
+        for title, head, lines, sentences, _ in self.sections():
+            rows = [Row(cells[0], cells[1:]) for cells in (head, *lines) if cells]
+            yield Card(title, rows, sentences)
 
     # ------------------------------------------------------------------ words and tables
     def headline(self) -> str:

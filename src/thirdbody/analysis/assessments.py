@@ -48,7 +48,7 @@ class Assessments(Record):
 
     in_dict = (
         *("title", VERSION, "asked", ("loads", "_each_load"), "unsolved", SENTENCES, "notes"),
-        ("citations", lambda found: cite(found.pages[0].propagation.contact).splitlines()),
+        ("citations", lambda result: cite(result.pages[0].propagation.contact).splitlines()),
     )
     title: str
     pages: tuple[Assessment, ...]

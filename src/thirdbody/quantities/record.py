@@ -102,22 +102,24 @@ class Record:
         return _plain_entries(self, self.in_dict or tuple(kept))
 
 
-def _plain_entries(record: Record, entries: tuple[Entry, ...]) -> dict[str, Any]:
+def _plain_entries(record: Record, entries: tuple[Entry, ...]) -> dict[str, object]:
     """Plain data of a record."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     for entry in entries:
         key, source = (entry, entry) if isinstance(entry, str) else entry
-        if isinstance(source, tuple):
+        if isinstance(source, str):
+            value = plain_data(_value_at(record, source))
+        elif isinstance(source, tuple):
             value = _plain_entries(record, source)
         else:
-            value = plain_data(_at(record, source) if isinstance(source, str) else source(record))
+            value = plain_data(source(record))
         for name, plain in ({key: value} if key else value).items():
             out.pop(name, None)
             out[name] = plain
     return out
 
 
-def _at(record: object, path: str) -> Any:
+def _value_at(record: object, path: str) -> object:
     """The value at a dotted path; methods on the way are called."""
     for name in path.split("."):
         value = getattr(record, name)
@@ -128,20 +130,20 @@ def _at(record: object, path: str) -> Any:
 def with_names(path: str) -> Callable[[Record], object]:
     """A source of an `Entry`: one named tuple, or some, as dicts; None stays."""
 
-    def as_dicts(record: Record) -> object:
-        value = _at(record, path)
-        if value is None or hasattr(value, "_asdict"):
-            return value and value._asdict()
-        return [item._asdict() for item in value]
+    return lambda record: _as_dicts(_value_at(record, path))
 
-    return as_dicts
+
+def _as_dicts(value: object) -> object:
+    if hasattr(value, "_asdict"):
+        return value._asdict()
+    return [_as_dicts(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
 class MappedRecord(Record, Mapping[str, Any]):
     """A record that is read by attribute, and indexed as its plain data."""
 
     @cached_property
-    def _data(self) -> dict[str, Any]:
+    def _data(self) -> dict[str, object]:
         return self.to_dict()
 
     def __getitem__(self, key: str) -> Any:

@@ -41,9 +41,9 @@ class LifeAssessment(QuestionResult):
     """
 
     in_dict = question_entries(
-        ("inputs", lambda found: {n: repr(each) for n, each in found.asked.uncertainty.items()}),
+        ("inputs", lambda life: {n: repr(one) for n, one in life.asked.uncertainty.items()}),
         ("", "bands"),
-        ("missed", lambda found: {name: found.bands.missed(name) for name in found.bands.reached}),
+        ("missed", lambda life: {name: life.bands.missed(name) for name in life.bands.reached}),
     )
     asked: AskedLife | AskedDry
     bands: LifeBands

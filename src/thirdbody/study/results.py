@@ -114,7 +114,7 @@ class StudyResult(_Result):
 
     in_dict = (
         *_entries(
-            ("load", lambda found: {found.study.load: found.study.values}),
+            ("load", lambda result: {result.study.load: result.study.values}),
             *(("scales", "states.scales"), ("states", "_states")),
             *(("populations", "states.populations"), ("engine", "states.engine")),
             *("transitions", "what_ifs"),

@@ -30,7 +30,7 @@ DURATION: Entry = ("duration", "asked.duration")
 UNTIL: Entry = ("until", "asked.until")
 FLOWS: Entry = (
     "flows",
-    lambda found: [{"from": a, "to": b, "kg": mass} for a, b, mass in found.history.flows()],
+    lambda result: [{"from": a, "to": b, "kg": mass} for a, b, mass in result.history.flows()],
 )
 
 

@@ -60,8 +60,8 @@ class LifeDesign(QuestionResult):
 
     in_dict = question_entries(
         ("inputs", (OIL, ("code", "asked.design.code"), UNTIL)),
-        ("best", lambda found: found.best or None),
-        ("choices", lambda found: found.table()[0]),
+        ("best", lambda result: result.best or None),
+        ("choices", lambda result: result.table()[0]),
     )
     asked: AskedLife
     names: tuple[str, ...]

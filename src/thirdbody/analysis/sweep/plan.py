@@ -57,7 +57,7 @@ STORED = {"mode": "i1", "status": "i1", "iterations": "i2"}
 class Listed(Record):
     """A dimension along which inputs take listed values."""
 
-    in_dict = (("", lambda axis: {n: _axis_values(each) for n, each in axis.values.items()}),)
+    in_dict = (("", lambda axis: {n: _axis_values(v) for n, v in axis.values.items()}),)
     name: str
     values: Arrays
     start: int = 0
