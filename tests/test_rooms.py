@@ -166,3 +166,34 @@ def test_fewer_values_are_named_by_a_filler():
     )
     assert {room: n for room, n in found.items() if n > FILLERS.get(room, 0)} == {}
     assert {room: n for room, n in FILLERS.items() if found[room] < n} == {}, "lower these counts"
+
+
+FORMS = {"to_dict", "to_json", "to_dataset", "to_dataframe", "_repr_html_"}
+WRITTEN = {
+    # what every record, state, value and table of a notebook has from one place
+    "quantities/record.py": 3,
+    "quantities/value.py": 1,
+    "quantities/notebook.py": 1,
+    # a text, not the plain data of a class
+    "app/exports.py": 1,
+    # of bands over quantiles, not of states
+    "analysis/uncertainty/propagation.py": 1,
+    # numbers that are not finite stay NaN
+    "explicit/ensemble.py": 1,
+    "populations/measured/surface.py": 1,
+}
+"""Functions that write a form of a result by hand; these counts only shrink."""
+
+
+def test_few_forms_of_results_are_written_by_hand():
+    """A record says by `in_dict` what it hands out, and by `_cards` what a notebook shows."""
+    folder = ROOT / "src" / "thirdbody"
+    found = Counter(
+        path.relative_to(folder).as_posix()
+        for path in folder.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.FunctionDef) and node.name in FORMS
+    )
+    assert {path: n for path, n in found.items() if n > WRITTEN.get(path, 0)} == {}
+    assert {path: n for path, n in WRITTEN.items() if found[path] < n} == {}, "lower these counts"
+    assert sum(WRITTEN.values()) <= 10

@@ -2,13 +2,14 @@
 
 import json
 from dataclasses import dataclass, fields
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 import thirdbody as tb
 from thirdbody.explicit.ensemble import surface_of
-from thirdbody.quantities.record import Record, StateRecord, declared_columns
+from thirdbody.quantities.record import VERSION, Record, StateRecord, declared_columns, with_names
 from thirdbody.study import check, run_film, run_study
 
 STEEL = tb.materials["S45C"]
@@ -77,6 +78,59 @@ def test_a_record_leaves_out_what_it_says_and_no_number_that_is_not_finite():
     assert told == {"value": None, "parts": [1.0, None], "inner": critical.to_dict()}
     assert told["inner"]["F_tpca"]["A"] == {"value": None, "status": "none"}
     assert list(critical.entries()) == ["F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B", "F_tpca.C"]
+
+
+def test_a_record_says_by_entries_what_it_hands_out():
+    """Names, paths, functions, dicts of entries, items of mappings, in their order."""
+
+    class Event(NamedTuple):
+        time: float
+        name: str
+
+    @dataclass(frozen=True)
+    class Inner(Record):
+        warnings: tuple[str, ...] = ("inner",)
+        mean: float = float("inf")
+
+    @dataclass(frozen=True)
+    class Outer(Record):
+        in_dict = (
+            *("size", VERSION, ("mean", "inner.mean"), ("twice", lambda outer: 2 * outer.size)),
+            ("inputs", (("count", "count"), ("", "table"))),
+            *(("", "inner"), ("events", with_names("events")), ("last", with_names("events"))),
+            *(("one", with_names("one")), ("none", with_names("none")), "rows", "warnings"),
+        )
+        size: float = 1.5
+        inner: Inner = Inner()
+        events: tuple[Event, ...] = (Event(0.5, "a"), Event(float("nan"), "b"))
+        rows: tuple[Event, ...] = (Event(1.0, "c"),)
+        one: Event = Event(2.0, "d")
+        none: Event | None = None
+        warnings: tuple[str, ...] = ("outer",)
+
+        def count(self):
+            return 3
+
+        @property
+        def table(self):
+            return {"a": np.array([1.0, np.nan]), "b": self.inner}
+
+    events = [{"time": 0.5, "name": "a"}, {"time": None, "name": "b"}]
+    plain = {"warnings": ["inner"], "mean": None}
+    wanted = {
+        "size": 1.5,
+        "version": tb.__version__,
+        "twice": 3.0,
+        "inputs": {"count": 3, "a": [1.0, None], "b": plain},
+        "mean": None,  # comes again with the items of the inner record
+        "events": events,
+        "last": events,
+        "one": {"time": 2.0, "name": "d"},
+        "none": None,
+        "rows": [[1.0, "c"]],
+        "warnings": ["outer"],
+    }
+    assert json.dumps(Outer().to_dict()) == json.dumps(wanted)
 
 
 @pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -22,8 +23,8 @@ from ..equilibrium.words import (
     not_met,
     two_bodies,
 )
-from ..quantities import notebook
-from ..quantities.plain_data import plain_data
+from ..quantities.notebook import Card, Row, Shown
+from ..quantities.record import VERSION, Entry, Record
 from ..quantities.say import join_words, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
 from .inputs import declared_quantity, words_of
@@ -48,35 +49,29 @@ RARE = 1e-4
 """Probability below which a value counts as outside the range of an input."""
 
 
-class Change(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Change(Record):
     """How far one input, the others as they are, must go to change the mode."""
 
+    in_dict = (
+        *("input", "value", "mode", ("probability", "beyond")),
+        ("within_range", lambda change: change.beyond >= RARE),
+    )
     input: str
     value: float
     mode: str
     beyond: float
     """Probability that the input is there or farther."""
 
-    def to_dict(self) -> dict[str, Any]:
-        return {
-            "input": self.input,
-            "value": self.value,
-            "mode": self.mode,
-            "probability": self.beyond,
-            "within_range": self.beyond >= RARE,
-        }
 
-
-class Stop(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Stop(Record):
     """End of the search along one input: beyond it the contact is refused."""
 
     input: str
     value: float
     """The last value that was tried and is not refused."""
     why: str
-
-    def to_dict(self) -> dict[str, Any]:
-        return self._asdict()
 
 
 class Section(NamedTuple):
@@ -90,9 +85,15 @@ class Section(NamedTuple):
     """Heads of columns in the order in which they go where the width is small."""
 
 
+SENTENCES: Entry = (
+    "sentences",
+    lambda page: {section.title: section.sentences for section in page.sections()},
+)
+
+
 # -------------------------------------------------------------------------- the page
 @dataclass(frozen=True, kw_only=True)
-class Assessment:
+class Assessment(Shown, Record):
     """What an engineer wants to know of a contact under its operating load.
 
     Attributes
@@ -121,6 +122,11 @@ class Assessment:
         Where the search for another mode ends before a factor of 10, and why.
     """
 
+    in_dict = (
+        *("title", VERSION, ("contact", "propagation.contact"), "mode", "propagation", "decisive"),
+        *("matter", "tornado", "elasticity", "changes", "stops", "exact", SENTENCES, "notes"),
+        ("citations", lambda page: cite(page.propagation.contact).splitlines()),
+    )
     title: str
     propagation: Propagation
     mode: str
@@ -133,44 +139,11 @@ class Assessment:
     notes: tuple[str, ...]
     stops: tuple[Stop, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
-        """The whole page as plain data ready for JSON."""
-        from ..version import __version__
-
-        propagation = self.propagation
-        return {
-            "title": self.title,
-            "version": __version__,
-            "contact": propagation.contact.to_dict(),
-            "mode": self.mode,
-            **plain_data(
-                {
-                    "propagation": propagation,
-                    "decisive": self.decisive,
-                    "matter": self.matter,
-                    "tornado": self.tornado,
-                    "elasticity": self.elasticity,
-                    "changes": self.changes,
-                    "stops": self.stops,
-                }
-            ),
-            "exact": list(self.exact),
-            "sentences": {section.title: list(section.sentences) for section in self.sections()},
-            "notes": list(self.notes),
-            "citations": cite(propagation.contact).splitlines(),
-        }
-
-    def _repr_html_(self) -> str:
+    def _cards(self) -> Iterator[Card]:
         """The page for notebooks: a table for each part."""
-        out = []
-        for section in self.sections():
-            rows = [
-                notebook.Row(cells[0], cells[1:])
-                for cells in (section.head, *section.rows)
-                if cells
-            ]
-            out.append(notebook.card(section.title, rows, section.sentences))
-        return f"<div>{''.join(out)}</div>"
+        for title, head, lines, sentences, _ in self.sections():
+            rows = [Row(cells[0], cells[1:]) for cells in (head, *lines) if cells]
+            yield Card(title, rows, sentences)
 
     # ------------------------------------------------------------------ words and tables
     def headline(self) -> str:

@@ -9,16 +9,26 @@ from typing import Any
 
 from ..contact.citations import cite
 from ..equilibrium.words import load_of, mode_path
+from ..quantities.record import VERSION, Record
 from ..quantities.say import number, percent, plural, value_of
 from ..quantities.tables import WIDER
-from .assessment import NO_RANGES, RARE, Assessment, Section, _nominal, terminal_page, unit_of
+from .assessment import (
+    NO_RANGES,
+    RARE,
+    SENTENCES,
+    Assessment,
+    Section,
+    _nominal,
+    terminal_page,
+    unit_of,
+)
 from .inputs import words_of
 
 __all__ = ["Assessments"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Assessments:
+class Assessments(Record):
     """What an engineer wants to know of a contact under each of several loads.
 
     Attributes
@@ -36,6 +46,10 @@ class Assessments:
         What else is to be said of all.
     """
 
+    in_dict = (
+        *("title", VERSION, "asked", ("loads", "_each_load"), "unsolved", SENTENCES, "notes"),
+        ("citations", lambda result: cite(result.pages[0].propagation.contact).splitlines()),
+    )
     title: str
     pages: tuple[Assessment, ...]
     asked: int
@@ -43,23 +57,12 @@ class Assessments:
     unsolved: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
-    def to_dict(self) -> dict[str, object]:
-        """Everything as plain data ready for JSON: every page as `Assessment.to_dict` has it."""
-        from ..version import __version__
-
+    def _each_load(self) -> list[dict[str, Any]]:
+        """Every page, with its separation where the study gives separations."""
         pages = [page.to_dict() for page in self.pages]
         for page, d in zip(pages, self.separations, strict=False):
             page["separation"] = d
-        return {
-            "title": self.title,
-            "version": __version__,
-            "asked": self.asked,
-            "loads": pages,
-            "unsolved": list(self.unsolved),
-            "sentences": {section.title: list(section.sentences) for section in self.sections()},
-            "notes": list(self.notes),
-            "citations": cite(self.pages[0].propagation.contact).splitlines(),
-        }
+        return pages
 
     # ------------------------------------------------------------------ words and tables
     @cached_property

@@ -14,7 +14,7 @@ numbers cancel.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -27,9 +27,9 @@ from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue, Mistake, Problem
-from ..quantities import notebook
 from ..quantities.arguments import is_empty, need_place
 from ..quantities.carried import takes_units
+from ..quantities.notebook import Card, Row, Shown, words_of
 from ..quantities.progress import watch_contacts
 from ..quantities.record import Record
 from ..quantities.uncertain import is_uncertain, shift_value
@@ -59,7 +59,7 @@ CRITICAL = {
 
 # -------------------------------------------------------------------------- result
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Sensitivity(Record):
+class Sensitivity(Shown, Record):
     """Derivatives of results with respect to inputs: floats, or arrays over several loads.
 
     Made by `sensitivity`, where accuracy stands.
@@ -224,18 +224,18 @@ class Sensitivity(Record):
             for of, value in self.value.items()
         }
 
-    def _repr_html_(self) -> str:
+    def _cards(self) -> Iterator[Card]:
         """A table for notebooks: the elasticities, an input a row; of several loads the first."""
-        rows = [notebook.Row("input", list(self.elasticity))]
+        rows = [Row("input", list(self.elasticity))]
         rows += [
-            notebook.Row(
+            Row(
                 to,
-                [notebook.words_of(np.ravel(row[to])[0]) for row in self.elasticity.values()],
+                [words_of(np.ravel(row[to])[0]) for row in self.elasticity.values()],
                 "" if (quantity := quantity_of(self.contact, to)) is None else quantity["meaning"],
             )
             for to in self.inputs
         ]
-        return notebook.card("Elasticities d ln c/d ln p", rows)
+        yield Card("Elasticities d ln c/d ln p", rows)
 
 
 def _default_inputs(contact: Contact) -> list[str]:

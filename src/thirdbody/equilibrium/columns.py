@@ -169,6 +169,7 @@ class PopulationShare(_ContactRecord):
     ``particle_load_share`` and ``particle_area_share``.
     """
 
+    in_dict = ("name", *_ContactRecord.in_dict)
     name: str
     F_sa_star: Number = column("F_sa*", "1", "load on the particles of a population")
     A_sa: Number = column("A_sa*", "1", "real area of a population on surface 1")
@@ -176,10 +177,6 @@ class PopulationShare(_ContactRecord):
     area_share: Number = column("A_sa,t*", "1", "area share of a population")
     outputs: Mapping[str, Number] = field(default_factory=dict)
     """Columns of the outputs that each population has of its own, as its dents, by name."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """Name and columns, ready for JSON."""
-        return {"name": self.name} | StateRecord.to_dict(self)
 
 
 CODE = "status_code"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import get_args
 
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue, Mistake, Problem
-from ..quantities import notebook
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
+from ..quantities.notebook import Card, Row, Shown, words_of
 from ..quantities.record import Record
 from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW, Basis, CriticalStatus, need_shares
@@ -77,7 +77,7 @@ class TurningPoint(Record):
 
 
 @dataclass(frozen=True, slots=True)
-class Transitions(Record):
+class Transitions(Shown, Record):
     """Critical loads F* [1] and turning point of one contact; made by `transitions`.
 
     Examples
@@ -106,13 +106,13 @@ class Transitions(Record):
         turning = {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
         return {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2} | turning
 
-    def _repr_html_(self) -> str:
+    def _cards(self) -> Iterator[Card]:
         """A table for notebooks: each load, its status, and what it is."""
         rows = [
-            notebook.Row(name, [notebook.words_of(load.value), load.status], happens(name))
+            Row(name, [words_of(load.value), load.status], happens(name))
             for name, load in self.entries().items()
         ]
-        return notebook.card("Transitions, F* = F/(A_n E_ss)", rows)
+        yield Card("Transitions, F* = F/(A_n E_ss)", rows)
 
 
 @takes_units

@@ -15,6 +15,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ..quantities.record import Record
+
 __all__ = ["Span", "latin", "sobol"]
 
 Array = NDArray[np.float64]
@@ -24,7 +26,7 @@ _last = threading.local()
 
 
 @dataclass(frozen=True)
-class Span:
+class Span(Record):
     """A range that is sampled: evenly between its ends, or evenly in the logarithm."""
 
     low: float

@@ -73,7 +73,7 @@ class Roughness(Value):
     eta: float | None = quantity("η", "1/m^2", "asperity density", default=None, gt=0)
     heights: Heights = field(default_factory=GaussianHeights)
     ellipticity: Ellipticity | None = None
-    finish: tuple[Finish, ...] = ()
+    finish: tuple[Finish, ...] = field(default=(), metadata={"in_dict": "where filled"})
 
     @classmethod
     def from_drawing(
@@ -144,13 +144,6 @@ class Roughness(Value):
             for name, ends in numbers.items()
             if ends is not None and ends[0] < ends[2] and getattr(self, name) == ends[1]
         }
-
-    def to_dict(self) -> dict[str, Any]:
-        """Every field in SI, ready for JSON; ``finish`` where a drawing states one."""
-        out = Value.to_dict(self)
-        if not self.finish:
-            del out["finish"]
-        return out
 
     def _problems(self) -> list[str]:
         if self.eta is not None and self.eta_R_sigma is not None:

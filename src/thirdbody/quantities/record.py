@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import field, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from types import MethodType
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..errors import InvalidValue, Mistake
-from . import notebook
+from ..version import __version__
 from .arguments import names_arguments
+from .notebook import Card, Row, Shown, words_of
 from .plain_data import plain_data
 
 if TYPE_CHECKING:
@@ -19,10 +21,24 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
-__all__ = ["Column", "MappedRecord", "Record", "StateRecord", "column", "declared_columns"]
+__all__ = [
+    *("VERSION", "Column", "Entry", "MappedRecord", "Record", "StateRecord"),
+    *("column", "declared_columns", "with_names"),
+]
 
 MOST_SHOWN = 6
 """States that a notebook shows; of more the first and the last."""
+
+Entry: TypeAlias = "str | tuple[str, str | Callable[..., object] | tuple[Entry, ...]]"
+"""A key of plain data, and where its value is from.
+
+A name alone is both. Else the value is at a dotted path, whose methods are called; or made by a
+function of the record; or a dict of entries of its own. Under the key "" stand the items of a
+mapping, each with a key of its own. A key that comes again stands where it comes last.
+"""
+
+VERSION: Entry = ("version", lambda record: __version__)
+"""The version of the library."""
 
 
 class Column(NamedTuple):
@@ -60,24 +76,74 @@ def declared_columns(kind: type) -> Mapping[str, Column]:
 
 
 class Record:
-    """A result: a frozen dataclass that is handed out as plain data."""
+    """A result: a frozen dataclass that is handed out as plain data.
+
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class Worn(Record):
+    ...     in_dict = ("depth", ("times", (("first", "history.start"),)), ("", "history.more"))
+    ...     depth: float
+    ...     history: object
+    >>> from types import SimpleNamespace
+    >>> Worn(float("nan"), SimpleNamespace(start=0.0, more={"sigma": (1.0, 2.0)})).to_dict()
+    {'depth': None, 'times': {'first': 0.0}, 'sigma': [1.0, 2.0]}
+    """
 
     __slots__ = ()
+    in_dict: ClassVar[tuple[Entry, ...]] = ()
+    """What `to_dict` hands out; every field where nothing is said."""
     not_in_dict: ClassVar[tuple[str, ...]] = ("contact",)
-    """Fields that `to_dict` leaves out."""
+    """Fields that `to_dict` leaves out of every field."""
 
-    def to_dict(self) -> dict[str, object]:
-        """Every field, ready for JSON: None for what is not a finite number, lists for arrays."""
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON: None for what is not a finite number, lists for arrays."""
         names = (item.name for item in fields(self))  # type: ignore[arg-type]
         kept = (name for name in names if name not in self.not_in_dict)
-        return {name: plain_data(getattr(self, name)) for name in kept}
+        return _plain_entries(self, self.in_dict or tuple(kept))
+
+
+def _plain_entries(record: Record, entries: tuple[Entry, ...]) -> dict[str, object]:
+    """Plain data of a record."""
+    out: dict[str, object] = {}
+    for entry in entries:
+        key, source = (entry, entry) if isinstance(entry, str) else entry
+        if isinstance(source, str):
+            value = plain_data(_value_at(record, source))
+        elif isinstance(source, tuple):
+            value = _plain_entries(record, source)
+        else:
+            value = plain_data(source(record))
+        for name, plain in ({key: value} if key else value).items():
+            out.pop(name, None)
+            out[name] = plain
+    return out
+
+
+def _value_at(record: object, path: str) -> object:
+    """The value at a dotted path; methods on the way are called."""
+    for name in path.split("."):
+        value = getattr(record, name)
+        record = value() if isinstance(value, MethodType) else value
+    return record
+
+
+def with_names(path: str) -> Callable[[Record], object]:
+    """A source of an `Entry`: one named tuple, or some, as dicts; None stays."""
+
+    return lambda record: _as_dicts(_value_at(record, path))
+
+
+def _as_dicts(value: object) -> object:
+    if hasattr(value, "_asdict"):
+        return value._asdict()
+    return [_as_dicts(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
 class MappedRecord(Record, Mapping[str, Any]):
     """A record that is read by attribute, and indexed as its plain data."""
 
     @cached_property
-    def _data(self) -> dict[str, Any]:
+    def _data(self) -> dict[str, object]:
         return self.to_dict()
 
     def __getitem__(self, key: str) -> Any:
@@ -90,7 +156,7 @@ class MappedRecord(Record, Mapping[str, Any]):
         return len(self._data)
 
 
-class StateRecord(Record):
+class StateRecord(Shown, Record):
     """A result with columns, one number of each for every state.
 
     A subclass declares them with `column`; ``outputs``, where it has such a field, holds more
@@ -98,6 +164,7 @@ class StateRecord(Record):
     """
 
     __slots__ = ()
+    in_dict: ClassVar[tuple[Entry, ...]] = (("", "columns"),)
     warnings: tuple[str, ...] = ()
 
     @names_arguments
@@ -115,10 +182,6 @@ class StateRecord(Record):
         stored = {name: getattr(self, name) for name in declared_columns(type(self))}
         every = stored | dict(getattr(self, "outputs", {}))
         return {name: np.atleast_1d(values) for name, values in every.items()}
-
-    def to_dict(self) -> dict[str, object]:
-        """Every column as a list, ready for JSON: None for what is not a finite number."""
-        return plain_data(self.columns())
 
     def attributes(self) -> dict[str, str]:
         """Attributes of a data set that hold for all its states."""
@@ -198,22 +261,22 @@ class StateRecord(Record):
             table.attrs[key] = {name: self.about(name).labels[key] for name in columns}
         return table
 
-    def _repr_html_(self) -> str:
+    def _cards(self) -> Iterator[Card]:
         """A table for notebooks: a row for each column, the first and the last states."""
         columns = {name: (self.about(name), values) for name, values in self.columns().items()}
         rows = [
-            notebook.Row(column.symbol or name, _cells(values, column.unit), column.meaning)
+            Row(column.symbol or name, _cells(values, column.unit), column.meaning)
             for name, (column, values) in columns.items()
         ]
         count = len(next(iter(self.columns().values())))
         states = "1 state" if count == 1 else f"{count} states"
-        return notebook.card(f"{type(self).__name__}, {states}", rows, self.warnings)
+        yield Card(f"{type(self).__name__}, {states}", rows, self.warnings)
 
 
 def _cells(values: NDArray[Any], unit: str) -> list[str]:
     """Values of some states in words."""
-    words = [notebook.words_of(value, unit) for value in values[:MOST_SHOWN]]
+    words = [words_of(value, unit) for value in values[:MOST_SHOWN]]
     if len(values) <= MOST_SHOWN:
         return words
     half = MOST_SHOWN // 2
-    return [*words[:half], "…", *(notebook.words_of(v, unit) for v in values[-half:])]
+    return [*words[:half], "…", *(words_of(v, unit) for v in values[-half:])]

@@ -24,6 +24,7 @@ from ..errors import Clause, InvalidValue, Mistake, NotCompiled, Note, Problem, 
 from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
+from .notebook import Card, Row, Shown, words_of
 from .plain_data import plain_data
 from .uncertain import HELD, is_uncertain
 from .units import Quantity, Range, Usual
@@ -31,8 +32,6 @@ from .units import Quantity, Range, Usual
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-
-    from .notebook import Row
 
 __all__ = ["Choice", "Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
 
@@ -297,7 +296,7 @@ BARE = (float, str, bool, type(None))
 """Types of values that are neither masked nor huge, and carry no unit."""
 
 
-class Value:
+class Value(Shown):
     """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
 
     __slots__ = ()
@@ -361,11 +360,9 @@ class Value:
         """
         return []
 
-    def _repr_html_(self) -> str:
+    def _cards(self) -> Iterator[Card]:
         """A table for notebooks: symbol, value with unit, and words of every field."""
-        from .notebook import card
-
-        return card(type(self).__name__, _rows(self))
+        yield Card(type(self).__name__, _rows(self))
 
     def replace(self, **changes: object) -> Self:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
@@ -463,10 +460,15 @@ class Value:
         return out
 
     def to_dict(self) -> dict[str, Any]:
-        """Every field in SI, ready for JSON; ``type`` names the class."""
+        """Every field in SI, ready for JSON; ``type`` names the class.
+
+        A field that is declared as "where filled" is left out where it is empty.
+        """
         out: dict[str, object] = {"type": type(self).__name__}
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
-            out[item.name] = plain_data(getattr(self, item.name))
+            value = getattr(self, item.name)
+            if "in_dict" not in item.metadata or value:
+                out[item.name] = plain_data(value)
         return out
 
     @staticmethod
@@ -602,8 +604,6 @@ def sequences(value: Value, *names: str) -> None:
 
 def _rows(value: Value) -> Iterator[Row]:
     """Rows of the fields of a value, with a heading for each value inside."""
-    from .notebook import Row, words_of
-
     inner: list[tuple[str, Value]] = []
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
         field_value = getattr(value, item.name)

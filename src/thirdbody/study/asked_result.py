@@ -5,15 +5,14 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol
+from typing import ClassVar, Protocol
 
 from ..quantities.plain_data import plain_data
-from ..quantities.record import MappedRecord, declared_columns
-from ..version import __version__
+from ..quantities.record import VERSION, Entry, MappedRecord, declared_columns
 from .described import Described
 from .what_ifs import WhatIf
 
-__all__ = ["AskedResult", "QuestionResult"]
+__all__ = ["AskedResult", "QuestionResult", "answer_entries", "question_entries"]
 
 
 class Asked(Protocol):
@@ -34,6 +33,17 @@ class Asked(Protocol):
     @property
     def described_inputs(self) -> Described:
         """Inputs with symbols and units."""
+
+
+def question_entries(*entries: Entry) -> tuple[Entry, ...]:
+    """Entries of a result between title and warnings, and these."""
+    return ("title", "asked.title"), VERSION, *entries, "warnings", "citations"
+
+
+def answer_entries(inputs: tuple[Entry, ...], *numbers: Entry) -> tuple[Entry, ...]:
+    """Entries of an `AskedResult`: its inputs, and numbers beside the table."""
+    states: Entry = ("states", lambda answer: answer.table()[0])
+    return question_entries(("inputs", inputs), states, *numbers, "what_ifs")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -76,16 +86,6 @@ class QuestionResult(MappedRecord):
     def meanings(self) -> Mapping[str, str]:
         """Meanings of the columns."""
 
-    def whole(self, **parts: object) -> dict[str, Any]:
-        """Plain data of the parts between title and warnings."""
-        return {
-            "title": self.asked.title,
-            "version": __version__,
-            **parts,
-            "warnings": list(self.warnings),
-            "citations": list(self.citations),
-        }
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class AskedResult(QuestionResult):
@@ -117,20 +117,3 @@ class AskedResult(QuestionResult):
         declared = declared_columns(type(self))
         columns = {name: plain_data(getattr(self, name)) for name in declared}
         return columns, {name: column.unit for name, column in declared.items()}
-
-    @abstractmethod
-    def inputs(self) -> dict[str, object]:
-        """Inputs as plain data."""
-
-    @abstractmethod
-    def numbers(self) -> dict[str, object]:
-        """Results beside the table, as plain data."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        return self.whole(
-            inputs=self.inputs(),
-            states=self.table()[0],
-            **self.numbers(),
-            what_ifs=[what_if.to_dict() for what_if in self.what_ifs],
-        )

@@ -6,10 +6,9 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..errors import InvalidValue, Mistake, Problem
-from .asked_result import QuestionResult
+from .asked_result import QuestionResult, question_entries
 from .life import AskedDry, AskedLife
 from .life_bands import COUNT, LifeBands
 from .life_uncertainty import names_life
@@ -41,6 +40,11 @@ class LifeAssessment(QuestionResult):
     bands : LifeBands
     """
 
+    in_dict = question_entries(
+        ("inputs", lambda life: {n: repr(one) for n, one in life.asked.uncertainty.items()}),
+        ("", "bands"),
+        ("missed", lambda life: {name: life.bands.missed(name) for name in life.bands.reached}),
+    )
     asked: AskedLife | AskedDry
     bands: LifeBands
 
@@ -74,12 +78,6 @@ class LifeAssessment(QuestionResult):
             "at_high": f"{of} at the end, the input at its highest",
             "factor": "the larger over the smaller",
         }
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        vary = {name: repr(uncertain) for name, uncertain in self.asked.uncertainty.items()}
-        missed = {name: self.bands.missed(name) for name in self.bands.reached}
-        return self.whole(inputs=vary, **self.bands.to_dict(), missed=missed)
 
 
 def assess_life(

@@ -15,7 +15,7 @@ from ..equilibrium.transitions import Transitions
 from ..errors import NoEquilibrium
 from ..quantities.carried import takes_units
 from ..quantities.plain_data import plain_data
-from ..quantities.record import MappedRecord, Record
+from ..quantities.record import VERSION, Entry, MappedRecord, Record, with_names
 from ..quantities.say import percent, value_of
 from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
@@ -23,7 +23,6 @@ from ..systems.film_formulas import full_range
 from ..systems.mixed_film import COLUMNS
 from ..systems.natures import Nature, natures
 from ..systems.stribeck import RegimeSpeeds
-from ..version import __version__
 from .load import force_sentences
 from .what_ifs import WhatIf, what_ifs_of_states
 from .whole import Study
@@ -35,6 +34,13 @@ EYRING = "Eyring 1936, J. Chem. Phys. 4, 283, doi:10.1063/1.1749836"
 __all__ = ["Entrained", "FilmResult", "Passing", "StudyResult"]
 
 Columns = dict[str, list[object]]
+
+
+def _entries(input_entry: Entry, *numbers: Entry) -> tuple[Entry, ...]:
+    """Entries of a result: what every study says, an input beside the contact, and numbers."""
+    inputs: Entry = ("inputs", (("", "study.contact"), input_entry))
+    more = ("natures", "warnings", "citations")
+    return ("title", "study.title"), VERSION, inputs, *numbers, *more
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -79,18 +85,6 @@ class _Result(MappedRecord):
         """What the particles of each population are: do they conduct, dent, break?"""
         return natures(self.study.contact)
 
-    def _plain_data(self, inputs: dict[str, object], **values: object) -> dict[str, object]:
-        """Plain data with what every study says: title, version, inputs, warnings, citations."""
-        return {
-            "title": self.study.title,
-            "version": __version__,
-            "inputs": self.study.contact.to_dict() | inputs,
-            **plain_data(values),
-            "natures": [nature.to_dict() for nature in self.natures],
-            "warnings": list(self.warnings),
-            "citations": self.citations,
-        }
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StudyResult(_Result):
@@ -108,8 +102,25 @@ class StudyResult(_Result):
         What each force does to its body; empty where none presses one.
     run_warnings : tuple of str
         What the computation warns of; ``warnings`` holds what the study file warns of too.
+
+    Notes
+    -----
+    `to_dict` has title, version, inputs (SI), scales, states (a list each), what each of several
+    populations carries in them, transitions, what the answer hangs on, what the particles of each
+    population are, warnings, citations; ``body``, where a force presses one: pressures and
+    integrals of each force, and sentences; and where none does, of a study with [film],
+    ``particles_held``: how many lie in the contact of its bodies.
     """
 
+    in_dict = (
+        *_entries(
+            ("load", lambda result: {result.study.load: result.study.values}),
+            *(("scales", "states.scales"), ("states", "_states")),
+            *(("populations", "states.populations"), ("engine", "states.engine")),
+            *("transitions", "what_ifs"),
+        ),
+        ("", "_bodies"),
+    )
     states: Any
     transitions: Transitions
     forces: tuple[Pressed, ...] = ()
@@ -197,33 +208,12 @@ class StudyResult(_Result):
         columns["mode"] = [mode or None for mode in columns["mode"]]
         return {"status": columns.pop("status"), **columns}
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON.
-
-        Returns
-        -------
-        dict
-            Title, version, inputs (SI), scales, states (a list each), what each of several
-            populations carries in them, transitions, what the answer hangs on, what the particles
-            of each population are, warnings, citations; ``body``, where a force
-            presses one: pressures and integrals of each force, and sentences; and where none does,
-            of a study with [film], ``particles_held``: how many lie in the contact of its bodies.
-        """
-        data = self._plain_data(
-            {"load": {self.study.load: self.study.values.tolist()}},
-            scales=self.states.scales,
-            states=self._states(),
-            populations=self.states.populations,
-            engine=self.states.engine,
-            transitions=self.transitions,
-            what_ifs=[what_if.to_dict() for what_if in self.what_ifs],
-        )
+    def _bodies(self) -> dict[str, object]:
+        """What forces do to their bodies; without forces the particles that a film's hold."""
         if self.forces:
             body: dict[str, object] = {} if self.study.body is None else self.study.body.to_dict()
-            said = {"forces": plain_data(self.forces), "sentences": self.force_sentences}
-            return data | {"body": body | said}
-        held = {} if self.study.film is None else {"particles_held": self.particles_held}
-        return data | held
+            return {"body": body | {"forces": self.forces, "sentences": self.force_sentences}}
+        return {} if self.study.film is None else {"particles_held": self.particles_held}
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,8 +250,20 @@ class FilmResult(_Result):
         What the oil brings.
     run_warnings : tuple of str
         What the computation warns of; ``warnings`` holds what the study file warns of too.
+
+    Notes
+    -----
+    `to_dict` has title, version, inputs (SI), states (a list each, one entry a speed), the speeds
+    at which the regime changes, what of each population passes the film, how many particles one
+    Hertz contact holds, what the oil brings, what the particles of each population are, warnings,
+    citations.
     """
 
+    in_dict = _entries(
+        ("film", "conditions"),
+        *("states", ("regime_speeds", with_names("regime_speeds")), "passing", "particles_held"),
+        "entrainment",
+    )
     states: dict[str, np.ndarray]
     regime_speeds: RegimeSpeeds
     passing: tuple[Passing, ...]
@@ -297,23 +299,3 @@ class FilmResult(_Result):
                 columns[f"{passing.name}: areal_density"] = plain_data(density)
                 units[f"{passing.name}: areal_density"] = "1/m^2"
         return columns, units
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON.
-
-        Returns
-        -------
-        dict
-            Title, version, inputs (SI), states (a list each, one entry a speed), the speeds at
-            which the regime changes, what of each population passes the film, how many particles
-            one Hertz contact holds, what the oil brings, what the particles of each population
-            are, warnings, citations.
-        """
-        return self._plain_data(
-            {"film": self.conditions.to_dict()},
-            states=self.states,
-            regime_speeds=self.regime_speeds._asdict(),
-            passing=self.passing,
-            particles_held=self.particles_held,
-            entrainment=self.entrainment,
-        )

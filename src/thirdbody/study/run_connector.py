@@ -10,11 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InvalidValue, Note
-from ..quantities.plain_data import plain_data
 from ..quantities.record import column
 from ..quantities.say import number, percent
 from ..systems.connector import Connector
-from .asked_result import AskedResult
+from .asked_result import AskedResult, answer_entries
 from .connector import AskedConnector, connector_of
 from .what_ifs import HARDNESS, WhatIf
 from .whole import load_tables
@@ -61,6 +60,9 @@ class ConnectorResult(AskedResult):
         The forces that were asked for, among those of the table.
     """
 
+    in_dict = answer_entries(
+        (("connector", "asked.connector"), ("force", "asked.forces")), "in_the_way", "threshold"
+    )
     asked: AskedConnector
     places: tuple[int, ...]
     force: np.ndarray = column("W", "N", "contact force of each contact")
@@ -77,11 +79,6 @@ class ConnectorResult(AskedResult):
         "Panjer 1981, ASTIN Bulletin 12, 22, doi:10.1017/S0515036100006796",
     )
 
-    def inputs(self) -> dict[str, object]:
-        """The connector, and the forces that are asked for."""
-        connector = self.asked.connector.to_dict()
-        return {"connector": connector, "force": plain_data(self.asked.forces)}
-
     @property
     def failure_of_contact(self) -> np.ndarray:
         """How often one contact stays open: all of its spots do [1]."""
@@ -94,10 +91,6 @@ class ConnectorResult(AskedResult):
         one = plug.failures(forces)
         every = np.array([plug.of_all(float(failure)) for failure in one])
         return forces, one**plug.parallel, every
-
-    def numbers(self) -> dict[str, object]:
-        """Numbers that hold for every force."""
-        return {"in_the_way": self.in_the_way, "threshold": self.threshold}
 
 
 def run_connector(request: AskedConnector) -> ConnectorResult:

@@ -13,9 +13,10 @@ import numpy as np
 from ..contact.citations import cite
 from ..errors import InvalidValue, RangeWarning
 from ..quantities.plain_data import plain_data
+from ..quantities.record import Entry, with_names
 from ..systems.life.contact_history import DryHistory
 from ..systems.life.run import life
-from .asked_result import QuestionResult
+from .asked_result import QuestionResult, question_entries
 from .life_bands import LifeBands, check_dry, propagate_dry
 from .life_dry import AskedDry
 
@@ -24,6 +25,13 @@ if TYPE_CHECKING:
     from .life import AskedLife
 
 __all__ = ["DryResult", "bands_of_dry", "drawn_of", "life_of_asked", "run_dry"]
+
+DURATION: Entry = ("duration", "asked.duration")
+UNTIL: Entry = ("until", "asked.until")
+FLOWS: Entry = (
+    "flows",
+    lambda result: [{"from": a, "to": b, "kg": mass} for a, b, mass in result.history.flows()],
+)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -38,6 +46,13 @@ class DryResult(QuestionResult):
         Where the study says what is known of its numbers.
     """
 
+    in_dict = question_entries(
+        (
+            "inputs",
+            (("contact", "asked.contact"), ("conditions", "asked.conditions"), DURATION, UNTIL),
+        ),
+        *(("", "history"), ("steady", with_names("history.steady")), FLOWS, "bands"),
+    )
     asked: AskedDry
     history: DryHistory
     bands: LifeBands | None = None
@@ -81,28 +96,6 @@ class DryResult(QuestionResult):
         for name, (about, values) in history.more.items():
             columns[name], units[name] = plain_data(np.asarray(values)), about.unit
         return columns, units
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        request, history = self.asked, self.history
-        conditions = {
-            name: [arrival.to_dict() for arrival in value]
-            if name == "arrivals"
-            else plain_data(value)
-            for name, value in request.conditions.items()
-        }
-        return self.whole(
-            inputs={
-                "contact": request.contact.to_dict(),
-                "conditions": conditions,
-                "duration": request.duration,
-                "until": [event.to_dict() for event in request.until],
-            },
-            **{name: v for name, v in history.to_dict().items() if name != "warnings"},
-            steady=[plain_data(steady._asdict()) for steady in history.steady()],
-            flows=[{"from": start, "to": end, "kg": mass} for start, end, mass in history.flows()],
-            bands=None if self.bands is None else self.bands.to_dict(),
-        )
 
 
 def _arguments(request: AskedDry) -> dict[str, Any]:

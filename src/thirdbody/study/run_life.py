@@ -11,15 +11,25 @@ from typing import Any, ClassVar, overload
 import numpy as np
 
 from ..quantities.plain_data import plain_data
+from ..quantities.record import Entry
 from ..systems.life.history import LifeHistory
 from ..systems.life.reports import OilReports, oil_reports, read_reports
 from ..systems.oil_filter import Filter
-from .asked_result import QuestionResult
+from .asked_result import QuestionResult, question_entries
 from .life import AskedDry, AskedLife, life_of, oil_of
 from .life_bands import LifeBands, check_oil, propagate_life
 from .life_dents import LifeDents, dents_of_life
 from .life_dirt import CLEAN
-from .run_dry import DryResult, bands_of_dry, drawn_of, life_of_asked, run_dry
+from .run_dry import (
+    DURATION,
+    FLOWS,
+    UNTIL,
+    DryResult,
+    bands_of_dry,
+    drawn_of,
+    life_of_asked,
+    run_dry,
+)
 from .toml import override, read
 from .whole import load_tables, read_tables
 
@@ -34,6 +44,7 @@ __all__ = [
     "run_life",
 ]
 
+OIL: Entry = ("oil", "asked.circuit")
 NEEDED = frozenset({"life"})
 CITATIONS = (
     "ISO 16889: multi-pass test of filters (β ratio)",
@@ -104,6 +115,9 @@ class ReportsResult(QuestionResult):
     reports : OilReports
     """
 
+    in_dict = question_entries(
+        ("inputs", (OIL,)), ("", "reports"), ("is_constant", "reports.is_constant")
+    )
     asked: AskedLife
     reports: OilReports
 
@@ -127,14 +141,6 @@ class ReportsResult(QuestionResult):
         columns = {name: getattr(reported, name) for name in ("rate", "low", "high")}
         data = {"size": plain_data(reported.sizes)} | {k: plain_data(v) for k, v in columns.items()}
         return data, {"size": "m"} | dict.fromkeys(columns, "1/s")
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        return self.whole(
-            inputs={"oil": self.asked.circuit.to_dict()},
-            **self.reports.to_dict(),
-            is_constant=self.reports.is_constant,
-        )
 
 
 def reports_of(request: AskedLife, file: str | os.PathLike[str]) -> ReportsResult:
@@ -166,6 +172,9 @@ class LifeResult(QuestionResult):
         Where something rolls in the oil.
     """
 
+    in_dict = question_entries(
+        ("inputs", (OIL, DURATION, UNTIL)), ("", "history"), FLOWS, "bands", "dents"
+    )
     asked: AskedLife
     history: LifeHistory
     bands: LifeBands | None = None
@@ -213,22 +222,6 @@ class LifeResult(QuestionResult):
         for name, (about, values) in history.more.items():
             columns[name], units[name] = plain_data(np.asarray(values)), about.unit
         return columns, units
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        return self.whole(
-            inputs={
-                "oil": self.asked.circuit.to_dict(),
-                "duration": self.asked.duration,
-                "until": [event.to_dict() for event in self.asked.until],
-            },
-            **{name: v for name, v in self.history.to_dict().items() if name != "warnings"},
-            flows=[
-                {"from": start, "to": end, "kg": mass} for start, end, mass in self.history.flows()
-            ],
-            bands=None if self.bands is None else self.bands.to_dict(),
-            dents=None if self.dents is None else self.dents.to_dict(),
-        )
 
 
 def history_of(request: AskedLife, *, keep: Path | None = None) -> LifeHistory:

@@ -7,7 +7,6 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,11 +14,12 @@ from ..quantities.plain_data import plain_data
 from ..systems.life.circuit import OilCircuit
 from ..systems.life.sizing import filter_for_code, least_flow, longest_time
 from ..systems.life.until import ContactUntil
-from .asked_result import QuestionResult
+from .asked_result import QuestionResult, question_entries
 from .life import AskedLife
 from .life_design import AskedDesign
 from .reader import get
-from .run_life import history_of
+from .run_dry import UNTIL
+from .run_life import OIL, history_of
 from .toml import override, read
 
 __all__ = ["LifeDesign", "asks_for_design", "design_life"]
@@ -58,6 +58,11 @@ class LifeDesign(QuestionResult):
         asked.
     """
 
+    in_dict = question_entries(
+        ("inputs", (OIL, ("code", "asked.design.code"), UNTIL)),
+        ("best", lambda result: result.best or None),
+        ("choices", lambda result: result.table()[0]),
+    )
     asked: AskedLife
     names: tuple[str, ...]
     best: str
@@ -93,17 +98,6 @@ class LifeDesign(QuestionResult):
             "least_flow": "least flow with which the filter is enough; none where no flow is",
             "time": "until the event; none where it does not come in the duration",
         }
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        design = self.asked.design
-        assert design is not None
-        until = [event.to_dict() for event in self.asked.until]
-        return self.whole(
-            inputs={"oil": self.asked.circuit.to_dict(), "code": design.code, "until": until},
-            best=self.best or None,
-            choices=self.table()[0],
-        )
 
 
 def design_life(request: AskedLife) -> LifeDesign:

@@ -16,7 +16,7 @@ from ..quantities.say import percent, value_of
 from ..systems.chuck import Chuck
 from ..systems.connector import name_of
 from ..systems.plate_over_particle import ATOM, THIN, Bump
-from .asked_result import AskedResult
+from .asked_result import AskedResult, answer_entries
 from .plate import AskedPlate, plate_of
 from .what_ifs import HARDNESS, WhatIf
 from .whole import load_tables
@@ -71,6 +71,7 @@ class PlateResult(AskedResult):
         Of heights [m], or of bumps above the limit.
     """
 
+    in_dict = answer_entries((("plate", "asked.chuck"),), "bumps", "none", "lifting")
     asked: AskedPlate
     at: int
     grain: np.ndarray = column("x", "m", "diameter of the particle")
@@ -87,10 +88,6 @@ class PlateResult(AskedResult):
     title_without = "Plate"
     citations = ("Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed., ch. 3",)
 
-    def inputs(self) -> dict[str, object]:
-        """The plate on its chuck."""
-        return {"plate": self.asked.chuck.to_dict()}
-
     def curve(self) -> tuple[np.ndarray, list[tuple[str, np.ndarray]]]:
         """Diameters around those of the table [m]; name and heights [m] of each kind."""
         chuck = self.asked.chuck
@@ -99,10 +96,6 @@ class PlateResult(AskedResult):
             (name_of(dust, i), np.array([chuck.over(float(x), dust).height for x in sizes]))
             for i, dust in enumerate(chuck.particles)
         ]
-
-    def numbers(self) -> dict[str, object]:
-        """Number of bumps above the limit, and the particles that lift the plate to it."""
-        return {"bumps": self.bumps, "none": self.none, "lifting": list(self.lifting)}
 
 
 def run_plate(request: AskedPlate) -> PlateResult:

@@ -24,10 +24,8 @@ from ...equilibrium.columns import PLASTIC_SHARE, about, columns_of
 from ...equilibrium.load import as_load
 from ...errors import Note, ThirdBodyError
 from ...numerics.sampling import Span
-from ...populations.materials import Material
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
-from ...quantities.plain_data import plain_data
 from ...quantities.progress import reporting
 from ...quantities.record import Column, Record
 from ..inputs import declared_quantity, words_of
@@ -129,7 +127,13 @@ class Best(Record):
     ([84], (), ())
     """
 
-    not_in_dict = ("contact", "load", "loads", "of_states", "of_points", "warnings")
+    in_dict = (
+        ("values", lambda best: {n: getattr(v, "name", v) for n, v in best.values.items()}),
+        *("objectives", "feasible", "reason", "active", "tolerance", "plateau", "at_bound"),
+        *("slopes", "hypervolume"),
+        ("states", (("", lambda best: _values(best.of_states)), ("", lambda b: {b.load: b.loads}))),
+        *(("points", lambda best: _values(best.of_points)), "warnings"),
+    )
     values: dict[str, Any]
     contact: Contact
     objectives: dict[str, float]
@@ -157,16 +161,9 @@ class Best(Record):
         """Every point tried."""
         return _dataset(self.of_points, "point", {})
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything for JSON, the points as lists."""
-        values = {
-            name: value.name if isinstance(value, Material) else value
-            for name, value in self.values.items()
-        }
-        states = {name: column.values for name, column in self.of_states.items()}
-        points = {name: column.values for name, column in self.of_points.items()}
-        more = {"values": values, "states": states | {self.load: self.loads}, "points": points}
-        return Record.to_dict(self) | plain_data(more | {"warnings": self.warnings})
+
+def _values(table: dict[str, Values]) -> dict[str, Array]:
+    return {name: column.values for name, column in table.items()}
 
 
 def _dataset(table: dict[str, Values], dim: str, coords: dict[str, Array]) -> xarray.Dataset:

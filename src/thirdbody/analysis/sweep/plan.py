@@ -29,6 +29,7 @@ from ...equilibrium.status import WORDS as STATUS_WORDS
 from ...equilibrium.status import Status
 from ...errors import RangeWarning, code_of
 from ...numerics.sampling import DESIGNS, Span
+from ...quantities.record import VERSION, Record
 from ...quantities.sharing import need_version
 from ...quantities.value import Value
 from .reduction import Reduction
@@ -53,9 +54,10 @@ STORED = {"mode": "i1", "status": "i1", "iterations": "i2"}
 
 # -------------------------------------------------------------------------- which states
 @dataclass(frozen=True, eq=False)
-class Listed:
+class Listed(Record):
     """A dimension along which inputs take listed values."""
 
+    in_dict = (("", lambda axis: {n: _axis_values(v) for n, v in axis.values.items()}),)
     name: str
     values: Arrays
     start: int = 0
@@ -76,14 +78,12 @@ class Listed:
     def inputs(self) -> Arrays:
         return self.values
 
-    def to_dict(self) -> dict[str, object]:
-        return {name: _axis_values(values) for name, values in self.values.items()}
-
 
 @dataclass(frozen=True, eq=False)
-class Sampled:
+class Sampled(Record):
     """A dimension along which inputs are sampled from ranges."""
 
+    in_dict = ("design", ("samples", "count"), "seed", ("", "spans"))
     spans: dict[str, Span]
     design: str
     count: int
@@ -109,10 +109,6 @@ class Sampled:
         draw = DESIGNS[self.design]
         u = draw(self.count, len(self.spans), self.seed, self.start, self.stop)
         return {name: span.values_at(u[:, j]) for j, (name, span) in enumerate(self.spans.items())}
-
-    def to_dict(self) -> dict[str, object]:
-        sampling = {"design": self.design, "samples": self.count, "seed": self.seed}
-        return sampling | {name: dataclasses.asdict(span) for name, span in self.spans.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,9 +222,19 @@ class Layout:
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
-    """Which states there are, what is kept of them, and how they are cut into blocks."""
+class Plan(Record):
+    """Which states there are, what is kept of them, and how they are cut into blocks.
 
+    As plain data it is everything that decides the numbers.
+    """
+
+    in_dict = (
+        *(VERSION, "contact", "load"),
+        ("vary", lambda plan: {axis.name: axis for axis in plan.dims}),
+        # a mapping forgets its order, which decides the samples of an input and the blocks
+        ("order", lambda plan: [name for axis in plan.dims for name in axis.names]),
+        *("columns", ("reduce", "reduction"), "chunk"),
+    )
     contact: Contact
     load: str
     dims: tuple[Listed | Sampled, ...]
@@ -280,22 +286,6 @@ class Plan:
 
         block = self.whole.cut(self.region(number))
         return Task(block, self.columns, self.reduction, self.outer, coded, __version__)
-
-    def to_dict(self) -> dict[str, object]:
-        """Everything that decides the numbers, ready for JSON."""
-        from ...version import __version__
-
-        return {
-            "version": __version__,
-            "contact": self.contact.to_dict(),
-            "load": self.load,
-            "vary": {dim.name: dim.to_dict() for dim in self.dims},
-            # a mapping forgets its order, which decides the samples of an input and the blocks
-            "order": [name for dim in self.dims for name in dim.names],
-            "columns": list(self.columns),
-            "reduce": None if self.reduction is None else dataclasses.asdict(self.reduction),
-            "chunk": self.chunk,
-        }
 
     def layout(self) -> Layout:
         from ...version import __version__

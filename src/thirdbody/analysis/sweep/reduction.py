@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...equilibrium.columns import about
 from ...errors import InvalidValue, Mistake, Problem
+from ...quantities.record import Record
 
 __all__ = ["Reduction"]
 
@@ -29,7 +30,7 @@ SUMS |= {"max": np.max}
 
 
 @dataclass(frozen=True)
-class Reduction:
+class Reduction(Record):
     """Reduction of the samples of every cell.
 
     A state without equilibrium, and a share of nothing (NaN), counts for no statistic; ``solved``

@@ -14,6 +14,7 @@ from ...contact.contact import Contact
 from ...errors import Clause, InvalidValue, Mistake, Problem
 from ...quantities.arguments import is_empty
 from ...quantities.carried import takes_units
+from ...quantities.record import Record
 from ...quantities.uncertain import are_correlated, is_uncertain
 from ...quantities.value import problem_with
 from ..inputs import Input as Moved
@@ -40,7 +41,7 @@ KINDS = {
 
 # -------------------------------------------------------------------------- one input
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Uncertain:
+class Uncertain(Record):
     """What is known of one input: its distribution, in SI.
 
     Parameters
@@ -70,6 +71,7 @@ class Uncertain:
     0.5
     """
 
+    in_dict = ("kind", ("", "_numbers"))
     kind: str
     first: float
     second: float
@@ -201,6 +203,11 @@ class Uncertain:
             )
         return cls.normal(mean=float(number.nominal_value), std=float(number.std_dev))
 
+    @property
+    def _numbers(self) -> dict[str, float]:
+        """The two numbers by their names, as a study file has them."""
+        return dict(zip(KINDS[self.kind], (self.first, self.second), strict=True))
+
     @takes_units
     def quantile(self, u: ArrayLike) -> Any:
         """The value that is exceeded with probability 1 − u."""
@@ -233,11 +240,6 @@ class Uncertain:
         else:
             u = ndtr(math.log(value / self.first) / math.log(self.second))
         return float(min(max(u, 0.0), 1.0))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Kind and numbers, as a study file has them."""
-        names = KINDS[self.kind]
-        return {"kind": self.kind} | dict(zip(names, (self.first, self.second), strict=True))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -28,9 +28,9 @@ from ...equilibrium.crowding import is_crowded
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
-from ...quantities import notebook
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
+from ...quantities.notebook import Card, Row, Shown, words_of
 from ...quantities.progress import watch_contacts
 from ...quantities.record import Record
 from ...quantities.say import percent
@@ -71,7 +71,7 @@ __all__ = ["OUTPUTS", "Propagation", "about_result", "propagate"]
 
 # -------------------------------------------------------------------------- result
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Propagation(Record):
+class Propagation(Shown, Record):
     """Bands on the results of a contact with uncertain inputs: floats, or arrays over loads.
 
     Attributes
@@ -221,19 +221,19 @@ class Propagation(Record):
             return uncertain_number(float(middle), float(std))
         return [uncertain_number(*pair) for pair in zip(middle.tolist(), std.tolist(), strict=True)]
 
-    def _repr_html_(self) -> str:
+    def _cards(self) -> Iterator[Card]:
         """A table for notebooks: quantiles of every output; of several loads at the first."""
-        rows = [notebook.Row("", [percent(q) for q in self.probabilities])]
+        rows = [Row("", [percent(q) for q in self.probabilities])]
         for name, band in self.bands.items():
             column = about_result(name)
             first = np.reshape(band, (-1, len(self.probabilities)))[0]
-            values = [notebook.words_of(value, column.unit) for value in first]
-            rows.append(notebook.Row(name, values, column.meaning))
+            values = [words_of(value, column.unit) for value in first]
+            rows.append(Row(name, values, column.meaning))
         for mode, share in self.mode_probability.items():
-            values = [notebook.words_of(np.ravel(share)[0])]
+            values = [words_of(np.ravel(share)[0])]
             values += [""] * (len(self.probabilities) - 1)
-            rows.append(notebook.Row(mode, values, "probability of the contact mode"))
-        return notebook.card(f"Propagation, {self.samples} samples", rows)
+            rows.append(Row(mode, values, "probability of the contact mode"))
+        yield Card(f"Propagation, {self.samples} samples", rows)
 
     @takes_units
     def at_load(self, at: int) -> Propagation:

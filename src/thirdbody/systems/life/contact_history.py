@@ -6,19 +6,18 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy.linalg import expm
 
-from ...quantities.plain_data import plain_data
-from ...quantities.record import Column, Record
+from ...quantities.record import Column, Record, with_names
 from .breeding import reproduction_of, why_none, why_unknown
 from .code_times import times_within
 from .contact_course import coverage
 from .dry_loop import DryLoop
 from .film_loop import FilmLoop
-from .history import SETTLES_TO, LifeEvent, LifeHistory
+from .history import MORE, SETTLES_TO, LifeEvent, LifeHistory
 from .kept_rates import KeptRates
 from .ledger import IN_OIL, Ledger
 from .linear_flow import dirt_gain, generations
@@ -251,8 +250,6 @@ class ContactHistory(_Breeding, LifeHistory):
     those of the last state.
     """
 
-    not_in_dict: ClassVar[tuple[str, ...]] = ("circuit", "terms", "loop", "last_state")
-
     loop: FilmLoop
     last_state: Array
     losses: Array
@@ -353,8 +350,11 @@ class DryHistory(_Breeding, Record):
         𝒢 and 𝓛 of the last state [1/s].
     """
 
-    not_in_dict: ClassVar[tuple[str, ...]] = ("loop", "last_state")
-
+    in_dict = (
+        *("times", ("edges", "loop.tables.classes.edges"), "materials", "numbers", "ledger"),
+        *(("events", with_names("events")), MORE, "time_scales"),
+        *("R0", "dirt_gain", "reproduction", "warnings"),
+    )
     loop: DryLoop
     last_state: Array
     times: Array
@@ -452,20 +452,3 @@ class DryHistory(_Breeding, Record):
         return xarray.Dataset(
             data, coords=coordinates, attrs={"warnings": "\n".join(self.warnings)}
         )
-
-    def to_dict(self) -> dict[str, object]:
-        """Everything, ready for JSON: None for what is not a finite number."""
-        return {
-            "times": plain_data(self.times),
-            "edges": list(self.loop.tables.classes.edges),
-            "materials": list(self.materials),
-            "numbers": plain_data(self.numbers),
-            "ledger": self.ledger.to_dict(),
-            "events": [plain_data(event._asdict()) for event in self.events],
-            "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
-            "time_scales": plain_data(self.time_scales),
-            "R0": plain_data(self.R0),
-            "dirt_gain": plain_data(self.dirt_gain),
-            "reproduction": self.reproduction,
-            "warnings": list(self.warnings),
-        }

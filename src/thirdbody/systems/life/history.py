@@ -12,8 +12,7 @@ import numpy as np
 
 from ...populations.measured.cleanliness import counted_sizes, iso4406_of_counts
 from ...quantities.arguments import names_arguments
-from ...quantities.plain_data import plain_data
-from ...quantities.record import Column, Record
+from ...quantities.record import Column, Entry, Record, with_names
 from ...quantities.say import value_of
 from .circuit import OilCircuit, OilTerms
 from .code_times import SlowSizes, slow_sizes, times_within
@@ -33,6 +32,8 @@ SETTLES_TO = 0.01
 """Part of the way to the steady state that is left when it counts as reached."""
 EMPTY = 1e-9
 """Part of the oil at which a leak has emptied the circuit."""
+MORE: Entry = ("more", lambda history: {name: item for name, (_, item) in history.more.items()})
+"""What a contact adds to the plain data of a history."""
 
 
 class LifeEvent(NamedTuple):
@@ -94,8 +95,14 @@ class LifeHistory(Record):
     ('18/16/13', '5/3/0')
     """
 
-    not_in_dict: ClassVar[tuple[str, ...]] = ("circuit", "terms")
-
+    in_dict: ClassVar[tuple[Entry, ...]] = (
+        *("times", "codes", "counts", ("edges", "terms.classes.edges")),
+        ("materials", lambda history: tuple(history.terms.materials)),
+        *("numbers", "volume", "ledger"),
+        *(("events", with_names("events")), MORE, ("steady", with_names("steady"))),
+        *("code_times", ("slow_sizes", with_names("slow_sizes")), "time_scales"),
+        *("R0", "reproduction", "dirt_gain", "warnings"),
+    )
     circuit: OilCircuit
     terms: OilTerms
     times: Array
@@ -291,27 +298,3 @@ class LifeHistory(Record):
         }
         attributes = {"warnings": "\n".join(self.warnings)}
         return xarray.Dataset(data, coords=coordinates, attrs=attributes)
-
-    def to_dict(self) -> dict[str, object]:
-        """Everything, ready for JSON: None for what is not a finite number."""
-        steady, slow = self.steady(), self.slow_sizes
-        return {
-            "times": plain_data(self.times),
-            "codes": list(self.codes),
-            "counts": plain_data(self.counts),
-            "edges": list(self.terms.classes.edges),
-            "materials": list(self.terms.materials),
-            "numbers": plain_data(self.numbers),
-            "volume": plain_data(self.volume),
-            "ledger": self.ledger.to_dict(),
-            "events": [plain_data(event._asdict()) for event in self.events],
-            "more": {name: plain_data(values) for name, (_, values) in self.more.items()},
-            "steady": [plain_data(state._asdict()) for state in steady],
-            "code_times": plain_data(self.code_times),
-            "slow_sizes": None if slow is None else plain_data(slow._asdict()),
-            "time_scales": plain_data(self.time_scales),
-            "R0": plain_data(self.R0),
-            "reproduction": self.reproduction,
-            "dirt_gain": plain_data(self.dirt_gain),
-            "warnings": list(self.warnings),
-        }

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...quantities.plain_data import plain_data
 from ...quantities.record import Record
 
 if TYPE_CHECKING:
@@ -41,6 +40,7 @@ class Ledger(Record):
         Mass in the oil at the beginning [kg], where the first time is a later one.
     """
 
+    in_dict = (("in the oil", "in_oil"), "came", "went", "residual")
     in_oil: Array
     came: Mapping[str, Array]
     went: Mapping[str, Array]
@@ -65,12 +65,3 @@ class Ledger(Record):
         off = self.in_oil - begin + went - came
         largest = np.max([self.in_oil, np.full_like(off, begin), came, went])
         return float(np.max(np.abs(off)) / largest) if largest > 0 else 0.0
-
-    def to_dict(self) -> dict[str, object]:
-        """Every column as a list, ready for JSON."""
-        return {
-            "in the oil": plain_data(self.in_oil),
-            "came": {name: plain_data(values) for name, values in self.came.items()},
-            "went": {name: plain_data(values) for name, values in self.went.items()},
-            "residual": self.residual,
-        }
