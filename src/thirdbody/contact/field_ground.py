@@ -346,7 +346,7 @@ class Ground:
             for h in np.linspace(self.h[row + 1], self.h[row], steps + 1)[1:]:
                 state, lift = (2 * past[-1:] - past[-2:-1] for past in map(np.array, path))
                 ground = np.zeros((1, MOMENTS + 1))
-                if len(self._iterate_states(np.array([h]), ground, lift, state)):
+                if len(self._iterate_states(np.array([h]), ground, lift, state, OTHERS[0])):
                     break
                 path[0].append(state[0])
                 path[1].append(lift[0])
