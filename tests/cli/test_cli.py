@@ -67,6 +67,7 @@ WARNED |= {
     )
 }  # fmt: skip
 WARNED["steel_debris_in_film"].append("particles flatten, as debris = 'ductile' says")
+WARNED["oil_film"].append("the oil of [film] carries nothing here")
 WARNED["quartz_in_bearing"] = ["strengths are extrapolated by a factor"]
 """What examples are warned of, and not of anything else."""
 
