@@ -1,6 +1,14 @@
-"""What can go wrong, in one hierarchy.
+"""Errors and warnings of this library: what can go wrong, in one hierarchy.
 
 A message says what, where, what is allowed, and the likely cause.
+
+- `ThirdBodyError`: the base of every error, to catch them all
+- `InvalidValue`: an input has no meaning; it holds each `Problem`, which has a kind, a `Mistake`
+- `WrongKind`: an `InvalidValue`, of arguments that a signature refuses
+- `NoEquilibrium`: no separation carries the load
+- `NoTransition`: the contact mode does not change
+- `RangeWarning`: a model is used beyond its range; it holds a `Note`, which says by how much
+- `SlowWarning`: what is asked takes long
 """
 
 from __future__ import annotations
@@ -25,7 +33,12 @@ __all__ = [
     "RangeWarning",
     "SlowWarning",
     "ThirdBodyError",
+    "WrongKind",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
 
 
 class ThirdBodyError(Exception):

@@ -412,10 +412,10 @@ def test_all_mistakes_at_once():
 @pytest.mark.parametrize(
     "dist",
     [
-        tb.sizes.LogNormal(median=1e-6, gsd=1.003),
-        tb.sizes.LogNormal(median=1e-6, gsd=3.4),
-        tb.sizes.Weibull(scale=1e-6, shape=0.5),
-        tb.sizes.Weibull(scale=1e-6, shape=15.0),
+        tb.LogNormal(median=1e-6, gsd=1.003),
+        tb.LogNormal(median=1e-6, gsd=3.4),
+        tb.distributions.Weibull(scale=1e-6, shape=0.5),
+        tb.distributions.Weibull(scale=1e-6, shape=15.0),
     ],
     ids=str,
 )
