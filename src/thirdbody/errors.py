@@ -324,6 +324,17 @@ def note_of(message: Warning | str) -> str:
     return next(iter(message.args), str(message))
 
 
+def place_note(note: str, place: str) -> Note:
+    """The note of an answer at a place that is named first, such as a critical load.
+
+    >>> here = place_note(Note("A_t reaches 0.3", code="area", effect=0.17), "F_cr1")
+    >>> str(here), here.code, here.effect
+    ('at F_cr1, A_t reaches 0.3', 'area', 0.17)
+    """
+    sentence = f"at {place}, " + Advice(str(note), in_study(note))
+    return Note(sentence, code=code_of(note), effect=getattr(note, "effect", math.nan))
+
+
 def rank_notes(notes: Iterable[str]) -> list[str]:
     """Notes by their effect on the answer, the largest first; of each code the worst alone.
 

@@ -1,6 +1,7 @@
 """Particles pressed beyond the laws of one contact are told of, once, wherever states are told."""
 
 import json
+import warnings
 from dataclasses import replace
 from importlib import resources
 
@@ -10,8 +11,9 @@ import pytest
 import thirdbody as tb
 from thirdbody.contact import pressed
 from thirdbody.contact.pressed import about_pressed
-from thirdbody.errors import code_of
+from thirdbody.errors import code_of, note_of, place_note
 from thirdbody.laws.particle.deep import DeepSqueeze
+from thirdbody.quantities.say import value_of
 
 STEEL = tb.materials["S45C"]
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
@@ -62,6 +64,23 @@ def test_brittle_grains_beyond_their_strength():
     assert brittle(case, size * (1 - 1.5 * limit))
     told = case.replace(particles=case.particles.replace(strength=strength))
     assert not brittle(told, size * (1 - 1.5 * limit))
+
+
+def test_notes_say_at_which_state_grains_break():
+    """At the lowest separation of those that were solved; of a derivative at the critical load."""
+    case = contact(50e-6)
+    states = tb.solve(case, d=np.array([49.9e-6, 40e-6]))
+    (note,) = (each for each in states.warnings if code_of(each) == "brittle")
+    assert f"h = {value_of(states.h[1], 'm')}" in note
+
+    critical = tb.transitions(case).F_tpca.B.value
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", tb.errors.RangeWarning)
+        tb.sensitivity(case, of="F_tpca.B", to="roughness.sigma")
+        alone = tb.solve(case, F_star=critical)
+    placed = [note_of(item.message) for item in heard]
+    (there,) = (each for each in placed if str(each).startswith("at F_tpca B, "))
+    assert there == place_note(*(n for n in alone.warnings if code_of(n) == "brittle"), "F_tpca B")
 
 
 def test_what_does_not_break_is_not_told_of():
