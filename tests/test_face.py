@@ -157,6 +157,17 @@ def test_the_reference_lists_what_the_modules_hold():
     assert missing == []
 
 
+def test_the_reference_explains_the_constants():
+    """What is no class, function or module has its sentence in the text: `NAME`: what it is."""
+    text = REFERENCE.read_text("utf-8")
+    for name in MODULES:
+        held = {each: getattr(getattr(tb, name), each) for each in getattr(tb, name).__all__}
+        constants = [each for each, thing in held.items() if not callable(thing)]
+        constants = [each for each in constants if not isinstance(held[each], ModuleType)]
+        (section,) = re.findall(rf"^`thirdbody\.{name}`\..*(?:\n.+)*", text, re.M) or [""]
+        assert [each for each in constants if f"`{each}`" not in section] == []
+
+
 def test_the_reference_names_nothing_by_an_old_path():
     old = {("thirdbody", name) for name, _ in OLD}
     old |= {(f"thirdbody.{name}", each) for name, _ in OLD for each in dir(getattr(tb, name))}
