@@ -114,6 +114,19 @@ def test_what_is_no_argument_is_refused_in_words(
         assert error is None or isinstance(error, tb.ThirdBodyError), f"{kind}: {error!r}"
 
 
+def test_a_keyword_that_a_function_has_not_is_answered_with_the_one_meant():
+    for call, place, meant in (
+        (lambda: tb.solve(CONTACT, presure=1e6), "presure", "pressure"),
+        (lambda: tb.transitions(CONTACT, colour="red"), "colour", None),
+        (lambda: tb.propagate(CONTACT, sampels=16, F_star=1e-5), "sampels", "samples"),
+        (lambda: tb.sizes.read_sizes("a.csv", weigthing="area"), "weigthing", "weighting"),
+    ):
+        with refuses(Mistake.UNKNOWN, place, meant=meant):
+            call()
+    with pytest.raises(TypeError, match="positional"):  # Python's own sentence
+        tb.solve(CONTACT, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+
+
 def test_most_public_functions_are_called():
     names = {name for name, *_ in CALLS}
     assert {"solve", "load_study", "transitions", "sizes.read_sizes", "plot.area"} <= names
