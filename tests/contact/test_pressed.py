@@ -16,7 +16,7 @@ from thirdbody.laws.particle.deep import DeepSqueeze
 from thirdbody.quantities.say import value_of
 
 STEEL = tb.materials["S45C"]
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def contact(size, material="SiO2", **more):
@@ -52,7 +52,7 @@ def test_brittle_grains_beyond_their_strength():
     """On either side of the squeeze at which most grains of the mean size have failed."""
     size = 50e-6
     case = contact(size)
-    strength = tb.WeibullStrength.of(tb.materials["SiO2"])
+    strength = tb.grains.WeibullStrength.of(tb.materials["SiO2"])
     squeezes = np.geomspace(1e-6, 0.1, 400)
     spots = case.particle_law.probe(
         squeezes, surfaces=case.surfaces, particle=case.particles.material
@@ -122,7 +122,7 @@ def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
         surfaces=tb.MaterialPair(STEEL, STEEL),
         roughness=tb.Roughness(sigma=50e-9, R=5e-6),
         particles=tb.Particles(
-            material=soft, diameter=tb.Monodisperse(mean=10e-6), areal_density=1e8
+            material=soft, diameter=tb.distributions.Monodisperse(mean=10e-6), areal_density=1e8
         ),
         particle_law=tb.particle.Series(deep="off", seat="plane"),
     )
@@ -163,7 +163,7 @@ def test_particles_of_the_table_say_what_holds_them():
     def told(gap, ratio):
         dust = tb.Particles(
             material=STEEL.replace(H=ratio * STEEL.H),
-            diameter=tb.Monodisperse(mean=10e-6),
+            diameter=tb.distributions.Monodisperse(mean=10e-6),
             areal_density=1e8,
         )
         case = contact(10e-6).replace(particle_law=law, particles=dust)
@@ -183,7 +183,7 @@ def test_particles_of_the_table_say_what_holds_them():
 
 def test_angular_grains_still_end_with_the_law_of_one_contact():
     case = contact(2e-6).replace(particle_law=tb.particle.Series(seat="plane"))
-    grains = case.particles.replace(shape=tb.Angular(roundness=0.5, angle="30 deg"))
+    grains = case.particles.replace(shape=tb.grains.Angular(roundness=0.5, angle="30 deg"))
     soft = tb.MaterialPair(STEEL, STEEL.replace(H=1e9))
     state = tb.solve(case.replace(particles=grains, surfaces=soft), d=0.1e-6)
     codes = set(map(code_of, state.warnings))

@@ -25,7 +25,7 @@ from thirdbody.views.plot.film import bands_of
 from thirdbody.views.report import Report
 from thirdbody.views.report.tables import film_section
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 BALL = {"shape": "point", "R": "9.5 mm"}
 SPEED = {"from": "20 mm/s", "to": "20 m/s", "points": 6, "spacing": "log"}
@@ -48,7 +48,7 @@ def problems_of(data):
 @pytest.fixture(scope="module")
 def found():
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return run_film(check(data_of()))
 
 
@@ -77,7 +77,7 @@ def by_hand():
 def test_the_curve_is_that_of_stribeck(found):
     contact, given = by_hand()
     speeds = np.geomspace(0.02, 20.0, 6)
-    curve = tb.stribeck(contact, speed=speeds, slide_roll=0.05, **given)
+    curve = tb.films.stribeck(contact, speed=speeds, slide_roll=0.05, **given)
     assert found["states"]["speed"] == speeds.tolist()
     for name in curve.data_vars:
         assert found["states"][name] == curve[name].values.tolist(), name
@@ -86,7 +86,7 @@ def test_the_curve_is_that_of_stribeck(found):
 
 def test_one_speed_is_that_of_mixed_film():
     contact, given = by_hand()
-    point = tb.mixed_film(contact, speed=0.5, slide_roll=0.05, **given)
+    point = tb.films.mixed_film(contact, speed=0.5, slide_roll=0.05, **given)
     study = check(data_of(speed="0.5 m/s"))
     assert study.film.at(study.contact).columns() == point.columns()
     states = run_film(study)["states"]
@@ -123,7 +123,7 @@ def test_regimes_change_where_it_says():
     contact, given = by_hand()
     ends = regime_speeds(contact, **given)
     for speed, share in zip(ends, (0.99, 0.01), strict=True):
-        at = tb.mixed_film(contact, speed=[0.99 * speed, speed, 1.01 * speed], **given)
+        at = tb.films.mixed_film(contact, speed=[0.99 * speed, speed, 1.01 * speed], **given)
         assert at.solid_share[1] == pytest.approx(share, rel=1e-9)
         assert len(set(at.regime[[0, 2]])) == 2
 

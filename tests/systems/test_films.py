@@ -165,5 +165,5 @@ def test_refusals():
         films.Oil(eta=-1.0, alpha=2e-8)
     with refuses(Mistake.RANGE, "Point.R", value="0.0"):
         films.Point(R=0.0)
-    with pytest.raises(tb.InvalidValue, match="viscosity"):
+    with pytest.raises(tb.errors.InvalidValue, match="viscosity"):
         films.Oil(eta=0.04, alpha=2e-8, viscosity="honey")
