@@ -182,8 +182,12 @@ def test_every_public_function_that_takes_anything_is_marked():
         and {*inspect.signature(function).parameters} - {"self", "cls"}
     }
     assert bare == {
-        *("results.Assessment.page", "errors.InvalidValue.under", "errors.Mistake.clause"),  # texts
-        *(f"errors.Problem.{key}" for key in ("changed", "under", "worded")),
+        *(
+            "results.Assessment.page",
+            "errors.InvalidValue.move_under",
+            "errors.Mistake.clause",
+        ),  # texts
+        *(f"errors.Problem.{key}" for key in ("changed", "move_under", "put_in_words")),
         *(f"outputs.Solved.{key}" for key in ("output", "total", "total_of_particles")),
         "particle.OneParticle.sinks",
     }

@@ -91,7 +91,7 @@ def test_censored_quantiles_are_those_of_what_is_known():
     assert found.reached["code 15/13/10"] == pytest.approx(
         (300.0 / per_volume - 0.1) / 0.2, abs=2 / 256
     )
-    assert found.missed("code 15/13/10") == 256 - round(256 * found.reached["code 15/13/10"])
+    assert found.count_missed("code 15/13/10") == 256 - round(256 * found.reached["code 15/13/10"])
 
 
 def test_an_event_that_never_comes_is_censored_throughout():
@@ -101,7 +101,7 @@ def test_an_event_that_never_comes_is_censored_throughout():
         until=[tb.oil.until.iso4406("28/26/24")], samples=16,
     )  # fmt: skip
     assert np.all(np.isinf(found.times["code 28/26/24"]))
-    assert found.missed("code 28/26/24") == 16
+    assert found.count_missed("code 28/26/24") == 16
 
 
 IN_UNCERTAINTY = """

@@ -448,7 +448,7 @@ def test_steep_faces_cut():
 def test_no_joint_is_a_tip_with_its_own_end():
     """b ≥ φ/2: the tip's law up to the end."""
     shape = angular(0.9, 60.0)
-    assert not shape.faced
+    assert not shape.has_touching_faces
     (half, _) = one(shape).sides
     assert type(half) is Side
     assert half.area(np.array([5.0]))[0] == pytest.approx(np.pi / 4, rel=1e-15)

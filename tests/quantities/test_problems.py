@@ -79,14 +79,14 @@ def test_a_mistake_keeps_its_parts():
     for same in (pickle.loads(pickle.dumps(problem)), copy.copy(problem)):
         assert same == problem
         assert vars(same) == vars(problem)
-    assert problem.under("roughness").place == "roughness.sigma"
+    assert problem.move_under("roughness").place == "roughness.sigma"
     assert pickle.loads(pickle.dumps(told.value)).problems[0].place == "Roughness.sigma"
 
 
 def test_a_mistake_of_no_place_gets_one():
-    told = tb.errors.InvalidValue("too many").under("particles").problems[0]
+    told = tb.errors.InvalidValue("too many").move_under("particles").problems[0]
     assert (told, told.place) == ("particles: too many", "particles")
-    assert told.under("debris") == "debris: too many"
+    assert told.move_under("debris") == "debris: too many"
 
 
 @pytest.mark.parametrize(
@@ -198,7 +198,7 @@ def test_a_clause_keeps_its_code_and_its_words_for_studies():
     clause = Mistake.RANGE.clause("must be > 0; " + Advice("R=1e-6", 'R = "1 um"'))
     again = pickle.loads(pickle.dumps(clause))
     assert (again, again.code, again.study) == (clause, Mistake.RANGE, 'must be > 0; R = "1 um"')
-    moved = Problem("R", clause, "0").under("roughness").worded(in_study)
+    moved = Problem("R", clause, "0").move_under("roughness").put_in_words(in_study)
     assert (moved.code, moved.rule) == (Mistake.RANGE, clause.study)
     assert Problem("R", clause, "0", code=Mistake.KIND).code is Mistake.KIND
     assert tb.errors.InvalidValue("my own words").problems[0].code is Mistake.UNSAID

@@ -208,7 +208,7 @@ def look(study: Tables, folder: Path, surface: Measured | None = None) -> Looked
         problems += error.problems
     except (ThirdBodyError, OSError) as error:
         problems += [Problem("", str(error))]
-    problems = [problem.worded(without_paths) for problem in dict.fromkeys(problems)]
+    problems = [problem.put_in_words(without_paths) for problem in dict.fromkeys(problems)]
     if (more := len(problems) - MOST_TOLD) > 0:
         code = problems[MOST_TOLD].code
         problems[MOST_TOLD:] = [Problem("", f"and {more} more mistakes", code=code)]
@@ -417,7 +417,7 @@ class State:
         except Died:
             raise  # which says nothing of the study: it is read when it is asked for again
         except InvalidValue as error:
-            looked = None, [problem.worded(without_paths) for problem in error.problems], None
+            looked = None, [problem.put_in_words(without_paths) for problem in error.problems], None
         self._take(study, looked)
 
     def _take(self, study: Tables, looked: Looked) -> None:

@@ -78,7 +78,7 @@ class LifeAssessment(QuestionResult):
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
         vary = {name: repr(uncertain) for name, uncertain in self.asked.uncertainty.items()}
-        missed = {name: self.bands.missed(name) for name in self.bands.reached}
+        missed = {name: self.bands.count_missed(name) for name in self.bands.reached}
         return self.whole(inputs=vary, **self.bands.to_dict(), missed=missed)
 
 
