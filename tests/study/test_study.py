@@ -1111,7 +1111,8 @@ def test_examples_are_sensible(path):
         "as debris = 'ductile' says",
         "at chi = H/(E* g)",
     )
-    assert [text for text in result["warnings"] if not any(each in text for each in known)] == []
+    doubts = [text for text in result["warnings"] if text not in result.oil_notes]
+    assert [text for text in doubts if not any(each in text for each in known)] == []
     assert max(states["residual"]) < 1e-9
     order = np.argsort(states["F_star"])
     d, area = (np.array(states[name])[order] for name in ("d", "A_t"))
