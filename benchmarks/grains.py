@@ -53,7 +53,7 @@ def measured(kind: str, count: int = COUNT) -> tuple[float, float, str]:
 
 
 def main() -> int:
-    warnings.simplefilter("ignore", tb.RangeWarning)
+    warnings.simplefilter("ignore", tb.errors.RangeWarning)
     measured("spheres", 10_000)  # compiled before the clock runs
     found = {kind: measured(kind) for kind in KINDS}
     for kind, (tables, rate, engine) in found.items():

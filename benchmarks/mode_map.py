@@ -22,7 +22,7 @@ OUT = Path(__file__).parent.parent / "docs" / "figures" / "mode_map.png"
 
 
 def main() -> int:
-    warnings.simplefilter("ignore", tb.RangeWarning)
+    warnings.simplefilter("ignore", tb.errors.RangeWarning)
     start = time.perf_counter()
     ax = tb.plot.mode_map(
         run.contact("rough"),

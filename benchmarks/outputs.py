@@ -81,7 +81,7 @@ def costs() -> Iterator[Cost]:
 
 
 def main() -> int:
-    warnings.simplefilter("ignore", tb.RangeWarning)
+    warnings.simplefilter("ignore", tb.errors.RangeWarning)
     for cost in costs():
         ratios = f"{cost.new:8.2f} x new{cost.known:8.1f} x known"
         print(f"{cost.what:34s}{cost.milliseconds:8.1f} ms{ratios}")

@@ -223,10 +223,10 @@ LAWS = {
 }
 """What a law needs besides its defaults."""
 HEIGHTS = {
-    "Gaussian": tb.GaussianHeights(),
-    "exponential": tb.ExponentialHeights(),
-    "Weibull": tb.WeibullHeights(shape=1.8),
-    "Johnson": tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
+    "Gaussian": tb.heights.GaussianHeights(),
+    "exponential": tb.heights.ExponentialHeights(),
+    "Weibull": tb.heights.WeibullHeights(shape=1.8),
+    "Johnson": tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
 }
 
 
@@ -409,7 +409,7 @@ def main() -> int:
     import floor
     import outputs
 
-    warnings.simplefilter("ignore", tb.RangeWarning)
+    warnings.simplefilter("ignore", tb.errors.RangeWarning)
     page = Page()
     page.lines = ["# Measured speed", ""]
     page.text(machine())

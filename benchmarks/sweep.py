@@ -50,7 +50,7 @@ def cost(samples: int, **asked: object) -> tuple[float, float]:
 
 
 def main() -> int:
-    warnings.simplefilter("ignore", tb.RangeWarning)
+    warnings.simplefilter("ignore", tb.errors.RangeWarning)
     statistics = {"mean": True, "extrema": True, "exceed": {"particle_load_share": 0.5}}
     quantiles = statistics | {"quantiles": [0.05, 0.5, 0.95]}
     rows = {

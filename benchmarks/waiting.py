@@ -136,7 +136,7 @@ def commands(*, write: bool) -> int:
 def main() -> int:
     if "commands" in sys.argv[1:]:
         return commands(write="--page" in sys.argv[1:])
-    warnings.simplefilter("ignore", tb.RangeWarning)
+    warnings.simplefilter("ignore", tb.errors.RangeWarning)
     dusty, additive = (str(EXAMPLES / f"{n}.toml") for n in ("dusty_ball_screw", "additive"))
     one = ["-m", "thirdbody", "solve", dusty, "--json", "--set", "load.pressure=5 MPa"]
     rows: list[tuple[str, Callable[[], float]]] = [

@@ -20,7 +20,7 @@ import thirdbody as tb
 from thirdbody.study import load_study
 from thirdbody.study.analyses import arguments, design_study
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # the clean surfaces at small loads
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # the clean surfaces at small loads
 
 study = load_study(
     Path(__file__).with_suffix(".toml") if "__file__" in globals() else "additive.toml"

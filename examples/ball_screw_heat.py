@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # quartz in steel touches on half its radius
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # quartz touches on half its radius
 
 steel, quartz = tb.materials["440C"], tb.materials["quartz"]
 clean = tb.Contact(

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # small loads leave the range of the seats
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # small loads leave the range of the seats
 
 bronze, quartz = tb.materials["CuSn8"], tb.materials["quartz"]
 area = 1e-6  # m²

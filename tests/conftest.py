@@ -95,7 +95,7 @@ def _compile_engines(running):
     ]
 
     def compile_for(study):
-        tb.solve_states(study[0], F_star=1e-5, vary=study[1])
+        tb.equilibria.solve_states(study[0], F_star=1e-5, vary=study[1])
 
     try:
         with warnings.catch_warnings(), ThreadPoolExecutor() as threads:

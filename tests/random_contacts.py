@@ -156,7 +156,7 @@ def roughness(pen: Pen, law: Any) -> tb.Roughness:
     ellipticity = None
     if law.name.startswith("elliptic") and law.ratio == 1:
         count = int(pen.rng.integers(1, 4))
-        ellipticity = tb.Ellipticity(
+        ellipticity = tb.surfaces.Ellipticity(
             ratios=tuple(pen.log(1, 15) for _ in range(count)),
             weights=tuple(pen.flat(0.1, 1) for _ in range(count)),
             radii=tuple(pen.log(0.5, 2) for _ in range(count)),
@@ -201,7 +201,7 @@ def sizes(pen: Pen, mean: float) -> Distribution:
         parts = tuple(
             sizes(pen, mean * pen.log(0.3, 3)) for _ in range(int(pen.rng.integers(2, 4)))
         )
-        return tb.Mixture(parts=parts, weights=tuple(pen.log(0.05, 1) for _ in parts))
+        return tb.distributions.Mixture(parts=parts, weights=tuple(pen.log(0.05, 1) for _ in parts))
     match kind:
         case "gaussian":
             return tb.TruncatedGaussian(
@@ -216,18 +216,20 @@ def sizes(pen: Pen, mean: float) -> Distribution:
         case "wide lognormal":
             return tb.LogNormal(median=mean, gsd=pen.flat(2.0, 4.0))
         case "weibull":
-            return tb.Weibull(scale=mean, shape=pen.log(0.7, 30.0))
+            return tb.distributions.Weibull(scale=mean, shape=pen.log(0.7, 30.0))
         case "uniform":
             low = pen.one((0.0, pen.flat(0.0, 0.99)))
-            return tb.Uniform(low=low * mean, high=mean)
+            return tb.distributions.Uniform(low=low * mean, high=mean)
     if kind in ("histogram", "powerlaw"):
         edges = mean * np.cumprod(1 + pen.rng.uniform(0.05, 1, int(pen.rng.integers(2, 8)) + 1))
         counts = tuple(pen.rng.uniform(0, 1, len(edges) - 1).tolist())
         made = {"edges": tuple(edges.tolist()), "counts": counts}
         if kind == "histogram":
-            return tb.Histogram(**made)
-        return tb.PowerLaw(**made, slopes=tuple(pen.rng.uniform(-1, 4, len(counts)).tolist()))
-    return tb.Monodisperse(mean=mean)
+            return tb.distributions.Histogram(**made)
+        return tb.distributions.PowerLaw(
+            **made, slopes=tuple(pen.rng.uniform(-1, 4, len(counts)).tolist())
+        )
+    return tb.distributions.Monodisperse(mean=mean)
 
 
 ROUND = tuple(
@@ -281,14 +283,14 @@ def dressed_particles(pen: Pen, given: tb.Particles, law: Any) -> tb.Particles:
     given = given.replace(material=thermal(pen, given.material))
     size, own = given.diameter.mean_diameter, {}
     if law.name == "series" and law.law.name in ("gw", "hermite", "zmc") and pen.chance(0.4):
-        own["shape"] = tb.Angular(
+        own["shape"] = tb.grains.Angular(
             roundness=pen.log(0.05, 1.0),
             angle=pen.flat(0.2, 1.2),
             flatness=1.0 if pen.chance(0.5) else pen.flat(1.0, 2.0),
         )
     if getattr(law, "breakable", False) and "shape" not in own and pen.chance(0.4):
         # sizes below a tenth do not break: pieces of pieces end there
-        own["strength"] = tb.WeibullStrength(
+        own["strength"] = tb.grains.WeibullStrength(
             sigma_0=given.material.H * pen.log(1e-4, 0.1),
             x_0=size * pen.log(0.1, 1e3),
             m=pen.flat(1.5, 15.0),
@@ -298,7 +300,9 @@ def dressed_particles(pen: Pen, given: tb.Particles, law: Any) -> tb.Particles:
             confinement=pen.one(("sphere", "none")),
         )
     for name, value in own.items():
-        with contextlib.suppress(tb.InvalidValue):  # a law or a size that it does not go with
+        with contextlib.suppress(
+            tb.errors.InvalidValue
+        ):  # a law or a size that it does not go with
             given = given.replace(**{name: value})
     return given
 
@@ -323,7 +327,7 @@ def outputs(pen: Pen, contact: tb.Contact) -> tuple[Any, ...]:
     while names:
         try:
             return contact.replace(outputs=tuple(every[name] for name in names)).outputs
-        except tb.InvalidValue as error:  # what this contact does not have
+        except tb.errors.InvalidValue as error:  # what this contact does not have
             names = [n for n in names if n not in str(error)] if len(names) > 1 else []
             names = names[:-1]
     return ()
@@ -336,7 +340,7 @@ def dressed(pen: Pen, contact: tb.Contact) -> tb.Contact:
         law = law.replace(
             **pen.one(({"onset": "jg"}, {"friction_factor": 0.6}, {"soft": "sphere"}))
         )
-        with contextlib.suppress(tb.InvalidValue):
+        with contextlib.suppress(tb.errors.InvalidValue):
             interface(other := contact.replace(particle_law=law))
             contact = other
     pair = tb.MaterialPair(
@@ -345,7 +349,7 @@ def dressed(pen: Pen, contact: tb.Contact) -> tb.Contact:
     contact = contact.replace(surfaces=pair)
     grains = tuple(dressed_particles(pen, p, contact.law_of(p)) for p in contact.populations)
     if grains:
-        with contextlib.suppress(tb.InvalidValue):
+        with contextlib.suppress(tb.errors.InvalidValue):
             contact = contact.replace(particles=grains if len(grains) > 1 else grains[0])
     return contact.replace(outputs=outputs(pen, contact))
 
@@ -422,7 +426,7 @@ class Findings:
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         yield
 
 
@@ -820,7 +824,9 @@ def _each(found: Findings, drawn: Drawn) -> None:
     d = np.full(count, drawn.d[len(drawn.d) // 2])
     given = state_columns(contact, d=d, vary=vary)
     # the one by one leave tails out that states by their own laws have
-    left_out = math.exp(-COMPLETE) * (not isinstance(contact.roughness.heights, tb.GaussianHeights))
+    left_out = math.exp(-COMPLETE) * (
+        not isinstance(contact.roughness.heights, tb.heights.GaussianHeights)
+    )
     for i in range(0, count, 8):
         one = tb.solve(contact.replace(**{name: float(values[i])}), d=d[i : i + 1]).columns()
         total = np.abs(one["F_ss_star"]) + np.abs(one["F_sa_star"])
@@ -891,7 +897,7 @@ def run(
             warnings.simplefilter("always", RuntimeWarning)
             drawn = draw_whole(seed, index) if whole else draw(seed, index)
             found, states = hold(drawn, shares=shares)
-    except (tb.InvalidValue, tb.NoEquilibrium) as error:
+    except (tb.errors.InvalidValue, tb.errors.NoEquilibrium) as error:
         refused = str(error)
     except Exception as error:
         where = traceback.extract_tb(error.__traceback__)[-1]

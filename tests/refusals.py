@@ -21,7 +21,7 @@ def balances_not(status: Status | None, *, says: str = "") -> Iterator[None]:
 
     ``says`` is a number or a name that its sentence has to state.
     """
-    with pytest.raises(tb.NoEquilibrium) as told:
+    with pytest.raises(tb.errors.NoEquilibrium) as told:
         yield
     assert told.value.status is status
     assert says in str(told.value)
@@ -48,8 +48,8 @@ class refuses:
     def __repr__(self) -> str:
         return " ".join(filter(None, self.wanted))
 
-    def __enter__(self) -> pytest.ExceptionInfo[tb.InvalidValue]:
-        self.refusal = pytest.raises(tb.InvalidValue)
+    def __enter__(self) -> pytest.ExceptionInfo[tb.errors.InvalidValue]:
+        self.refusal = pytest.raises(tb.errors.InvalidValue)
         self.told = self.refusal.__enter__()
         return self.told
 
@@ -74,7 +74,7 @@ def warns_of(
     *,
     effect: float | None = None,
     says: str = "",
-    kind: type[Warning] = tb.RangeWarning,
+    kind: type[Warning] = tb.errors.RangeWarning,
 ) -> Iterator[pytest.WarningsRecorder]:
     """Context in which a note with this code is told, with this effect on the answer.
 

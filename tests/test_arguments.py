@@ -19,14 +19,18 @@ STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 PAIR = tb.MaterialPair(STEEL, STEEL)
 SIZES = tb.LogNormal(median=3e-6, gsd=1.5)
 CONTACT = tb.Contact(surfaces=PAIR, roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-SURFACE = tb.synthetic.self_affine(
+SURFACE = tb.surfaces.self_affine(
     sigma=1e-7, hurst=0.8, shortest=4e-7, longest=6e-6, spacing=1e-7, points=64
 )
 SAMPLES = {
     **{"contact": CONTACT, "surfaces": PAIR, "material": SILICA, "particle": SILICA},
     **{"diameter": SIZES, "sizes": SIZES, "moments": SURFACE.moments_at(), "surface": SURFACE},
     **{"code": "18/16/13", "kind": "as4059", "standard": "as4059", "grade": "6A/6B/6C"},
-    **{"weighting": "volume", "overrides": [], "first": tb.Finish(Ra=2e-7, process="ground")},
+    **{
+        "weighting": "volume",
+        "overrides": [],
+        "first": tb.surfaces.Finish(Ra=2e-7, process="ground"),
+    },
     **{"value": 500.0, "start": "HV", "end": "GPa", "scale": "HV", "level": "middle"},
     **{"place": "filter", "state": "18/16/13", "bearing": "ball", "source": "example"},
     **{"quantity": "force", "debris": "hard", "form": "power", "by": "number"},
@@ -38,10 +42,15 @@ WRONG = {
     "a class": int, "bytes": b"x", "an array": np.zeros((2, 2, 2)),
 }  # fmt: skip
 INSTANCES = (
-    *(SIZES, tb.Histogram(edges=(1e-7, 2e-7), counts=(1.0,)), tb.GaussianHeights(), SURFACE),
+    *(
+        SIZES,
+        tb.distributions.Histogram(edges=(1e-7, 2e-7), counts=(1.0,)),
+        tb.heights.GaussianHeights(),
+        SURFACE,
+    ),
     *(tb.Uncertain.normal(mean=1.0, std=0.1), tb.asperity.ZMC(), tb.particle.Series()),
     *(tb.table(CONTACT, tolerance=1e-2), tb.solve(CONTACT, F_star=[1e-6, 1e-5])),
-    *(tb.WeibullStrength(sigma_0=1e7, x_0=1e-6, m=3.0), tb.films.Point(R=0.01)),
+    *(tb.grains.WeibullStrength(sigma_0=1e7, x_0=1e-6, m=3.0), tb.films.Point(R=0.01)),
     *(tb.films.Oil(eta=0.02, alpha=2e-8), tb.films.HamrockDowson()),
 )
 HOOKS = {"Series.probe"}
@@ -111,7 +120,20 @@ def test_what_is_no_argument_is_refused_in_words(
     monkeypatch.chdir(tmp_path)  # some write
     for kind, value in WRONG.items():
         error = called(function, parameters, wrong, value)
-        assert error is None or isinstance(error, tb.ThirdBodyError), f"{kind}: {error!r}"
+        assert error is None or isinstance(error, tb.errors.ThirdBodyError), f"{kind}: {error!r}"
+
+
+def test_a_keyword_that_a_function_has_not_is_answered_with_the_one_meant():
+    for call, place, meant in (
+        (lambda: tb.solve(CONTACT, presure=1e6), "presure", "pressure"),
+        (lambda: tb.transitions(CONTACT, colour="red"), "colour", None),
+        (lambda: tb.propagate(CONTACT, sampels=16, F_star=1e-5), "sampels", "samples"),
+        (lambda: tb.sizes.read_sizes("a.csv", weigthing="area"), "weigthing", "weighting"),
+    ):
+        with refuses(Mistake.UNKNOWN, place, meant=meant):
+            call()
+    with pytest.raises(TypeError, match="positional"):  # Python's own sentence
+        tb.solve(CONTACT, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
 
 
 def test_most_public_functions_are_called():
@@ -135,18 +157,18 @@ def test_paths_are_asked_for_by_name(value):
     [
         (lambda: tb.transitions(CONTACT, window=3), r"^window = 3 must be 2 values, a number and a number$"),
         (lambda: tb.transitions(CONTACT, eps_1="a"), r"^eps_1 = 'a' must be a number$"),
-        (lambda: tb.solve_states(CONTACT, pressure=1e6, vary=[1]), r"^vary = a list must be a mapping"),
+        (lambda: tb.equilibria.solve_states(CONTACT, pressure=1e6, vary=[1]), r"^vary = a list must be a mapping"),
         (lambda: tb.sensitivity(CONTACT, of=3, pressure=1e6), r"^of = 3 must be text or a list of texts$"),
         (lambda: tb.design(CONTACT, vary={}, objective=None), r"^objective = None must be an Objective or a list"),
         (lambda: tb.sweep(CONTACT, pressure=[1e6], out=3.5), r"^out = 3.5 must be the path of a file or None$"),
         (lambda: tb.sweep(CONTACT, pressure=[1e6], client=object()), r"^client = .* must be a Client"),
         (lambda: tb.materials.search(3), r"^query = 3 must be text$"),
         (lambda: tb.materials[["S45C"]], r"^name = a list must be text$"),
-        (lambda: tb.Finish(Ra=1e-7, process=["ground"]), r"^Finish.process = a list must be text or None$"),
+        (lambda: tb.surfaces.Finish(Ra=1e-7, process=["ground"]), r"^Finish.process = a list must be text or None$"),
     ],
 )  # fmt: skip
 def test_an_argument_of_another_kind_is_named(call, words):
-    with pytest.raises(tb.InvalidValue, match=words):
+    with pytest.raises(tb.errors.InvalidValue, match=words):
         call()
 
 
@@ -160,8 +182,12 @@ def test_every_public_function_that_takes_anything_is_marked():
         and {*inspect.signature(function).parameters} - {"self", "cls"}
     }
     assert bare == {
-        *("results.Assessment.page", "errors.InvalidValue.under", "errors.Mistake.clause"),  # texts
-        *(f"errors.Problem.{key}" for key in ("changed", "under", "worded")),
+        *(
+            "results.Assessment.page",
+            "errors.InvalidValue.move_under",
+            "errors.Mistake.clause",
+        ),  # texts
+        *(f"errors.Problem.{key}" for key in ("changed", "move_under", "put_in_words")),
         *(f"outputs.Solved.{key}" for key in ("output", "total", "total_of_particles")),
         "particle.OneParticle.sinks",
     }
@@ -175,7 +201,7 @@ def test_every_public_function_that_takes_anything_is_marked():
         lambda: tb.solve(CONTACT, F_star=1e-5).modes(eps_1=1.5),
         lambda: tb.transitions(CONTACT, basis="are"),
         lambda: tb.asperity.ZMC().reduced("forces", 1.0),
-        lambda: tb.equal_share_size(
+        lambda: tb.equilibria.equal_share_size(
             CONTACT.replace(
                 particles=tb.Particles(material=SILICA, areal_density=1e9, diameter=SIZES)
             ),
@@ -186,7 +212,7 @@ def test_every_public_function_that_takes_anything_is_marked():
     ],
 )
 def test_words_and_numbers_that_mean_nothing_are_refused(call):
-    with pytest.raises(tb.InvalidValue, match=r"^(basis|eps_1|quantity|low|R) = .* must"):
+    with pytest.raises(tb.errors.InvalidValue, match=r"^(basis|eps_1|quantity|low|R) = .* must"):
         call()
 
 

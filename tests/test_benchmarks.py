@@ -13,7 +13,7 @@ from thirdbody.equilibrium.engine import columns
 from thirdbody.equilibrium.states import state_columns
 
 pytest.importorskip("numba")
-pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")]
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")]
 FOLDER = Path(__file__).parent.parent / "benchmarks"
 COUNT = 10_000
 

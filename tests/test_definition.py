@@ -21,7 +21,7 @@ from thirdbody import definition
 from thirdbody.equilibrium import solve as equilibrium
 from thirdbody.equilibrium.states import state_columns
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 TOLERANCE = 1e-11
 """Of the load for loads, of the real area for areas."""
@@ -30,12 +30,12 @@ SOFT = tb.Material(E=110e9, nu=0.33, H=1.5e9)
 ROUGH = tb.Roughness(sigma=100e-9, R=2.8e-6)
 MEAN = 250e-9
 SIZES = {
-    "one size": tb.Monodisperse(mean=MEAN),
+    "one size": tb.distributions.Monodisperse(mean=MEAN),
     "gaussian": tb.TruncatedGaussian(mean=MEAN, std=0.1 * MEAN),
     "lognormal": tb.LogNormal(median=MEAN, gsd=1.4),
-    "weibull": tb.Weibull(scale=MEAN, shape=4.0),
-    "uniform": tb.Uniform(low=0.6 * MEAN, high=1.3 * MEAN),
-    "histogram": tb.Histogram(edges=(1e-7, 2e-7, 3e-7), counts=(2.0, 5.0)),
+    "weibull": tb.distributions.Weibull(scale=MEAN, shape=4.0),
+    "uniform": tb.distributions.Uniform(low=0.6 * MEAN, high=1.3 * MEAN),
+    "histogram": tb.distributions.Histogram(edges=(1e-7, 2e-7, 3e-7), counts=(2.0, 5.0)),
 }
 SEATS = {
     "plane": dict(seat="plane"),
@@ -43,8 +43,8 @@ SEATS = {
     "rough": dict(),
     "valleys": dict(zeta_mean=-0.4, zeta_std=0.7),
 }
-SHARP = tb.Angular(roundness=0.25, angle="35 deg")
-BLUNT = tb.Angular(roundness=0.5, angle="12 deg", flatness=1.3)
+SHARP = tb.grains.Angular(roundness=0.25, angle="35 deg")
+BLUNT = tb.grains.Angular(roundness=0.5, angle="12 deg", flatness=1.3)
 SHADOWS = ("footprint", "projected", "covered", "none")
 DUSTS = {"silica": SILICA, "soft": tb.Material(E=3e9, nu=0.4, H=4e8)}
 SECONDS = {"like": STEEL, "unlike": SOFT}
@@ -140,7 +140,7 @@ def other_cases():
                 particles=dust.replace(diameter=diameter, shape=shape),
             ),
         )
-    small = tb.Monodisperse(mean=0.8 * MEAN)
+    small = tb.distributions.Monodisperse(mean=0.8 * MEAN)
     whole = tb.particle.Series(deep="off")
     for sizes, name in ((small, "two populations"), (SIZES["lognormal"], MANY)):
         debris = tb.Particles(material=SOFT, areal_density=3e11, diameter=sizes)
@@ -149,7 +149,7 @@ def other_cases():
             name,
             tb.Contact(surfaces=pair, roughness=ROUGH, particles=particles, particle_law=whole),
         )
-    shapes = tb.Ellipticity(ratios=(1.5, 4.0), weights=(2.0, 1.0), radii=(1.0, 1.4))
+    shapes = tb.surfaces.Ellipticity(ratios=(1.5, 4.0), weights=(2.0, 1.0), radii=(1.0, 1.4))
     law = tb.asperity.REGISTRY["elliptic-zmc"]()
     rough = ROUGH.replace(ellipticity=shapes)
     yield "ellipticity", tb.Contact(surfaces=pair, roughness=rough, asperity_law=law)
@@ -195,11 +195,11 @@ def test_every_path_is_the_model(name):
 def breaking(diameter, fragments, shape=None, **options):
     """Quartz between hard steels."""
     hard = tb.Material(E=206e9, nu=0.29, H=7.37e9)
-    strength = tb.WeibullStrength(
+    strength = tb.grains.WeibullStrength(
         sigma_0=67e6, x_0=1e-3, m=3, size_exponent=0.55, x_c=1e-6, fragments=fragments
     )
     dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e7, diameter=diameter,
-                        strength=strength, shape=shape or tb.Sphere())  # fmt: skip
+                        strength=strength, shape=shape or tb.grains.Sphere())  # fmt: skip
     return tb.Contact(
         surfaces=tb.MaterialPair(hard, hard.replace(H=options.pop("H", 7.37e9))),
         roughness=tb.Roughness(sigma=1e-6, R=20e-6),
@@ -208,7 +208,10 @@ def breaking(diameter, fragments, shape=None, **options):
     )
 
 
-ONE, SOME = tb.Monodisperse(mean=20e-6), tb.Uniform(low=8e-6, high=20e-6)
+ONE, SOME = (
+    tb.distributions.Monodisperse(mean=20e-6),
+    tb.distributions.Uniform(low=8e-6, high=20e-6),
+)
 BREAKING = {
     "one size plane": (breaking(ONE, "footprint", seat="plane"), (15e-6, 6e-6, 0.8e-6)),
     "one size rough": (breaking(ONE, "all"), (17e-6, 7e-6)),
@@ -225,7 +228,7 @@ SHAPES = ((0.25, 35, 1.0), (0.5, 12, 1.3), (0.9, 70, 1.2), (0.05, 5, 1.0))
 @pytest.mark.parametrize("law", ["gw", "ceb", "zmc", "hermite", "jg", "ke"])
 def test_angular_particles_of_every_law(law):
     for roundness, degrees, flatness in SHAPES:
-        shape = tb.Angular(roundness=roundness, angle=f"{degrees} deg", flatness=flatness)
+        shape = tb.grains.Angular(roundness=roundness, angle=f"{degrees} deg", flatness=flatness)
         case = tb.Contact(
             surfaces=tb.MaterialPair(STEEL, SOFT),
             roughness=ROUGH,

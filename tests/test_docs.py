@@ -48,7 +48,7 @@ def said(code, names):
     """What a piece of code prints."""
     out = io.StringIO()
     with contextlib.redirect_stdout(out), warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         exec(compile(code, "<page>", "exec"), names)
     return out.getvalue()
 
@@ -316,7 +316,7 @@ def particle_limits():
     """One particle squeezed very little and very much: elastic and embedded."""
     x = 300e-9
     contact = dusty().replace(
-        **{"particles.diameter": tb.Monodisperse(mean=x)},
+        **{"particles.diameter": tb.distributions.Monodisperse(mean=x)},
         particle_law=tb.particle.Series(deep="off", seat="plane"),
     )
     squeeze = np.array([1e-5, 0.9]) * x

@@ -59,21 +59,21 @@ HUGE = (10**400, -(10**400), 1e300, 1e-300, 5e-324, math.inf, -math.inf, math.na
 @pytest.mark.parametrize("number", HUGE)
 def test_numbers_beyond_computing_are_refused_by_name(kind, number):
     needed = [p.name for p in inspect.signature(kind).parameters.values() if p.default is p.empty]
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         kind(**dict.fromkeys(needed, number))
     assert told.value.problems[0].startswith(f"{kind.__name__}.{needed[0]} ")
 
 
 @pytest.mark.parametrize("number", HUGE)
 def test_numbers_beyond_computing_are_refused_in_lists(number):
-    with pytest.raises(tb.InvalidValue, match=r"Histogram\.edges"):
-        tb.Histogram(edges=[1e-7, number], counts=[1])
+    with pytest.raises(tb.errors.InvalidValue, match=r"Histogram\.edges"):
+        tb.distributions.Histogram(edges=[1e-7, number], counts=[1])
 
 
 @pytest.mark.parametrize("load", ["pressure", "F_star", "d"])
 def test_loads_beyond_a_double_are_refused_by_name(load):
     for number in (10**400, math.inf, math.nan):
-        with pytest.raises(tb.InvalidValue, match=f"^{load} "):
+        with pytest.raises(tb.errors.InvalidValue, match=f"^{load} "):
             tb.solve(CONTACT, **{load: number})
 
 
@@ -168,18 +168,20 @@ MASKED = np.ma.masked_array([5e6, 6e6], [False, True])
     [
         lambda: tb.solve(CONTACT, pressure=MASKED),
         lambda: tb.solve(CONTACT, pressure=[5e6, np.ma.masked]),
-        lambda: tb.solve_states(CONTACT, pressure=MASKED),
-        lambda: tb.solve_states(CONTACT, pressure=5e6, vary={"roughness.sigma": MASKED * 1e-14}),
+        lambda: tb.equilibria.solve_states(CONTACT, pressure=MASKED),
+        lambda: tb.equilibria.solve_states(
+            CONTACT, pressure=5e6, vary={"roughness.sigma": MASKED * 1e-14}
+        ),
         lambda: tb.sweep(CONTACT, pressure=MASKED),
         lambda: tb.sweep(CONTACT, pressure=[5e6], vary={"roughness.sigma": MASKED * 1e-14}),
-        lambda: tb.roots(CONTACT, pressure=MASKED),
+        lambda: tb.equilibria.roots(CONTACT, pressure=MASKED),
         lambda: tb.compare(CONTACT, pressure=MASKED),
-        lambda: tb.HistogramHeights(edges=(0.0, 1.0, 2.0), counts=MASKED),
+        lambda: tb.heights.HistogramHeights(edges=(0.0, 1.0, 2.0), counts=MASKED),
     ],
 )
 def test_a_masked_value_is_refused(ask):
     """It is no number, and numpy would hand out what lies under the mask."""
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         ask()
     (problem,) = told.value.problems
     assert problem.code is Mistake.KIND
@@ -196,7 +198,7 @@ def test_an_array_of_which_nothing_is_masked_is_an_array():
 
 @pytest.mark.parametrize("truth", [True, np.True_, [True, 5e6], np.array([True])])
 def test_a_truth_value_is_no_load(truth):
-    for ask in (tb.solve, tb.solve_states, tb.sweep, tb.compare):
+    for ask in (tb.solve, tb.equilibria.solve_states, tb.sweep, tb.compare):
         with refuses(Mistake.KIND, "pressure"):
             ask(CONTACT, pressure=truth)
 
@@ -209,9 +211,9 @@ def test_warnings_name_the_line_of_their_user():
         rough = tb.Contact(surfaces=PAIR, roughness=tb.Roughness(sigma=1.0, R=10.0))
         rough.replace(**{"roughness.sigma": 2.0})
         tb.solve(CONTACT, pressure=1.5e9)
-        tb.solve_states(rough, pressure=1e6, vary={"roughness.sigma": [1.0, 2.0]})
+        tb.equilibria.solve_states(rough, pressure=1e6, vary={"roughness.sigma": [1.0, 2.0]})
         tb.table(tb.Contact(surfaces=PAIR, roughness=CONTACT.roughness.replace(alpha=50.0)))
-    heard = [each for each in heard if issubclass(each.category, tb.RangeWarning)]
+    heard = [each for each in heard if issubclass(each.category, tb.errors.RangeWarning)]
     assert {Path(each.filename).name for each in heard} == {"test_doors.py"}
     assert {each.lineno - line for each in heard} >= {3, 4, 5, 6}
 
@@ -262,9 +264,9 @@ def test_errors_about_other_files_pass(tmp_path):
 
 @pytest.mark.parametrize("place", ["/proc/thirdbody", "/dev/null/thirdbody"])
 def test_folders_that_take_no_files_are_told(place):
-    with pytest.raises(tb.InvalidValue, match=r"^cannot"):
+    with pytest.raises(tb.errors.InvalidValue, match=r"^cannot"):
         tb.sweep(CONTACT, pressure=[1e6, 2e6], out=place)
-    with pytest.raises(tb.InvalidValue, match=r"^cannot write"):
+    with pytest.raises(tb.errors.InvalidValue, match=r"^cannot write"):
         tb.table(CONTACT, tolerance=1e-2).to_csv(f"{place}/a.csv")
 
 
@@ -336,7 +338,7 @@ def test_all_that_a_contact_may_have_is_drawn():
     for index in range(60):
         try:
             drawn.append(random_contacts.draw_whole(40, index).contact)
-        except tb.InvalidValue:
+        except tb.errors.InvalidValue:
             continue
     grains = [p for each in drawn for p in each.populations]
     assert {type(p.shape).__name__ for p in grains} == {"Sphere", "Angular"}

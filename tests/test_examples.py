@@ -79,7 +79,7 @@ def test_every_example_is_here_and_in_the_book():
         assert f"examples/{name}.py" in readme, f"{name} is not in README"
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_dust_and_debris_carry_what_the_book_says():
     import thirdbody as tb
 
@@ -93,7 +93,7 @@ def test_dust_and_debris_carry_what_the_book_says():
     assert said.replace("%", " %") in text
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_squashed_debris_carries_four_times_the_load_of_spheres():
     """What docs/soft.md and the example say of a film of a tenth of the size."""
     import thirdbody as tb

@@ -64,13 +64,34 @@ def test_a_module_at_the_top_holds_what_it_promises(name):
     assert all(hasattr(module, each) for each in module.__all__)
 
 
-@pytest.mark.parametrize("name", ["equilibria", "films", "grains", "objectives", "oil", "surfaces"])
-def test_a_module_that_gathers_names_says_what_each_is(name):
+@pytest.mark.parametrize("name", MODULES)
+def test_a_module_says_what_each_of_its_names_is(name):
+    """Its first line is a sentence; each name stands in a list, ``- `name`: what it is``."""
     module = getattr(tb, name)
-    first, *lines = module.__doc__.splitlines()
-    assert first.endswith(".")
-    named = {each for line in lines for each in re.findall(r"`(\w+)`", line)}
-    assert set(module.__all__) <= named
+    text = module.__doc__
+    assert text.splitlines()[0].endswith(".")
+    items = re.findall(r"^- (.+(?:\n  .+)*)", text, re.M)
+    assert all(re.match(r"`\w+`(, `\w+`)*: \w", item) for item in items)
+    assert set(module.__all__) <= set(re.findall(r"`(\w+)`", "\n".join(items)))
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_completion_offers_the_names_of_a_module_alone(name):
+    module = getattr(tb, name)
+    assert {each for each in dir(module) if not each.startswith("__")} == set(module.__all__)
+
+
+def test_modules_are_imported_by_the_names_that_they_have_at_the_top():
+    """Also `from thirdbody.outputs import Friction`, as tools for types and completion see it."""
+    lines = [f"import thirdbody.{name} as module" for name in MODULES]
+    lines += [
+        f"from thirdbody.{name} import {', '.join(getattr(tb, name).__all__)}" for name in MODULES
+    ]
+    lines += ["import thirdbody as tb"]
+    lines += [f"assert sys.modules['thirdbody.{name}'] is tb.{name}" for name in MODULES]
+    script = "import sys\n" + "\n".join(lines)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_the_first_page_names_every_name_at_the_top():
@@ -134,6 +155,17 @@ def test_the_reference_lists_what_the_modules_hold():
         if is_documented(thing := getattr(getattr(tb, name), each)) and id(thing) not in listed
     ]
     assert missing == []
+
+
+def test_the_reference_explains_the_constants():
+    """What is no class, function or module has its sentence in the text: `NAME`: what it is."""
+    text = REFERENCE.read_text("utf-8")
+    for name in MODULES:
+        held = {each: getattr(getattr(tb, name), each) for each in getattr(tb, name).__all__}
+        constants = [each for each, thing in held.items() if not callable(thing)]
+        constants = [each for each in constants if not isinstance(held[each], ModuleType)]
+        (section,) = re.findall(rf"^`thirdbody\.{name}`\..*(?:\n.+)*", text, re.M) or [""]
+        assert [each for each in constants if f"`{each}`" not in section] == []
 
 
 def test_the_reference_names_nothing_by_an_old_path():

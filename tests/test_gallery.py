@@ -22,7 +22,7 @@ def test_example(file, tmp_path, monkeypatch):
     tree = ast.parse(file.read_text("utf-8"))
     assert any(isinstance(node, ast.Assert) for node in tree.body), "checks no number"
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         names = runpy.run_path(str(file))
     figures = names.get("figures") or [names["figure"]]
     for figure in figures:

@@ -44,15 +44,15 @@ for name, kind in sorted(tb.asperity.REGISTRY.items()):
     try:
         law = kind()
         found = [law.reduced(what, y) for what in ("force", "area")]
-    except (TypeError, tb.InvalidValue):
+    except (TypeError, tb.errors.InvalidValue):
         continue  # asks for numbers of its own
     keep("laws", name, found)
 z = np.linspace(-3, 6, 37)
-for law in (tb.GaussianHeights(), tb.ExponentialHeights(), tb.WeibullHeights(shape=1.8),
-            tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
-            tb.JohnsonHeights(skewness=-0.9, kurtosis=3.3)):
+for law in (tb.heights.GaussianHeights(), tb.heights.ExponentialHeights(), tb.heights.WeibullHeights(shape=1.8),
+            tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
+            tb.heights.JohnsonHeights(skewness=-0.9, kurtosis=3.3)):
     keep("heights", repr(law), np.concatenate([law.pdf(z), law.sf(z), law.ppf([0.1, 0.9])]))
-for law in (tb.LogNormal(median=3e-7, gsd=1.5), tb.Weibull(scale=3e-7, shape=4.0),
+for law in (tb.LogNormal(median=3e-7, gsd=1.5), tb.distributions.Weibull(scale=3e-7, shape=4.0),
             tb.TruncatedGaussian(mean=3e-7, std=2.4e-8)):
     keep("sizes", repr(law), [law.partial_moment(n, 1e-7, 4e-7) * 3e-7**-n for n in range(4)])
 for path in sys.argv[1:]:

@@ -98,15 +98,14 @@ NOUNS = {"speed", "seed", "feed", "bed", "need"}
 LEFT = {
     "analysis": 2,
     "contact": 1,
-    "definition.py": 1,
     "effects": 9,
     "equilibrium": 1,
-    "errors.py": 4,
-    "laws": 13,
-    "papers": 5,
-    "populations": 25,
-    "study": 2,
-    "systems": 11,
+    "errors.py": 1,
+    "laws": 11,
+    "papers": 3,
+    "populations": 22,
+    "study": 1,
+    "systems": 9,
 }
 """How many are left in each room."""
 

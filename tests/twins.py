@@ -74,16 +74,16 @@ def material(body: oracle.Body) -> tb.Material:
 def sizes(kind: str, mean: float, width: float, n: float = 3.0, *, normalise: bool = True):
     """A distribution of the library and its twin; ``width`` is relative."""
     if kind == "monodisperse":
-        return tb.Monodisperse(mean=mean), oracle.monodisperse(mean)
+        return tb.distributions.Monodisperse(mean=mean), oracle.monodisperse(mean)
     if kind == "lognormal":
         gsd = 1 + width
         return tb.LogNormal(median=mean, gsd=gsd), oracle.lognormal(mean, gsd)
     if kind == "weibull":
         shape = min(max(1.2 / width, 1.0), 30.0)
-        return tb.Weibull(scale=mean, shape=shape), oracle.weibull(mean, shape)
+        return tb.distributions.Weibull(scale=mean, shape=shape), oracle.weibull(mean, shape)
     if kind == "uniform":
         low, high = mean * (1 - 0.9 * width), mean * (1 + 0.9 * width)
-        return tb.Uniform(low=low, high=high), oracle.uniform(low, high)
+        return tb.distributions.Uniform(low=low, high=high), oracle.uniform(low, high)
     std = width * mean
     return (
         tb.TruncatedGaussian(mean=mean, std=std, n=n),
@@ -110,7 +110,7 @@ def base(
 def series_twin(
     interface: oracle.Interface,
     particle: oracle.Body,
-    distributions: tuple[tb.Distribution, oracle.Sizes],
+    distributions: tuple[tb.distributions.Distribution, oracle.Sizes],
     density: float,
     d: float,
     *,

@@ -48,7 +48,9 @@ def differences():
         older = [one for one in older if one["F_star"] >= 1e-5]
         contact = seats.contact(size)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", tb.RangeWarning)  # particles of the runs sit deep
+            warnings.simplefilter(
+                "ignore", tb.errors.RangeWarning
+            )  # particles sit deep in the runs
             states = tb.solve(contact, F_star=[one["F_star"] for one in older])
         sigma = contact.roughness.sigma
         for point, model, h in zip(older, states.particle_load_share, states.h, strict=True):

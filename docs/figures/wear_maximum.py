@@ -40,7 +40,7 @@ def grooves(dirty: tb.Contact, *, pressure: float) -> np.ndarray:
     size = dirty.populations[0].diameter.moment(2)
     free = np.pi / 4 * size * DENSITY < 0.9
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         found = tb.equilibria.solve_states(
             dirty, pressure=pressure, vary={"particles.areal_density": DENSITY[free]}
         )

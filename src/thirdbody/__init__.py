@@ -36,16 +36,23 @@ from .version import __version__ as __version__
 # isort: off
 if TYPE_CHECKING:
     from . import (
-        effects as outputs,
+        asperity,
+        distributions,
+        dust,
         equilibria,
         errors,
         explicit,
         films,
         grains,
+        heights,
         objectives,
         oil,
+        outputs,
+        particle,
+        plot,
         reference,
         results,
+        sizes,
         surfaces,
         systems,
     )
@@ -61,16 +68,12 @@ if TYPE_CHECKING:
     from .equilibrium.solve import solve
     from .equilibrium.table.make import table
     from .equilibrium.transitions import transitions
-    from .laws import asperity, particle
-    from .populations import distributions, heights
     from .populations.distributions import LogNormal, TruncatedGaussian
     from .populations.materials import Material, MaterialPair, materials
-    from .populations.measured import cleanliness as dust, sizes
     from .populations.particles import Particles
     from .populations.roughness import Roughness
     from .study.whole import load_study
     from .systems.life.run import life
-    from .views import plot
 
     # names "as" themselves: they stand in a module that is listed, and work at the top too
     from .equilibria import (
@@ -192,9 +195,9 @@ __all__ = [
 
 # imported when first used, to keep the start quick
 _MODULES = {
-    "asperity": "laws.asperity",
-    "distributions": "populations.distributions",
-    "dust": "populations.measured.cleanliness",
+    "asperity": "asperity",
+    "distributions": "distributions",
+    "dust": "dust",
     "equilibria": "equilibria",
     "errors": "errors",
     "explicit": "explicit",
@@ -202,17 +205,17 @@ _MODULES = {
     "films": "films",
     "fractal": "systems.fractal",
     "grains": "grains",
-    "heights": "populations.heights",
+    "heights": "heights",
     "interaction": "systems.interaction",
     "objectives": "objectives",
     "oil": "oil",
-    "outputs": "effects",
-    "particle": "laws.particle",
-    "plot": "views.plot",
+    "outputs": "outputs",
+    "particle": "particle",
+    "plot": "plot",
     "reference": "reference",
     "results": "results",
     "rough_body": "systems.rough_body",
-    "sizes": "populations.measured.sizes",
+    "sizes": "sizes",
     "surfaces": "surfaces",
     "synthetic": "populations.measured.synthetic",
     "systems": "systems",

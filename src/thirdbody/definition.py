@@ -35,7 +35,7 @@ from .populations.materials import Material, reduced_modulus
 from .populations.particles import Particles
 from .populations.shape import Angular, Shape
 
-__all__ = ["Side", "Tip", "asperities", "particles", "separation", "squeezed", "state"]
+__all__ = ["Side", "Tip", "asperities", "particles", "separation", "solve_squeeze", "state"]
 
 Array = NDArray[np.float64]
 Formula = Callable[[Array], Array]
@@ -125,12 +125,12 @@ def particles(contact: Any, some: Particles, d: float) -> Array:
         half_of(law, reduced_modulus(body, some.material), body, some.material, some.shape)
         for body in (contact.surfaces.first, contact.surfaces.second)
     ]
-    eps, sides_at = squeezes(one, two), at_distinct(lambda e: squeezed(one, two, e))
+    eps, sides_at = squeezes(one, two), at_distinct(lambda e: solve_squeeze(one, two, e))
     width = law.zeta_std * rough.sigma if law.seat == "rough" else 0.0
     gap = d - law.h_0 if law.seat != "rough" else d + rough.y_s - law.zeta_mean * rough.sigma
 
     def on_plane(x: Array) -> Array:
-        return x**2 * squeezed(one, two, 1 - gap / x)
+        return x**2 * solve_squeeze(one, two, 1 - gap / x)
 
     def on_seats(x: Array, e: Array) -> Array:
         z = (gap - x * (1 - e)) / width
@@ -139,7 +139,7 @@ def particles(contact: Any, some: Particles, d: float) -> Array:
     # what a particle carries no longer changes beyond eps[-1]
     def embedded_rows(x: Array) -> Array:
         z = (x * (1 - eps[-1]) - gap) / width
-        return x**2 * ndtr(z) * squeezed(one, two, 2 * eps[-1:] * np.ones_like(x))
+        return x**2 * ndtr(z) * solve_squeeze(one, two, 2 * eps[-1:] * np.ones_like(x))
 
     total = np.zeros(7)
     cascade = None if some.strength is None else Cascade(some, one, two)
@@ -226,7 +226,7 @@ def half_of(law: Any, E_star: float, surface: Material, particle: Material, shap
     softer = min(surface, particle, key=lambda material: material.H)
     body = E_star, softer.H, softer.nu
     if isinstance(shape, Angular):
-        if shape.faced:
+        if shape.has_touching_faces:
             return Faced(law.law, *body, shape)
         return Side(law.law, shape.tip_radius, *body, np.pi / 4 * shape.flatness**2)
     sphere = Side(law.law, law.tip_radius, *body)
@@ -503,7 +503,7 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Chebyshev:
     return (root * root).integ(lbnd=-1) + values(np.zeros(1))[0]
 
 
-def squeezed(one: Side, two: Side, eps: Array) -> Array:
+def solve_squeeze(one: Side, two: Side, eps: Array) -> Array:
     """A particle of size 1 squeezed by ε: both sides carry one load, F_1(δ_1) = F_2(ε − δ_1).
 
     Load, area on side 1 by regime, area on side 2, the larger of both, projected area: (7, ...).
@@ -565,7 +565,7 @@ class Cascade:
 
     def tension(self, eps: Array) -> Array:
         """σ_t of a particle of size 1 [Pa]."""
-        load, *areas, second = squeezed(self.one, self.two, eps)[:5]
+        load, *areas, second = solve_squeeze(self.one, self.two, eps)[:5]
         if self.strength.confinement == "none":
             return load
         s = [np.minimum(2 * np.sqrt(a / np.pi), 1.0) for a in (np.sum(areas, axis=0), second)]
@@ -586,7 +586,7 @@ class Cascade:
         while np.any(number * x**2 * (x > gap) > 1e-16 * np.max(x) ** 2 * 1e-3):
             eps = np.maximum(1 - gap / x, 0.0)
             survival = self.survival(x, eps)
-            total += number * survival * x**2 * squeezed(self.one, self.two, eps)
+            total += number * survival * x**2 * solve_squeeze(self.one, self.two, eps)
             number = number * (1 - survival) * self.strength.bearing_share * self.strength.ratio**-3
             number, x = np.where(x > gap, number, 0.0), x * self.strength.ratio
         return total

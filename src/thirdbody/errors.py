@@ -1,6 +1,14 @@
-"""What can go wrong, in one hierarchy.
+"""Errors and warnings of this library: what can go wrong, in one hierarchy.
 
 A message says what, where, what is allowed, and the likely cause.
+
+- `ThirdBodyError`: the base of every error, to catch them all
+- `InvalidValue`: an input has no meaning; it holds each `Problem`, which has a kind, a `Mistake`
+- `WrongKind`: an `InvalidValue`, of arguments that a signature refuses
+- `NoEquilibrium`: no separation carries the load
+- `NoTransition`: the contact mode does not change
+- `RangeWarning`: a model is used beyond its range; it holds a `Note`, which says by how much
+- `SlowWarning`: what is asked takes long
 """
 
 from __future__ import annotations
@@ -25,7 +33,12 @@ __all__ = [
     "RangeWarning",
     "SlowWarning",
     "ThirdBodyError",
+    "WrongKind",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
 
 
 class ThirdBodyError(Exception):
@@ -151,8 +164,8 @@ class Clause(str):
 class Problem(str):
     """One mistake in an input: its parts, and as text the sentence that they make.
 
-    Whoever knows more of a mistake (which table of a file, which argument) moves it with `under`
-    or `changed`, and never has to read the sentence.
+    Whoever knows more of a mistake (which table of a file, which argument) moves it with
+    `move_under` or `changed`, and never has to read the sentence.
 
     Parameters
     ----------
@@ -179,7 +192,7 @@ class Problem(str):
     ... )
     >>> str(found), found.place
     ('Roughness.sigma = -1 must be > 0; m are meant', 'Roughness.sigma')
-    >>> str(found.under("roughness"))
+    >>> str(found.move_under("roughness"))
     'roughness.sigma = -1 must be > 0; m are meant'
     """
 
@@ -227,18 +240,18 @@ class Problem(str):
     @property
     def study(self) -> str:
         """Its sentence in the words of study files."""
-        return str(self.worded(in_study))
+        return str(self.put_in_words(in_study))
 
     def changed(self, **changes: object) -> Problem:
         """The same mistake with some of its parts changed."""
         return Problem(**{**vars(self), **changes})
 
-    def worded(self, how: Callable[[str], str]) -> Problem:
+    def put_in_words(self, how: Callable[[str], str]) -> Problem:
         """The same mistake in other words, at the same place."""
         value = None if self.value is None else how(self.value)
         return self.changed(rule=how(self.rule), value=value, hint=how(self.hint))
 
-    def under(self, owner: str) -> Problem:
+    def move_under(self, owner: str) -> Problem:
         """The same mistake where what it is a part of goes by another name."""
         whole = not self.path and not self.owner
         return self.changed(owner=owner, rule=": " + self.rule if whole else self.rule)
@@ -311,6 +324,17 @@ def note_of(message: Warning | str) -> str:
     return next(iter(message.args), str(message))
 
 
+def place_note(note: str, place: str) -> Note:
+    """The note of an answer at a place that is named first, such as a critical load.
+
+    >>> here = place_note(Note("A_t reaches 0.3", code="area", effect=0.17), "F_cr1")
+    >>> str(here), here.code, here.effect
+    ('at F_cr1, A_t reaches 0.3', 'area', 0.17)
+    """
+    sentence = f"at {place}, " + Advice(str(note), in_study(note))
+    return Note(sentence, code=code_of(note), effect=getattr(note, "effect", math.nan))
+
+
 def rank_notes(notes: Iterable[str]) -> list[str]:
     """Notes by their effect on the answer, the largest first; of each code the worst alone.
 
@@ -353,9 +377,9 @@ class InvalidValue(ThirdBodyError, ValueError):
         """Kind of the first of its mistakes."""
         return self.problems[0].code if self.problems else Mistake.UNSAID
 
-    def under(self, owner: str) -> InvalidValue:
+    def move_under(self, owner: str) -> InvalidValue:
         """The same mistakes where what they are a part of goes by another name."""
-        return type(self)(*(problem.under(owner) for problem in self.problems))
+        return type(self)(*(problem.move_under(owner) for problem in self.problems))
 
 
 class NoEquilibrium(ThirdBodyError, RuntimeError):

@@ -1,6 +1,16 @@
 r"""Exact and asymptotic solutions to check a contact model against.
 
 Every function is a formula, or an integral to full precision; none is used by the solver.
+
+- `hertz_point`: a sphere on a flat, from the load; it gives a `HertzPoint`
+- `elliptic_hertz`: the elastic contact of an elliptic asperity with a flat
+- `gaussian_integral`: Greenwood and Williamson's integrals over Gaussian heights
+- `exponential_gw`, `exponential_ceb`, `exponential_ke`, `exponential_plastic`: load and area of
+  summits of these laws with exponential heights, as a `SummitSum`
+- `persson_area`: Persson's area of an elastic rough surface
+- `PERSSON_SLOPE`: how it begins, (A/A_n)/(p/E*g) at small load
+- `bush_gibson_thomas_area`: the area of Bush, Gibson and Thomas at vanishing load
+- `BUSH_GIBSON_THOMAS_SLOPE`: how it begins
 """
 
 from __future__ import annotations
@@ -37,6 +47,11 @@ __all__ = [
     "hertz_point",
     "persson_area",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
 
 PERSSON_SLOPE = math.sqrt(8 / math.pi)
 """(A/A_n)/(p/E*g) at small load after Persson, √(8/π) = 1.596."""

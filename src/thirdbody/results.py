@@ -1,7 +1,20 @@
 """Answers by their names: what `solve`, `transitions`, `sensitivity` and their kin return.
 
-A user receives these and rarely makes one; they stand here for annotations, for ``isinstance``
+You receive these and rarely make one; they stand here for annotations, for ``isinstance``
 and for their pages in the reference. Each has columns with symbol, unit and meaning.
+
+- `Equilibrium`: of `solve`, the solved states
+- `Transitions`: of `transitions`, critical loads; `Critical`: one of them; `TurningPoint`: three
+- `Assessment`: of `assess`, how sure the answer is, on one page
+- `Sensitivity`: of `sensitivity`, derivatives with respect to inputs
+- `Propagation`: of `propagate`, bands on results
+- `Best`: of `design`, the best inputs
+- `LifeHistory`: of `life`, an oil and its contact over time
+- `MixedFilm`: of `films.mixed_film`, a lubricated contact
+- `Coupled`, `CoupledState`: of `equilibria.coupled`, states that agree with their heat
+- `ExplicitState`: of `explicit.solve`, one surface with every particle at its place
+- `Ensemble`: of `explicit.ensemble`, many such surfaces against the statistical model
+- `StudyResult`, `FilmResult`: of a study file, dry and with its film
 """
 
 from .analysis.assessment import Assessment

@@ -141,11 +141,11 @@ def test_the_file_says_what_python_says():
     asked = changed()
     assert list(asked["vary"]) == [SIZE, AMOUNT]
     np.testing.assert_allclose(list(asked["vary"].values()), [(5e-8, 1e-6), (5e-4, 7e-3)])
-    assert asked["suspension"] == tb.Suspension(
+    assert asked["suspension"] == tb.objectives.Suspension(
         gap=1e-6, concentration=3e-3, particle_density=2200.0
     )
-    assert asked["objective"] == [tb.Objective(of="mu")]
-    assert asked["limits"] == [tb.Limit(of="plastic_share", most=0.5)]
+    assert asked["objective"] == [tb.objectives.Objective(of="mu")]
+    assert asked["limits"] == [tb.objectives.Limit(of="plastic_share", most=0.5)]
     np.testing.assert_allclose(asked["pressure"], [1e6, 2e6, 5e6, 1e7])
 
 

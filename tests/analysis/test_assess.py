@@ -39,7 +39,7 @@ from thirdbody.views import assess_page, plot
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "assess.toml"
 FEW = ["--set", "uncertainty.samples=64"]
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def run(*arguments):
@@ -526,7 +526,7 @@ def test_particles_that_break_are_told_with_all_bounds_of_their_fragments():
         material=quartz,
         diameter=tb.LogNormal(median=20e-6, gsd=1.3),
         areal_density=1e7,
-        strength=tb.WeibullStrength.of(quartz),
+        strength=tb.grains.WeibullStrength.of(quartz),
     )
     contact = tb.Contact(
         surfaces=tb.MaterialPair(steel, steel),
@@ -581,7 +581,7 @@ def test_a_contact_tried_on_the_way_and_refused_ends_the_way_not_the_page(monkey
 
     def refuses(contact, load, value, vary, count, **more):
         if np.any(vary["roughness.sigma"] < smooth):
-            raise tb.InvalidValue(why)
+            raise tb.errors.InvalidValue(why)
         return samples.columns_at(contact, load, value, vary, count, **more)
 
     monkeypatch.setattr("thirdbody.analysis.assess.columns_at", refuses)
@@ -600,11 +600,13 @@ def test_what_pieces_bear_is_not_known_where_a_model_refuses_them(monkeypatch):
 
     def refuses(contact, **load):
         if contact.populations[0].strength.fragments == "all":
-            raise tb.InvalidValue(why)
+            raise tb.errors.InvalidValue(why)
         return tb.solve(contact, **load)
 
     monkeypatch.setattr("thirdbody.analysis.assess.solve", refuses)
-    weak = DUSTY.replace(**{"particles.strength": tb.WeibullStrength(sigma_0=1e8, x_0=3e-7, m=3.0)})
+    weak = DUSTY.replace(
+        **{"particles.strength": tb.grains.WeibullStrength(sigma_0=1e8, x_0=3e-7, m=3.0)}
+    )
     (said,) = about_fragments(weak, {"pressure": 5e6})
     assert f"{NOT_KNOWN} ({why})" in said
 

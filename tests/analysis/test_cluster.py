@@ -129,7 +129,7 @@ def test_a_mistake_comes_back_as_itself(client):
     """Some of the diameters are too large for so many particles."""
     wide = CONTACT.replace(**{"particles.areal_density": 1e12})
     sizes = np.geomspace(1e-7, 2e-6, 5000)
-    with pytest.raises(tb.InvalidValue, match="jammed"):
+    with pytest.raises(tb.errors.InvalidValue, match="jammed"):
         tb.sweep(wide, F_star=1e-5, vary={"particles.diameter.mean": sizes}, client=client)
 
 
@@ -168,7 +168,7 @@ def test_surfaces_survive_a_killed_worker(cluster, client, tmp_path):
 
     def pressed(name, **how):
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", tb.RangeWarning)
+            warnings.simplefilter("ignore", tb.errors.RangeWarning)
             found = tb.explicit.ensemble(CONTACT, **asked, folder=tmp_path / name, **how)
         return json.dumps(found.to_dict()), json.dumps(found.states)
 

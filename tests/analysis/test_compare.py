@@ -154,7 +154,7 @@ def test_adhesive_and_elliptic_laws_when_asked():
     ],
 )
 def test_mistakes(options, words):
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         tb.compare(contact(), **options)
     for word in words:
         assert word in str(caught.value)
@@ -486,4 +486,6 @@ def test_python_of_the_choosing_page_runs():
     imports, *lines = filter(None, code.splitlines())
     assert imports == "import thirdbody as tb"
     for line in lines:
-        assert isinstance(eval(line, {"tb": tb}), (tb.Heights, tb.asperity.AbstractAsperityLaw))
+        assert isinstance(
+            eval(line, {"tb": tb}), (tb.heights.Heights, tb.asperity.AbstractAsperityLaw)
+        )

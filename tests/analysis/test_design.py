@@ -151,7 +151,7 @@ def test_the_book_shows_the_sizes_of_equal_shares(number, place):
         "particles.diameter.std": 3e-9,
     }
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)  # far squeezed, as the page says
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)  # far squeezed, as the page says
         size = equal_share_size(contact().replace(**sized), pressure=[1e6, 5e6, 5e7][place])
     assert row.split(" | ")[place] == f"{size:.2f}"
 
@@ -388,7 +388,7 @@ def test_number_follows_from_the_fluid():
         ({"suspension": Suspension(gap=1e-6, concentration=1e-3)}, "needs the density"),
     ):
         asked = {"vary": {SIZE: (5e-8, 5e-7)}, "suspension": fluid, "pressure": [5e6]}
-        with pytest.raises(tb.InvalidValue, match=said):
+        with pytest.raises(tb.errors.InvalidValue, match=said):
             design(contact(), objective=Objective(of="A_t"), **{**asked, **mistake})
 
 

@@ -17,15 +17,16 @@ from steel_and_dust import DUSTY, STEEL, TWO_BODY
 import thirdbody as tb
 
 # the laws are asked outside their ranges too: derivatives are exact there as well
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 BRONZE = tb.Material(E=110e9, nu=0.34, H=1.9e9)
 PLANE = DUSTY.replace(particle_law=tb.particle.Series(deep="off", seat="plane"))
 MONODISPERSE = PLANE.replace(
-    surfaces=tb.MaterialPair(STEEL, BRONZE), **{"particles.diameter": tb.Monodisperse(mean=300e-9)}
+    surfaces=tb.MaterialPair(STEEL, BRONZE),
+    **{"particles.diameter": tb.distributions.Monodisperse(mean=300e-9)},
 )
 EXPONENTIAL = TWO_BODY.replace(
-    asperity_law=tb.asperity.GW(), **{"roughness.heights": tb.ExponentialHeights()}
+    asperity_law=tb.asperity.GW(), **{"roughness.heights": tb.heights.ExponentialHeights()}
 )
 BOTH = {last: f"surfaces.first.{last}+surfaces.second.{last}" for last in ("E", "nu", "H")}
 PARTICLES = ("particles.diameter.mean", "particles.areal_density")
@@ -344,8 +345,8 @@ def test_several_loads_at_once():
 SAND = tb.Particles(
     material=tb.materials["quartz"],
     areal_density=1e7,
-    diameter=tb.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3,)),
-    strength=tb.WeibullStrength.of(tb.materials["quartz"]),
+    diameter=tb.distributions.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3,)),
+    strength=tb.grains.WeibullStrength.of(tb.materials["quartz"]),
 )
 FEW_BREAK = ("particles.strength.m", "roughness.sigma", "surfaces.first.E+surfaces.second.E")
 
@@ -388,7 +389,7 @@ def test_quick_ones_make_no_tables(monkeypatch):
 def test_loads_that_nothing_carries():
     got = tb.sensitivity(TWO_BODY, of="A_t", to=["roughness.sigma", "F_star"], F_star=[1e3, 1e4])
     assert np.all(np.isnan(got.derivative["A_t"]["F_star"]))
-    with pytest.raises(tb.NoEquilibrium):
+    with pytest.raises(tb.errors.NoEquilibrium):
         tb.sensitivity(TWO_BODY, of="A_t", to="roughness.sigma", F_star=1e3)
 
 

@@ -298,7 +298,7 @@ def test_codes_say_why_there_is_no_state(tmp_path):
 def test_warnings_are_those_of_solve():
     loads = np.geomspace(1e-5, 3e-2, 5)
     crowded = DUSTY.replace(**{DENSITY: 6e12})
-    with pytest.warns(tb.RangeWarning):
+    with pytest.warns(tb.errors.RangeWarning):
         wanted = tb.solve(crowded, F_star=loads).warnings
     assert len(wanted) > 1
     found = tb.sweep(crowded, F_star=loads).attrs["warnings"].splitlines()
@@ -583,7 +583,7 @@ def test_another_order_of_the_inputs_is_another_study(tmp_path):
     assert one | {"order": None} == other | {"order": None}
     kept = tb.sweep(DUSTY, **first, out=tmp_path)
     before = files(tmp_path)
-    with pytest.raises(tb.InvalidValue) as error:
+    with pytest.raises(tb.errors.InvalidValue) as error:
         tb.sweep(DUSTY, **again, out=tmp_path)
     assert len(error.value.problems) == 1
     names = list(spans)
@@ -864,7 +864,7 @@ def test_mistakes_in_the_file(settings, sentence):
     if settings == ["sweep.F_star=1e-5"]:
         assert load_study(EXAMPLE, settings).sweep.load == "F_star"
         return
-    with pytest.raises(tb.InvalidValue) as error:
+    with pytest.raises(tb.errors.InvalidValue) as error:
         load_study(EXAMPLE, settings)
     assert len(error.value.problems) == 1, error.value.problems
     assert sentence in str(error.value)
@@ -877,7 +877,7 @@ def test_every_mistake_at_once():
     data["sweep"] |= {"samples": "many", "colums": ["A_t"]}
     data["sweep"]["vary"]["roughness"]["R"] = {"from": "4 um", "to": "2 um"}
     data["roughness"]["R"] = -1
-    with pytest.raises(tb.InvalidValue) as error:
+    with pytest.raises(tb.errors.InvalidValue) as error:
         check(data)
     assert len(error.value.problems) == 4
     text = str(error.value)

@@ -17,7 +17,9 @@ CONTACT = tb.Contact(
     surfaces=tb.MaterialPair(STEEL, STEEL),
     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     particles=tb.Particles(
-        material=tb.materials["SiO2"], areal_density=1e11, diameter=tb.Monodisperse(mean=3e-7)
+        material=tb.materials["SiO2"],
+        areal_density=1e11,
+        diameter=tb.distributions.Monodisperse(mean=3e-7),
     ),
 )
 SIGMA = ufloat(100e-9, 2e-9)
@@ -108,7 +110,7 @@ def test_correlated_inputs_are_taken_to_first_order():
         ({"roughness.sigma": 1e-7}, "must be a ufloat"),
         ({"roughness.sigma": ufloat(2e-7, 1e-9)}, "which the slopes are taken at"),
     ):
-        with pytest.raises(tb.InvalidValue, match=words):
+        with pytest.raises(tb.errors.InvalidValue, match=words):
             several.ufloats(vary)
 
 

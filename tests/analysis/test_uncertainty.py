@@ -22,13 +22,13 @@ from thirdbody.study import check
 # small particles, too few to carry a low load: their share rises before it falls
 FEW = DUSTY.replace(
     **{
-        "particles.diameter": tb.Monodisperse(mean=150e-9),
+        "particles.diameter": tb.distributions.Monodisperse(mean=150e-9),
         "particles.areal_density": 1e11,
         "particle_law.zeta_std": 0.4,
     }
 )
 EXPONENTIAL = TWO_BODY.replace(
-    asperity_law=tb.asperity.GW(), **{"roughness.heights": tb.ExponentialHeights()}
+    asperity_law=tb.asperity.GW(), **{"roughness.heights": tb.heights.ExponentialHeights()}
 )
 RANGES = {
     "roughness.sigma": tb.Uncertain.uniform(low=85e-9, high=115e-9),
@@ -40,7 +40,7 @@ BOTH_H = "surfaces.first.H+surfaces.second.H"
 SALIB = pytest.mark.skipif(
     importlib.util.find_spec("SALib") is None, reason="SALib is not installed"
 )
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def draw(inputs, count, seed):
@@ -538,7 +538,7 @@ def test_mistakes_of_study_files(inputs, refusal):
 
 
 def test_every_mistake_of_a_file_is_told_at_once():
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         study({"roughness.sigma": {"low": 1}, "roughness.R": 2}, samples=3, sede=1)
     text = "\n".join(caught.value.problems)
     for word in ("roughness.sigma", "roughness.R", "samples = 3", "sede"):
@@ -563,7 +563,7 @@ def test_crowded_samples_are_counted_and_told():
     assert found.at_load(1).crowded == found.crowded[1]
     assert found.to_dict()["crowded"] == found.crowded.tolist()
     with warnings.catch_warnings():
-        warnings.simplefilter("error", tb.RangeWarning)
+        warnings.simplefilter("error", tb.errors.RangeWarning)
         assert tb.propagate(contact, pressure=50e6, **asked).crowded == 0
 
 

@@ -962,8 +962,8 @@ def test_pieces_are_no_part_of_the_particles_that_came(fragments, part):
     """Particles that break leave more pieces than there were of them; some, never above 100 %."""
     steel, quartz = tb.materials["100Cr6"], tb.materials["quartz"]
     dust = tb.Particles(
-        material=quartz, areal_density=1e8, diameter=tb.Monodisperse(mean=5e-6),
-        strength=tb.WeibullStrength.of(quartz, fragments=fragments),
+        material=quartz, areal_density=1e8, diameter=tb.distributions.Monodisperse(mean=5e-6),
+        strength=tb.grains.WeibullStrength.of(quartz, fragments=fragments),
     )  # fmt: skip
     contact = tb.Contact(
         surfaces=tb.MaterialPair(steel, steel), particles=dust, outputs=tb.outputs.Counts(),

@@ -67,6 +67,7 @@ WARNED |= {
     )
 }  # fmt: skip
 WARNED["steel_debris_in_film"].append("particles flatten, as debris = 'ductile' says")
+WARNED["oil_film"].append("the oil of [film] carries nothing here")
 WARNED["quartz_in_bearing"] = ["strengths are extrapolated by a factor"]
 """What examples are warned of, and not of anything else."""
 
@@ -255,7 +256,9 @@ def test_no_equilibrium_exits_3():
     assert "all 2 states" in result.stderr
 
 
-@pytest.mark.parametrize("error", [tb.NoEquilibrium("nothing"), tb.NoTransition("nothing")])
+@pytest.mark.parametrize(
+    "error", [tb.errors.NoEquilibrium("nothing"), tb.errors.NoTransition("nothing")]
+)
 def test_errors_of_the_library_exit_3(monkeypatch, error):
     def fail(*_):
         raise error
@@ -267,7 +270,7 @@ def test_errors_of_the_library_exit_3(monkeypatch, error):
 
 def test_transitions_never_fail(monkeypatch):
     def fail(*_, **__):
-        raise tb.NoTransition("nothing")
+        raise tb.errors.NoTransition("nothing")
 
     monkeypatch.setattr(study.run, "transitions", fail)
     result = run("solve", DUSTY, "--json")

@@ -510,7 +510,7 @@ def test_a_file_that_cannot_be_made_is_refused_before_the_work(place, said, tmp_
     monkeypatch.chdir(tmp_path)
     if place.startswith("/proc") and not Path("/proc/self").exists():
         pytest.skip("this system has no folder that takes no files")
-    with pytest.raises(tb.InvalidValue, match=re.escape(said)):
+    with pytest.raises(tb.errors.InvalidValue, match=re.escape(said)):
         need_folders(place)
     assert list(tmp_path.iterdir()) == []
     need_folders(tmp_path / "a.csv")

@@ -361,7 +361,7 @@ ingress = { median = 1, gsd = 2 }
     # what is printed of it: the one place that holds these words
     told = said(run("life", "known.toml", *keys))
     assert f"the oil is at {bands.codes[0]} to {bands.codes[-1]} after 2 h (90 %)" in told
-    assert f"in {bands.missed('code 13/11/7')} of 64 histories not by 2 h" in told
+    assert f"in {bands.count_missed('code 13/11/7')} of 64 histories not by 2 h" in told
 
 
 def test_the_flow_that_is_enough_for_a_code():

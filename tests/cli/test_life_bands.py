@@ -73,16 +73,16 @@ def test_how_sure_an_oil_is_and_what_decides():
 def test_censored_quantiles_are_those_of_what_is_known():
     """One exponential: with a factor on the start, the time to a count has a closed form."""
     quartz = tb.materials["quartz"]
-    dirt = tb.OilDirt.from_iso4406("18/16/13", material=quartz)
-    oil = tb.OilCircuit(volume=0.2, start=dirt, ingress=(),
-                        filters=tb.Filter(sizes=(4e-6,), betas=(1e9,), flow=1e-3))  # fmt: skip
+    dirt = tb.oil.OilDirt.from_iso4406("18/16/13", material=quartz)
+    oil = tb.oil.OilCircuit(volume=0.2, start=dirt, ingress=(),
+                        filters=tb.oil.Filter(sizes=(4e-6,), betas=(1e9,), flow=1e-3))  # fmt: skip
     found = propagate_life(
         oil, vary={"volume": tb.Uncertain.uniform(low=0.1, high=0.3)}, duration=300.0,
-        until=[tb.until.iso4406("15/13/10")], samples=256,
+        until=[tb.oil.until.iso4406("15/13/10")], samples=256,
     )  # fmt: skip
     one = propagate_life(
         oil, vary={"volume": tb.Uncertain.uniform(low=0.2, high=0.2000001)}, duration=1e4,
-        until=[tb.until.iso4406("15/13/10")], samples=64,
+        until=[tb.oil.until.iso4406("15/13/10")], samples=64,
     )  # fmt: skip
     per_volume = one.times["code 15/13/10"][1] / 0.2  # time is proportional to the volume
     least = found.times["code 15/13/10"][0]
@@ -91,17 +91,17 @@ def test_censored_quantiles_are_those_of_what_is_known():
     assert found.reached["code 15/13/10"] == pytest.approx(
         (300.0 / per_volume - 0.1) / 0.2, abs=2 / 256
     )
-    assert found.missed("code 15/13/10") == 256 - round(256 * found.reached["code 15/13/10"])
+    assert found.count_missed("code 15/13/10") == 256 - round(256 * found.reached["code 15/13/10"])
 
 
 def test_an_event_that_never_comes_is_censored_throughout():
     oil = load_oil(study("oil-circuit", "")).circuit
     found = propagate_life(
         oil, vary={"ingress": tb.Uncertain.uniform(low=0.9, high=1.1)}, duration=60.0,
-        until=[tb.until.iso4406("28/26/24")], samples=16,
+        until=[tb.oil.until.iso4406("28/26/24")], samples=16,
     )  # fmt: skip
     assert np.all(np.isinf(found.times["code 28/26/24"]))
-    assert found.missed("code 28/26/24") == 16
+    assert found.count_missed("code 28/26/24") == 16
 
 
 IN_UNCERTAINTY = """
@@ -131,7 +131,7 @@ def test_uncertainty_varies_a_life():
     assert 0 < data["missed"]["code 13/11/7"] < data["samples"] == 64
     by_hand = propagate_life(
         asked.circuit, vary=asked.uncertainty, duration=2 * HOUR, samples=64, seed=3,
-        until=[tb.until.iso4406("13/11/7")],
+        until=[tb.oil.until.iso4406("13/11/7")],
     )  # fmt: skip
     assert data["counts"] == by_hand.counts.tolist()
     # the rest of the table is of the contact, for the other commands

@@ -94,7 +94,7 @@ def test_the_choice_with_the_longest_time_to_an_event():
     for name, changes in {"a larger filter": {"filters.0.capacity": 0.1}, "less oil": {"volume": 0.1},
                           "as it is": {}}.items():  # fmt: skip
         history = run_oil_history(
-            asked.circuit.replace(**changes), duration=7.2e6, until=(tb.until.filter_full(),)
+            asked.circuit.replace(**changes), duration=7.2e6, until=(tb.oil.until.filter_full(),)
         )
         assert times[name] == pytest.approx(float(history.times[-1]), rel=1e-9)
 

@@ -56,7 +56,7 @@ def test_a_study_says_what_python_says():
         own = tb.life(
             contact, pressure=1e6, sliding_speed=0.1, length=0.01, area=1e-4, loss=0.3, moving=1,
             worn_area=(2e-3, 1e-4), debris=Debris.boundary_lubricated(hardness=9e9),
-            arrivals=tb.Ingress.of_dust("A3-lot", rate="1 mg/h", material=quartz), duration=HOUR,
+            arrivals=tb.oil.Ingress.of_dust("A3-lot", rate="1 mg/h", material=quartz), duration=HOUR,
         )  # fmt: skip
     np.testing.assert_allclose(found.history.numbers, own.numbers, rtol=1e-6, atol=1e-3)
     assert found.history.R0 == pytest.approx(own.R0, rel=1e-9)

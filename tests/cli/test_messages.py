@@ -61,7 +61,7 @@ def test_advice_keeps_both_wordings_wherever_it_goes():
     for made, start in (
         (Problem("law", said, "'zmc'", owner="Series"), "Series.law = 'zmc' "),
         (Problem("law", "is not one", hint=said), "law is not one; "),
-        (Problem("", said).under("particles"), "particles: "),
+        (Problem("", said).move_under("particles"), "particles: "),
         (InvalidValue(said).problems[0], ""),
         (Note("A_t reaches 0.3", action=said), "A_t reaches 0.3; "),
         (Note("A_t reaches 0.3: " + said, effect=0.1), "A_t reaches 0.3: "),

@@ -128,7 +128,7 @@ def test_distributions_of_ones_own_hold_in_every_engine():
         particles=tb.Particles(
             material=tb.materials["SiO2"],
             areal_density=1e11,
-            diameter=tb.Monodisperse(mean=300e-9),
+            diameter=tb.distributions.Monodisperse(mean=300e-9),
         ),
     )
     with registries_kept():

@@ -246,7 +246,7 @@ print(f"ufloat    {bands.ufloat('h'):.2uP} {h:.2uP}")
 curves = tb.sweep(contact, F_star=[1e-5, 1e-4], vary={"roughness.sigma": [50e-9, 100e-9]})
 print(f"xarray    {dict(curves.sizes)}")
 print(f"pandas    {curves.to_dataframe().shape[0]} rows")
-surface = tb.synthetic.self_affine(
+surface = tb.surfaces.self_affine(
     sigma=100e-9, hurst=0.8, shortest=8e-7, longest=3e-6, spacing=1e-7, points=64
 )
 pressed = tb.explicit.solve(contact, surface, F_star=1e-3, blocks=4)

@@ -9,7 +9,7 @@ from twins import Twin, agree, base, horng_twins, interfaces, series_twin, serie
 
 import thirdbody as tb
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 SLOW = settings(max_examples=settings().max_examples * 2 // 3)
 
 
@@ -135,7 +135,7 @@ def test_mixture_is_the_sum_of_its_parts():
     parts = (
         tb.TruncatedGaussian(mean=2e-7, std=2e-8),
         tb.LogNormal(median=4e-7, gsd=1.2),
-        tb.Monodisperse(mean=3.3e-7),
+        tb.distributions.Monodisperse(mean=3.3e-7),
     )
     weights = (5.0, 1.0, 2.0)
     for seat in ("plane", "rough"):
@@ -150,7 +150,7 @@ def test_mixture_is_the_sum_of_its_parts():
             state = tb.solve(changed, d=1.8e-7)
             return np.array([state.F_sa_star, state.A_sa, state.A_sa2, state.shadow])
 
-        both = load(tb.Mixture(parts=parts, weights=weights), 8e10)
+        both = load(tb.distributions.Mixture(parts=parts, weights=weights), 8e10)
         alone = sum(load(part, 1e10 * w) for part, w in zip(parts, weights, strict=True))
         np.testing.assert_allclose(both, alone, rtol=1e-10)
 
@@ -158,7 +158,7 @@ def test_mixture_is_the_sum_of_its_parts():
 def test_histogram_of_many_bins_approaches_the_law():
     law = tb.TruncatedGaussian(mean=3e-7, std=4e-8)
     edges = np.linspace(*law.support, 49)
-    bins = tb.Histogram(
+    bins = tb.distributions.Histogram(
         edges=tuple(edges), counts=tuple(law.partial_moment(0, edges[:-1], edges[1:]))
     )
     twin = series_twin(oracle.Interface(), oracle.SILICA, sizes("gaussian", 3e-7, 0.2), 1e11, 2e-7)

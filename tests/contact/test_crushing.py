@@ -15,16 +15,16 @@ from thirdbody.laws.base import OneParticle, Squeezed
 from thirdbody.laws.particle.breakage import Breakage, crush_embed_size
 from thirdbody.laws.particle.tension import at_centre, at_equator, confined_tension, tension
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 CASES = json.loads((Path(__file__).parents[1] / "cases" / "crushing.json").read_text())["values"]
 STEEL = tb.Material(E=206e9, nu=0.29, H=7.4e9)
 SOFTER = tb.Material(E=180e9, nu=0.3, H=3e9)
 QUARTZ = tb.Material(E=95.8e9, nu=0.082, H=12e9, name="quartz")
 PAIR = tb.MaterialPair(STEEL, STEEL)
-STRENGTH = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3, size_exponent=0.55, x_c=0.96e-6)
+STRENGTH = tb.grains.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3, size_exponent=0.55, x_c=0.96e-6)
 ONE = tb.particle.Series(deep="off").one(surfaces=PAIR, particle=QUARTZ)
-UNIFORM = tb.Uniform(low=4e-6, high=8e-6)
+UNIFORM = tb.distributions.Uniform(low=4e-6, high=8e-6)
 FRAGMENTS = ("gone", "footprint", "all")
 
 
@@ -36,7 +36,7 @@ def average_of(strength, sizes, *, one=ONE, material=QUARTZ):
 
 def expected_load(x, gap, strength, one=ONE):
     """Mean load [N] of one particle of size x and its pieces."""
-    average, scale = average_of(strength, tb.Monodisperse(mean=x), one=one)
+    average, scale = average_of(strength, tb.distributions.Monodisperse(mean=x), one=one)
     return scale**2 * average.average(np.array([gap / x]), np.array([1 - gap / x]))[0, 0]
 
 
@@ -81,7 +81,7 @@ def test_values_of_an_independent_implementation(case):
 def test_a_realistic_case():
     """Quartz of 5 to 40 µm between 60 HRC, counted by hand elsewhere to the digits shown."""
     hard = tb.Material(E=206e9, nu=0.29, H=7.37e9)
-    sizes = tb.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3.0,))
+    sizes = tb.distributions.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3.0,))
     gaps = np.array([30, 20, 10, 5, 2, 0.1]) * 1e-6
     told = {
         None: [0.0246, 0.212, 0.967, 2.48, 3.81, 3.81],
@@ -93,7 +93,7 @@ def test_a_realistic_case():
     caught = sizes.partial_moment(0, gaps, np.inf)
     mass = sizes.partial_moment(3, gaps, np.inf) / sizes.moment(3)
     for fragments, expected in told.items():
-        strength = fragments and tb.WeibullStrength.of(quartz, fragments=fragments)
+        strength = fragments and tb.grains.WeibullStrength.of(quartz, fragments=fragments)
         dust = tb.Particles(material=quartz, diameter=sizes, areal_density=1e7, strength=strength)
         contact = tb.Contact(
             surfaces=tb.MaterialPair(hard, hard),
@@ -172,7 +172,7 @@ def test_strong_particles_are_those_of_before(seat):
 
 @pytest.mark.parametrize("sizes", [UNIFORM, tb.TruncatedGaussian(mean=9e-6, std=2.5e-6),
                                    tb.LogNormal(median=4e-6, gsd=1.8),
-                                   tb.Monodisperse(mean=7e-6)], ids=lambda s: type(s).__name__)  # fmt: skip
+                                   tb.distributions.Monodisperse(mean=7e-6)], ids=lambda s: type(s).__name__)  # fmt: skip
 @pytest.mark.parametrize("m", [1.0, 3.0, 12.0])
 def test_a_closed_gap_carries_what_whole_particles_would(sizes, m):
     """Fragments over the footprint of their parent, all embedded: min(H) πx²/4 exactly."""
@@ -183,7 +183,9 @@ def test_a_closed_gap_carries_what_whole_particles_would(sizes, m):
         assert found == pytest.approx(7.4e9 * np.pi / 4 * sizes.moment(2), rel=1e-9)
 
 
-@pytest.mark.parametrize("sizes", [UNIFORM, tb.Monodisperse(mean=7e-6)], ids=["many", "one"])
+@pytest.mark.parametrize(
+    "sizes", [UNIFORM, tb.distributions.Monodisperse(mean=7e-6)], ids=["many", "one"]
+)
 def test_pieces_of_all_generations_keep_the_volume(sizes):
     average, scale = average_of(STRENGTH.replace(fragments="all"), sizes)
     pieces = average.pieces(
@@ -231,7 +233,7 @@ class Spring(OneParticle):
 @pytest.mark.parametrize("m", [1.5, 3.0, 8.0])
 def test_the_load_of_springs_peaks_where_it_must(m):
     """G = 1 and f ∝ ε: at (σ/σ_x)^m = 1/m, where e^(−1/m) survive."""
-    strength = tb.WeibullStrength(
+    strength = tb.grains.WeibullStrength(
         sigma_0=1e8, x_0=1e-5, m=m, x_c=0.0, fragments="gone", confinement="none"
     )
     spring, x = Spring(5e8), 1e-5
@@ -259,7 +261,7 @@ def test_x_c_follows_from_toughness():
     # the toughness of an equal material decides: none of the two takes the other's sums
     d = np.array([0.2e-6])
     loads = [pressure_of(contact_of(free.replace(fragments="gone"), material=each,
-                                    sizes=tb.Uniform(low=0.5e-6, high=1e-6)), d)[0]
+                                    sizes=tb.distributions.Uniform(low=0.5e-6, high=1e-6)), d)[0]
              for each in (QUARTZ, QUARTZ.replace(K_c=2e6))]  # fmt: skip
     assert loads[0] < loads[1]
 
@@ -326,8 +328,8 @@ SIZES = {
     "gaussian": tb.TruncatedGaussian(mean=6e-6, std=1e-6),
     "narrow": tb.TruncatedGaussian(mean=6e-6, std=6e-9),
     "lognormal": tb.LogNormal(median=3e-6, gsd=1.6),
-    "one": tb.Monodisperse(mean=6e-6),
-    "histogram": tb.Histogram(edges=(2e-6, 4e-6, 5e-6, 9e-6), counts=(5, 1, 2)),
+    "one": tb.distributions.Monodisperse(mean=6e-6),
+    "histogram": tb.distributions.Histogram(edges=(2e-6, 4e-6, 5e-6, 9e-6), counts=(5, 1, 2)),
 }
 
 
@@ -417,12 +419,12 @@ def test_explicit_grains_break_one_by_one(fragments):
 
 # ---------------------------------------------------------------- where nothing is
 ABOVE = {
-    "monodisperse": tb.Monodisperse(mean=6e-6),
+    "monodisperse": tb.distributions.Monodisperse(mean=6e-6),
     "gaussian": tb.TruncatedGaussian(mean=6e-6, std=6e-7),
     "log-normal": tb.LogNormal(median=6e-6, gsd=1.2),
-    "power law": tb.PowerLaw(edges=(2e-6, 9e-6), counts=(1,), slopes=(3.0,)),
-    "histogram": tb.Histogram(edges=(2e-6, 5e-6, 9e-6), counts=(3, 1)),
-    "down to nothing": tb.Uniform(low=0.0, high=8e-6),
+    "power law": tb.distributions.PowerLaw(edges=(2e-6, 9e-6), counts=(1,), slopes=(3.0,)),
+    "histogram": tb.distributions.Histogram(edges=(2e-6, 5e-6, 9e-6), counts=(3, 1)),
+    "down to nothing": tb.distributions.Uniform(low=0.0, high=8e-6),
 }
 
 
@@ -444,9 +446,9 @@ def outputs_of_all():
         except TypeError:
             try:
                 yield kind()
-            except (TypeError, tb.InvalidValue):
+            except (TypeError, tb.errors.InvalidValue):
                 continue
-        except tb.InvalidValue:
+        except tb.errors.InvalidValue:
             continue
 
 
@@ -477,7 +479,10 @@ def test_no_particle_is_loaded_in_a_gap_above_the_largest(sizes, seat, fragments
 
 # ---------------------------------------------------------------- what has no end
 @pytest.mark.parametrize("seat", ["rough", "plane"])
-@pytest.mark.parametrize("sizes", [tb.Monodisperse(mean=1e-5), tb.Uniform(low=0.0, high=1e-5)])
+@pytest.mark.parametrize(
+    "sizes",
+    [tb.distributions.Monodisperse(mean=1e-5), tb.distributions.Uniform(low=0.0, high=1e-5)],
+)
 @pytest.mark.parametrize("fragments", ["footprint", "all"])
 @pytest.mark.parametrize(
     "changes",
@@ -492,16 +497,16 @@ def test_no_particle_is_loaded_in_a_gap_above_the_largest(sizes, seat, fragments
 )
 def test_pieces_that_break_for_ever_are_refused(seat, sizes, fragments, changes):
     strength = STRENGTH.replace(**{"x_c": 0.0, "fragments": fragments, **changes})
-    with pytest.raises(tb.InvalidValue, match="generations"):
+    with pytest.raises(tb.errors.InvalidValue, match="generations"):
         tb.solve(contact_of(strength, seat=seat, sizes=sizes), pressure=1e5)
 
 
 def test_pieces_that_end_are_followed_to_the_end():
     """A smaller share of what is left changes nothing: the bound is far beyond what bears."""
     strength = STRENGTH.replace(x_c=0.0, size_exponent=0.3)
-    average, scale = average_of(strength, tb.Monodisperse(mean=1e-5))
+    average, scale = average_of(strength, tb.distributions.Monodisperse(mean=1e-5))
     assert average.least * scale < 1e-10
-    shallow, _ = average_of(strength.replace(x_c=1e-10), tb.Monodisperse(mean=1e-5))
+    shallow, _ = average_of(strength.replace(x_c=1e-10), tb.distributions.Monodisperse(mean=1e-5))
     gap = np.array([1e-4])
     np.testing.assert_allclose(
         average.average(gap, 1 - gap)[0, 0], shallow.average(gap, 1 - gap)[0, 0], rtol=1e-9

@@ -13,7 +13,10 @@ STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 
 def contact(first: tb.Material = STEEL, body: tb.Material = SILICA, **more) -> tb.Contact:
     particles = tb.Particles(
-        material=body, areal_density=1e10, diameter=tb.Monodisperse(mean=300e-9), name="dust"
+        material=body,
+        areal_density=1e10,
+        diameter=tb.distributions.Monodisperse(mean=300e-9),
+        name="dust",
     )
     return tb.Contact(
         surfaces=tb.MaterialPair(first, STEEL),
@@ -81,7 +84,7 @@ def test_a_conductivity_of_its_own_is_written_out():
 
 
 def test_tables_of_a_contact_do_not_warn_of_a_slip_again():
-    with pytest.warns(tb.RangeWarning, match="GPa"):
+    with pytest.warns(tb.errors.RangeWarning, match="GPa"):
         slip = contact(tb.Material(E=205.0, nu=0.3, H=5e9))
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -40,7 +40,7 @@ def contact(ratio=0.04464, *, density=1e11, size=SIGMA, law=None, **others):
     body = tb.Material(E=2 * E_STAR * (1 - 0.09), nu=0.3, H=ratio * E_STAR)
     particles = tb.Particles(
         material=body.replace(H=4 * body.H), areal_density=density,
-        diameter=tb.Monodisperse(mean=size),
+        diameter=tb.distributions.Monodisperse(mean=size),
     )  # fmt: skip
     given = {
         "surfaces": tb.MaterialPair(body, body),
@@ -165,7 +165,7 @@ def test_units():
         asperity_law=tb.asperity.Field(),
         particles=tb.Particles(
             material=body.replace(H=4 * body.H), areal_density=1e11 / 9,
-            diameter=tb.Monodisperse(mean=3 * SIGMA),
+            diameter=tb.distributions.Monodisperse(mean=3 * SIGMA),
         ), particle_law=tb.particle.Series(deep="off"),
     )  # fmt: skip
     loads = np.array([1e-4, 1e-3, 1e-2])
@@ -213,7 +213,11 @@ def test_particles_of_many_sizes():
             refuses(Mistake.BEYOND, "Contact.asperity_law", says="2.5"),
         ),
         (
-            {"roughness": tb.Roughness(sigma=SIGMA, R=3e-6, heights=tb.WeibullHeights(shape=2.0))},
+            {
+                "roughness": tb.Roughness(
+                    sigma=SIGMA, R=3e-6, heights=tb.heights.WeibullHeights(shape=2.0)
+                )
+            },
             refuses(Mistake.BEYOND, "Contact.asperity_law", says="Gaussian"),
         ),
         (

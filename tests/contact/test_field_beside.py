@@ -64,7 +64,7 @@ def test_its_lowest_separation_is_one_of_its_table(H, density):
     scan = load_scan(bound)
     assert np.all(np.isfinite(scan.log_F))
     assert scan.monotone
-    assert len(tb.roots(bound.contact, F_star=1e-3)) == 1
+    assert len(tb.equilibria.roots(bound.contact, F_star=1e-3)) == 1
 
 
 def test_critical_loads_of_many_contacts_are_those_of_each():

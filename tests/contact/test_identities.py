@@ -12,7 +12,7 @@ from twins import base, decades, horng_twins, interfaces, material, series_twin,
 import thirdbody as tb
 from thirdbody.contact.interface import interface
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 PER_AREA = ("A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p")
 LOADS = ("F_star", "F_ss_star", "F_sa_star")
 ANY = st.one_of(series_twins(), horng_twins())
@@ -305,7 +305,7 @@ def test_printed_weight_exceeds_the_geometric_one(twin):
 @given(twin=series_twins())
 def test_load_is_smooth_in_d(twin):
     """Central differences of two steps agree as h²: no steps between nodes or table cells."""
-    assume(not isinstance(twin.contact.particles.diameter, tb.Monodisperse))
+    assume(not isinstance(twin.contact.particles.diameter, tb.distributions.Monodisperse))
     step = 1e-4 * twin.interface.rough.sigma
     d = twin.d + step * np.array([-2, -1, 1, 2])
     F = at(twin, d).F_star
@@ -428,7 +428,9 @@ def test_particles_of_one_size_have_no_slope_where_they_jump_in(shadow):
         surfaces=tb.MaterialPair(tb.materials["S45C"], tb.materials["S45C"]),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(
-            material=tb.materials["SiO2"], areal_density=1e10, diameter=tb.Monodisperse(mean=x)
+            material=tb.materials["SiO2"],
+            areal_density=1e10,
+            diameter=tb.distributions.Monodisperse(mean=x),
         ),
         particle_law=tb.particle.Horng2022(shadow=shadow),
     )

@@ -51,7 +51,7 @@ def test_a_mixture_of_sizes_is_two_populations_of_one_material():
     mixed = tb.Particles(
         material=SILICA,
         areal_density=4e10,
-        diameter=tb.Mixture(parts=(narrow, wide), weights=(0.25, 0.75)),
+        diameter=tb.distributions.Mixture(parts=(narrow, wide), weights=(0.25, 0.75)),
     )
     apart = [
         tb.Particles(material=SILICA, areal_density=density, diameter=sizes)

@@ -1,6 +1,7 @@
 """Particles pressed beyond the laws of one contact are told of, once, wherever states are told."""
 
 import json
+import warnings
 from dataclasses import replace
 from importlib import resources
 
@@ -10,11 +11,12 @@ import pytest
 import thirdbody as tb
 from thirdbody.contact import pressed
 from thirdbody.contact.pressed import about_pressed
-from thirdbody.errors import code_of
+from thirdbody.errors import code_of, note_of, place_note
 from thirdbody.laws.particle.deep import DeepSqueeze
+from thirdbody.quantities.say import value_of
 
 STEEL = tb.materials["S45C"]
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def contact(size, material="SiO2", **more):
@@ -50,7 +52,7 @@ def test_brittle_grains_beyond_their_strength():
     """On either side of the squeeze at which most grains of the mean size have failed."""
     size = 50e-6
     case = contact(size)
-    strength = tb.WeibullStrength.of(tb.materials["SiO2"])
+    strength = tb.grains.WeibullStrength.of(tb.materials["SiO2"])
     squeezes = np.geomspace(1e-6, 0.1, 400)
     spots = case.particle_law.probe(
         squeezes, surfaces=case.surfaces, particle=case.particles.material
@@ -62,6 +64,23 @@ def test_brittle_grains_beyond_their_strength():
     assert brittle(case, size * (1 - 1.5 * limit))
     told = case.replace(particles=case.particles.replace(strength=strength))
     assert not brittle(told, size * (1 - 1.5 * limit))
+
+
+def test_notes_say_at_which_state_grains_break():
+    """At the lowest separation of those that were solved; of a derivative at the critical load."""
+    case = contact(50e-6)
+    states = tb.solve(case, d=np.array([49.9e-6, 40e-6]))
+    (note,) = (each for each in states.warnings if code_of(each) == "brittle")
+    assert f"h = {value_of(states.h[1], 'm')}" in note
+
+    critical = tb.transitions(case).F_tpca.B.value
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", tb.errors.RangeWarning)
+        tb.sensitivity(case, of="F_tpca.B", to="roughness.sigma")
+        alone = tb.solve(case, F_star=critical)
+    placed = [note_of(item.message) for item in heard]
+    (there,) = (each for each in placed if str(each).startswith("at F_tpca B, "))
+    assert there == place_note(*(n for n in alone.warnings if code_of(n) == "brittle"), "F_tpca B")
 
 
 def test_what_does_not_break_is_not_told_of():
@@ -103,7 +122,7 @@ def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
         surfaces=tb.MaterialPair(STEEL, STEEL),
         roughness=tb.Roughness(sigma=50e-9, R=5e-6),
         particles=tb.Particles(
-            material=soft, diameter=tb.Monodisperse(mean=10e-6), areal_density=1e8
+            material=soft, diameter=tb.distributions.Monodisperse(mean=10e-6), areal_density=1e8
         ),
         particle_law=tb.particle.Series(deep="off", seat="plane"),
     )
@@ -144,7 +163,7 @@ def test_particles_of_the_table_say_what_holds_them():
     def told(gap, ratio):
         dust = tb.Particles(
             material=STEEL.replace(H=ratio * STEEL.H),
-            diameter=tb.Monodisperse(mean=10e-6),
+            diameter=tb.distributions.Monodisperse(mean=10e-6),
             areal_density=1e8,
         )
         case = contact(10e-6).replace(particle_law=law, particles=dust)
@@ -164,7 +183,7 @@ def test_particles_of_the_table_say_what_holds_them():
 
 def test_angular_grains_still_end_with_the_law_of_one_contact():
     case = contact(2e-6).replace(particle_law=tb.particle.Series(seat="plane"))
-    grains = case.particles.replace(shape=tb.Angular(roundness=0.5, angle="30 deg"))
+    grains = case.particles.replace(shape=tb.grains.Angular(roundness=0.5, angle="30 deg"))
     soft = tb.MaterialPair(STEEL, STEEL.replace(H=1e9))
     state = tb.solve(case.replace(particles=grains, surfaces=soft), d=0.1e-6)
     codes = set(map(code_of, state.warnings))

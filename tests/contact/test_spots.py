@@ -16,17 +16,20 @@ SOFT = STEEL.replace(H=2.5e9)
 LOADS = np.geomspace(1e-7, 1e-3, 9)
 SIZES = {
     "narrow": tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-    "one": tb.Monodisperse(mean=300e-9),
+    "one": tb.distributions.Monodisperse(mean=300e-9),
     "broad": tb.LogNormal(median=150e-9, gsd=1.8),
-    "two": tb.Mixture(
-        parts=(tb.Monodisperse(mean=200e-9), tb.TruncatedGaussian(mean=400e-9, std=40e-9)),
+    "two": tb.distributions.Mixture(
+        parts=(
+            tb.distributions.Monodisperse(mean=200e-9),
+            tb.TruncatedGaussian(mean=400e-9, std=40e-9),
+        ),
         weights=(0.7, 0.3),
     ),
 }
 
 
 def contact(sizes="narrow", *, seat="rough", law=None, heights=None, second=STEEL, **others):
-    rough = tb.Roughness(sigma=100e-9, R=2.8e-6, heights=heights or tb.GaussianHeights())
+    rough = tb.Roughness(sigma=100e-9, R=2.8e-6, heights=heights or tb.heights.GaussianHeights())
     dust = tb.Particles(material=SILICA, areal_density=2e10, diameter=SIZES[sizes])
     return tb.Contact(
         surfaces=tb.MaterialPair(STEEL, second),
@@ -96,9 +99,9 @@ def test_particles_in_the_way_of_gaussian_sizes_and_seats_by_the_formula():
 @pytest.mark.parametrize(
     "heights",
     [
-        tb.ExponentialHeights(),
-        tb.WeibullHeights(shape=4.0),
-        tb.JohnsonHeights(skewness=-0.5, kurtosis=3.5),
+        tb.heights.ExponentialHeights(),
+        tb.heights.WeibullHeights(shape=4.0),
+        tb.heights.JohnsonHeights(skewness=-0.5, kurtosis=3.5),
     ],
     ids=lambda h: type(h).__name__,
 )
@@ -115,7 +118,7 @@ def test_spots_of_other_heights(heights):
 )
 def test_spots_of_other_laws(law):
     case = contact(law=law)
-    with pytest.warns(tb.RangeWarning) if law.name == "gw" else _quiet():
+    with pytest.warns(tb.errors.RangeWarning) if law.name == "gw" else _quiet():
         state = tb.solve(case, F_star=LOADS)
     asperities, _ = spots(case, state)
     close(sum(s.total(s.load) for s in asperities), state.F_ss_star * case.E_ss, state.pressure)
@@ -265,14 +268,14 @@ def dust_on_a_fine_surface(**change):
         roughness=tb.Roughness(sigma=10e-9, R=280e-9),
         particles=tb.Particles(
             material=tb.materials["SiO2"],
-            diameter=tb.Uniform(low=1e-6, high=100e-6),
+            diameter=tb.distributions.Uniform(low=1e-6, high=100e-6),
             areal_density=1e6,
         ),
         particle_law=tb.particle.Series(deep="off", zeta_mean=0.3, zeta_std=0.3),
     ).replace(**change)
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_only_seats_within_reach_of_a_state_are_laid_out():
     contact = dust_on_a_fine_surface()
     (response,) = interface(contact).populations
@@ -284,7 +287,7 @@ def test_only_seats_within_reach_of_a_state_are_laid_out():
     np.testing.assert_allclose(response.direct_fields(d)["F_sa"], load, rtol=1e-9)
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_states_far_apart_are_laid_out_in_groups():
     """Memory stays small, every state is itself, and no warning is told once for each group."""
     contact = dust_on_a_fine_surface(outputs=(tb.outputs.Counts(),))

@@ -15,7 +15,7 @@ from thirdbody.effects.single import heat
 STEEL = tb.materials["S45C"].replace(thermal_conductivity=50.0, resistivity=2e-7)
 SILICA = tb.materials["SiO2"].replace(thermal_conductivity=1.4, resistivity=1e-6)
 LOADS = np.geomspace(1e5, 1e8, 5)
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def contact(*outputs, size=300e-9, density=1e10, first=STEEL, second=STEEL, dust=SILICA, **others):

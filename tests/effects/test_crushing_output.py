@@ -12,8 +12,8 @@ from thirdbody.errors import code_of, note_of
 HARD = tb.Material(E=206e9, nu=0.29, H=7.37e9)
 PAIR = tb.MaterialPair(HARD, HARD)
 QUARTZ = tb.materials["quartz"]
-SIZES = tb.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3.0,))
-QUIET = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+SIZES = tb.distributions.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3.0,))
+QUIET = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def contact_of(strength, *, sizes=SIZES, material=QUARTZ, density=1e7, law=None, outputs=()):
@@ -33,7 +33,7 @@ def contact_of(strength, *, sizes=SIZES, material=QUARTZ, density=1e7, law=None,
 @pytest.mark.parametrize("seat", ["plane", "rough"])
 def test_what_crushing_tells(fragments, seat):
     law = tb.particle.Series(deep="off", seat=seat)
-    strength = tb.WeibullStrength.of(QUARTZ, fragments=fragments)
+    strength = tb.grains.WeibullStrength.of(QUARTZ, fragments=fragments)
     contact = contact_of(strength, law=law, outputs=tb.outputs.Crushing(A_n=1e-4))
     d = np.array([12e-6, 4e-6, 1e-6])
     state = tb.solve(contact, d=d)
@@ -65,7 +65,7 @@ def test_what_crushing_tells(fragments, seat):
 @QUIET
 def test_sizes_before_anything_breaks():
     """Of strong particles nothing breaks, and the largest of A_n is that of their sizes."""
-    strong = tb.WeibullStrength(sigma_0=1e15, x_0=1e-3, m=3, x_c=0.0)
+    strong = tb.grains.WeibullStrength(sigma_0=1e15, x_0=1e-3, m=3, x_c=0.0)
     contact = contact_of(strong, outputs=tb.outputs.Crushing(A_n=1e-4))
     found = tb.solve(contact, d=2e-6).outputs
     assert found["broken_share"] == pytest.approx(0, abs=1e-15)
@@ -79,12 +79,12 @@ def test_sizes_before_anything_breaks():
 # ---------------------------------------------------------------- roots, jumps, branches
 @QUIET
 def test_one_size_has_several_equilibria():
-    strength = tb.WeibullStrength.of(QUARTZ)
-    contact = contact_of(strength, sizes=tb.Monodisperse(mean=20e-6), density=1e7)
-    with pytest.warns(tb.RangeWarning) as heard:
+    strength = tb.grains.WeibullStrength.of(QUARTZ)
+    contact = contact_of(strength, sizes=tb.distributions.Monodisperse(mean=20e-6), density=1e7)
+    with pytest.warns(tb.errors.RangeWarning) as heard:
         state = tb.solve(contact, pressure=2e5)
     assert "branches" in {code_of(note_of(each.message)) for each in heard}
-    found = tb.roots(contact, pressure=2e5)
+    found = tb.equilibria.roots(contact, pressure=2e5)
     assert [stable for _, stable in found] == [True, False, True]
     assert found[0][0].d == pytest.approx(state.d, rel=1e-12)
     assert found[0][0].d > 17e-6
@@ -95,7 +95,7 @@ def test_one_size_has_several_equilibria():
 
 @QUIET
 def test_what_is_broken_does_not_heal():
-    contact = contact_of(tb.WeibullStrength.of(QUARTZ))
+    contact = contact_of(tb.grains.WeibullStrength.of(QUARTZ))
     with refuses(Mistake.IDLE, "branch", value="'unloading'"):
         tb.solve(contact, pressure=1e5, branch="unloading")
 
@@ -103,12 +103,12 @@ def test_what_is_broken_does_not_heal():
 @QUIET
 def test_many_loads_are_those_of_few():
     rough = tb.particle.Series(deep="off")
-    contact = contact_of(tb.WeibullStrength.of(QUARTZ), law=rough)
+    contact = contact_of(tb.grains.WeibullStrength.of(QUARTZ), law=rough)
     loads = np.geomspace(1e4, 5e6, 6000)
     many, few = tb.solve(contact, pressure=loads), tb.solve(contact, pressure=loads[::400])
     np.testing.assert_allclose(many.d[::400], few.d, rtol=1e-10)
     strengths = {"particles.strength.sigma_0": np.array([6e7, 67e6])}
-    varied = tb.solve_states(contact, vary=strengths, pressure=1e5)
+    varied = tb.equilibria.solve_states(contact, vary=strengths, pressure=1e5)
     one = tb.solve(contact, pressure=1e5)
     assert varied["d"][1] == pytest.approx(one.d, rel=1e-12)
     assert varied["d"][0] < varied["d"][1]
@@ -116,12 +116,12 @@ def test_many_loads_are_those_of_few():
 
 # ---------------------------------------------------------------- warnings and mistakes
 def sentences(contact):
-    with pytest.warns(tb.RangeWarning):
+    with pytest.warns(tb.errors.RangeWarning):
         return tb.solve(contact, d=3e-6).warnings
 
 
 def test_warnings():
-    strength = tb.WeibullStrength.of(QUARTZ)
+    strength = tb.grains.WeibullStrength.of(QUARTZ)
     (said,) = sentences(contact_of(strength))
     assert code_of(said) == "strength.sizes.quartz"
     for told in ("5 µm to 40 µm", "(1 mm)", "factor 18"):
@@ -151,21 +151,21 @@ def test_warnings():
 def test_mistakes_in_a_strength(change, code, place, value):
     good = dict(sigma_0=67e6, x_0=1e-3, m=3.0)
     with refuses(code, "WeibullStrength." + place, value=value):
-        tb.WeibullStrength(**good | change)
+        tb.grains.WeibullStrength(**good | change)
 
 
 def test_materials_without_a_strength():
     with refuses(Mistake.BEYOND, "", says="sigma_0, x_0, m, and K_c"):
-        tb.WeibullStrength.of(tb.materials["MoS2"])
+        tb.grains.WeibullStrength.of(tb.materials["MoS2"])
     with refuses(Mistake.RANGE, "K_c", value="0.0"):
-        tb.WeibullStrength.from_toughness(0.0)
-    estimate = tb.WeibullStrength.of(tb.materials["Al2O3"])
+        tb.grains.WeibullStrength.from_toughness(0.0)
+    estimate = tb.grains.WeibullStrength.of(tb.materials["Al2O3"])
     assert estimate.of_size(4e-6) == pytest.approx(1.8 * 4.1e6 / 2e-3, rel=1e-12)
     assert estimate.m == 3
 
 
 def test_mistakes_of_a_contact_with_a_strength():
-    strength = tb.WeibullStrength.of(QUARTZ)
+    strength = tb.grains.WeibullStrength.of(QUARTZ)
     for law in (tb.particle.Horng2022(), tb.particle.Flakes(aspect=3)):
         with refuses(Mistake.BEYOND, "particles.strength"):
             contact_of(strength, law=law)
@@ -182,5 +182,5 @@ def test_mistakes_of_a_contact_with_a_strength():
 
 
 def test_round_trip():
-    contact = contact_of(tb.WeibullStrength.of(QUARTZ, fragments="all"))
+    contact = contact_of(tb.grains.WeibullStrength.of(QUARTZ, fragments="all"))
     assert tb.Contact.from_dict(contact.to_dict()) == contact

@@ -223,7 +223,9 @@ def test_ductile():
 def test_ductile_particles_are_as_wide_as_they_are_squashed():
     """From a third of their height on, discs of the volume in the gap."""
     x, debris = 500e-9, tb.Material(E=193e9, nu=0.29, H=1e9)
-    dust = tb.Particles(material=debris, areal_density=1e10, diameter=tb.Monodisperse(mean=x))
+    dust = tb.Particles(
+        material=debris, areal_density=1e10, diameter=tb.distributions.Monodisperse(mean=x)
+    )
     pair = tb.MaterialPair(STEEL, STEEL)
     one = tb.Contact(surfaces=pair, roughness=tb.Roughness(sigma=20e-9, R=2.8e-6), particles=dust,
                      particle_law=Series(deep="off", seat="plane"), outputs=Dents(debris="ductile"))  # fmt: skip
@@ -314,7 +316,9 @@ def test_the_deepest_of_few_dents_is_no_shallower_than_the_mean(density):
 def test_no_mark_is_wider_than_the_surface_bears(debris):
     """Balls of the surfaces' own steel between touching peaks: the disc sinks in, and is told."""
     x = 300e-9
-    dust = tb.Particles(material=STEEL, areal_density=1e11, diameter=tb.Monodisperse(mean=x))
+    dust = tb.Particles(
+        material=STEEL, areal_density=1e11, diameter=tb.distributions.Monodisperse(mean=x)
+    )
     one = tb.Contact(surfaces=tb.MaterialPair(STEEL, STEEL), particles=dust,
                      particle_law=Series(deep="off"), outputs=Dents(debris=debris),
                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))  # fmt: skip
@@ -338,7 +342,9 @@ def test_percentile_and_deepest_of_one_size_are_exact(x, h):
 
     from thirdbody.effects.single.ploughing import residual_depth
 
-    dust = tb.Particles(material=SILICA, areal_density=1e11, diameter=tb.Monodisperse(mean=x))
+    dust = tb.Particles(
+        material=SILICA, areal_density=1e11, diameter=tb.distributions.Monodisperse(mean=x)
+    )
     case = contact(second=STEEL).replace(particles=dust)
     first = co.squeezed_particle(
         Series().law, *co.contact_sides(case.surfaces, SILICA), 0.5
@@ -401,7 +407,7 @@ def test_sizes_from_zero_are_the_limit_of_small_ones(gap):
         grains = tb.Particles(
             material=tb.materials["SiC"],
             areal_density=1e10,
-            diameter=tb.Uniform(low=low, high=2e-6),
+            diameter=tb.distributions.Uniform(low=low, high=2e-6),
         )
         rough = tb.Roughness(sigma=1e-6, R=1e-5)
         case = tb.Contact(
@@ -425,7 +431,7 @@ def test_a_population_that_nothing_presses_adds_nothing():
 
     sizes = tb.TruncatedGaussian(mean=2e-6, std=2e-7)
     large = tb.Particles(material=tb.materials["SiC"], areal_density=1e10, diameter=sizes)
-    small = large.replace(diameter=tb.Monodisperse(mean=1e-9))
+    small = large.replace(diameter=tb.distributions.Monodisperse(mean=1e-9))
     alone, beside = (tb.solve(each, d=1e-6).outputs for each in (case(large), case(large, small)))
     for name, value in alone.items():
         assert beside[name] == pytest.approx(value, rel=1e-12), name

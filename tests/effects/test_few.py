@@ -93,7 +93,9 @@ def test_without_an_area_the_area_of_one_contact_is_told():
 def dusty(eta, x=4e-6, **options):
     """A contact of 1e-10 m² with insulating balls of one size, so many on average."""
     dust = tb.Particles(
-        material=tb.materials["quartz"], areal_density=eta, diameter=tb.Monodisperse(mean=x)
+        material=tb.materials["quartz"],
+        areal_density=eta,
+        diameter=tb.distributions.Monodisperse(mean=x),
     )
     return tb.Contact(
         surfaces=tb.MaterialPair(BODY, BODY), roughness=tb.Roughness(sigma=300e-9, R=10e-6),
@@ -107,7 +109,7 @@ def closed_with(k, pressure, x):
     return -math.expm1(-1e-10 * tb.solve(bare, pressure=pressure).outputs["n_ss"])
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 @pytest.mark.parametrize(("held", "x"), [(0.01, 4e-6), (0.3, 4e-6), (0.6, 3e-6), (2.0, 0.1e-6)])
 def test_contacts_close_by_those_that_hold_no_particle(held, x):
     """Poisson numbers of balls, each contact solved by itself: the clean ones decide."""
@@ -120,21 +122,23 @@ def test_contacts_close_by_those_that_hold_no_particle(held, x):
     assert found == pytest.approx(want, rel=0.03)
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_a_rare_particle_changes_little():
     """Of none the limit, a sweep says the same, and a contact at a separation is as it was."""
     eta = np.array([0.0, 1e2, 1e4, 1e8])
     each = [tb.solve(dusty(n), pressure=1e5).outputs["gc_closed"] for n in eta]
     assert each[1:3] == pytest.approx([each[0]] * 2, rel=1e-5)
     assert each[3] == pytest.approx(0.99 * each[0], rel=1e-3)
-    swept = tb.solve_states(dusty(1e8), pressure=1e5, vary={"particles.areal_density": eta})
+    swept = tb.equilibria.solve_states(
+        dusty(1e8), pressure=1e5, vary={"particles.areal_density": eta}
+    )
     np.testing.assert_allclose(swept["gc_closed"].values, each, rtol=1e-9)
     state = tb.solve(dusty(1e8), d=900e-9)
     bare = tb.solve(dusty(0.0), d=900e-9)
     assert state.outputs["gc_closed"] == pytest.approx(bare.outputs["gc_closed"], rel=2e-3)
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_those_in_the_way_are_counted_by_sampling():
     """Balls of one size on seats at random: as many as are larger than their gap when clean."""
     held, x, p = 0.5, 1e-6, 1e5
@@ -151,7 +155,9 @@ def test_those_in_the_way_are_counted_by_sampling():
 
 def test_particles_that_conduct_close_the_contacts_that_hold_one():
     quartz = tb.materials["quartz"].replace(resistivity=1e-7)
-    dust = tb.Particles(material=quartz, areal_density=1e9, diameter=tb.Monodisperse(mean=4e-6))
+    dust = tb.Particles(
+        material=quartz, areal_density=1e9, diameter=tb.distributions.Monodisperse(mean=4e-6)
+    )
     state = tb.solve(dusty(0.0, particles="conduct").replace(particles=dust), pressure=1e5)
     clean = closed_with(0, 1e5, 4e-6)
     want = math.exp(-0.1) * clean - math.expm1(-0.1)
@@ -265,8 +271,10 @@ def test_outputs_alone_and_among_others(conduct):
     vary = {"surfaces.first.H": H}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        among = tb.solve_states(contact, F_star=loads, vary=vary)
-        turned = tb.solve_states(contact, F_star=loads[::-1], vary={"surfaces.first.H": H[::-1]})
+        among = tb.equilibria.solve_states(contact, F_star=loads, vary=vary)
+        turned = tb.equilibria.solve_states(
+            contact, F_star=loads[::-1], vary={"surfaces.first.H": H[::-1]}
+        )
         for i in (0, 11, 23):
             one = tb.solve(contact.replace(**{"surfaces.first.H": float(H[i])}), F_star=loads[i])
             for name, value in one.outputs.items():

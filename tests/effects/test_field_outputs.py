@@ -109,7 +109,7 @@ def test_outputs_that_need_spots_are_named():
 
 def test_in_the_shadow_of_particles_less_is_conducted():
     dust = tb.Particles(
-        material=tb.materials["SiO2"], areal_density=1e11, diameter=tb.Monodisperse(mean=400e-9)
+        material=tb.materials["SiO2"], areal_density=1e11, diameter=tb.distributions.Monodisperse(mean=400e-9)
     )  # fmt: skip
     case = contact(tb.outputs.ElectricalConductance(), particles=dust)
     bare = case.replace(particles=None)

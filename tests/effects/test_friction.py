@@ -38,7 +38,7 @@ def contact(x_a=500e-9, density=1e10, *, first=STEEL, second=STEEL, particle=SIL
 
 
 def solved(case, **load):
-    with pytest.warns(tb.RangeWarning) if load.pop("warns", False) else _nothing():
+    with pytest.warns(tb.errors.RangeWarning) if load.pop("warns", False) else _nothing():
         return tb.solve(case, **(load or {"pressure": 5e6}))
 
 

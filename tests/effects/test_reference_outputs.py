@@ -47,7 +47,7 @@ def dry(x_a, eta_a=1e10, pressure=5e6, second=METAL, outputs=()):
         outputs=outputs,
     )
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return tb.solve(contact, pressure=pressure)
 
 
@@ -76,7 +76,7 @@ def ball_on_flat(x_a, speed):
         particle_law=tb.particle.Series(deep="off"),
     )
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return mixed_film(
             contact,
             conjunction=films.Point(R=9.5e-3),

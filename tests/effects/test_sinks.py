@@ -42,7 +42,7 @@ def solved(ratio, outputs, *, pressure=20e6, **options):
         outputs=outputs,
     )
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return tb.solve(contact, pressure=pressure).outputs
 
 

@@ -16,7 +16,7 @@ from thirdbody.effects import FlashTemperature, Friction
 STEEL = tb.materials["S45C"].replace(thermal_conductivity=50.0, density=7850, specific_heat=480)
 SILICA = tb.materials["SiO2"].replace(thermal_conductivity=1.4)
 FRICTION = Friction(tau_ss=580e6, tau_sa=200e6)
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def contact(*, size=300e-9, density=0.0, first=STEEL, second=STEEL, dust=SILICA, **given):

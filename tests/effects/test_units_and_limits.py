@@ -56,7 +56,7 @@ def contact(x_a=300e-9, density=1e10, first=STEEL, second=SOFT, outputs=tuple(OU
 
 def solved(case, **load):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return tb.solve(case, **load)
 
 
@@ -125,7 +125,9 @@ def test_change_of_units(scales, pressure, x_a):
 @given(scales=st.tuples(ratios, ratios, ratios, ratios, ratios), gap=st.floats(0.05, 0.9))
 def test_change_of_units_where_particles_break(scales, gap):
     case = contact(20e-6, density=1e7, outputs=())
-    strength = tb.WeibullStrength(sigma_0=80e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=1e-6)
+    strength = tb.grains.WeibullStrength(
+        sigma_0=80e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=1e-6
+    )
     dust = case.particles.replace(strength=strength)
     case = case.replace(particles=dust, outputs=tuple(BREAKING.values()))
     here = solved(case, d=gap * 20e-6)

@@ -39,7 +39,7 @@ def contact(first=STEEL, second=SOFT, *, wear=None, friction=FRICTION, density=1
 
 def worn(*args, pressure=5e6, **options):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return tb.solve(contact(*args, **options), pressure=pressure).outputs
 
 
@@ -183,7 +183,7 @@ def test_change_of_units():
         return body.replace(E=3 * body.E, H=3 * body.H)
 
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         one = tb.solve(contact(), pressure=5e6)
         system = contact(stiff(STEEL), stiff(SOFT), friction=Friction(tau_ss=1740e6, tau_sa=600e6))
         system = system.replace(particles=system.particles.replace(material=stiff(SILICA)))

@@ -46,7 +46,7 @@ def test_every_column_with_its_unit(pressure):
 
 
 def test_warnings_are_kept():
-    with pytest.warns(tb.RangeWarning):
+    with pytest.warns(tb.errors.RangeWarning):
         state = tb.solve(contact(), pressure=3e9)
     assert state.warnings
     assert state.to_dataset().warnings.splitlines() == list(state.warnings)
@@ -101,7 +101,7 @@ def test_without_pandas_the_message_says_what_to_do(monkeypatch):
 # ---------------------------------------------------------------------------- solve_states
 def test_solve_states_gives_labelled_data():
     vary = {"roughness.sigma": np.array([5e-8, 1e-7, 2e-7]), "roughness.R": 3e-6}
-    data = tb.solve_states(contact(), pressure=2e6, vary=vary)
+    data = tb.equilibria.solve_states(contact(), pressure=2e6, vary=vary)
     assert dict(data.sizes) == {"state": 3}
     assert set(data.coords) == {"pressure", *vary}
     assert data["roughness.sigma"].attrs["units"] == "m"
@@ -115,7 +115,9 @@ def test_solve_states_gives_labelled_data():
 
 
 def test_inputs_that_are_words_are_coordinates():
-    data = tb.solve_states(contact(), pressure=2e6, vary={"particle_law.seat": ["rough", "plane"]})
+    data = tb.equilibria.solve_states(
+        contact(), pressure=2e6, vary={"particle_law.seat": ["rough", "plane"]}
+    )
     assert data["particle_law.seat"].values.tolist() == ["rough", "plane"]
 
 

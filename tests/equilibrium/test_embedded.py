@@ -14,12 +14,12 @@ from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.states import state_columns
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 compiled = pytest.mark.skipif(not engine.available(), reason="needs the compiled engine")
 
 SEATS = ("plane", "offset", "rough")
 SIZES = {
-    "monodisperse": lambda x: tb.Monodisperse(mean=x),
+    "monodisperse": lambda x: tb.distributions.Monodisperse(mean=x),
     "gaussian": lambda x: tb.TruncatedGaussian(mean=x, std=0.1 * x),
     "lognormal": lambda x: tb.LogNormal(median=x, gsd=1.15),
 }
@@ -257,7 +257,7 @@ def test_a_study_of_a_separation_that_deep(tmp_path):
         '[surfaces]\nfirst = "S45C"\nsecond = "S45C"\n[roughness]\nsigma = "100 nm"\n'
         'R = "2.8 um"\n[load]\nseparation = ["-1 m", "50 nm"]\n'
     )
-    with pytest.raises(tb.InvalidValue) as refused:
+    with pytest.raises(tb.errors.InvalidValue) as refused:
         load_study(file)
     assert len(refused.value.problems) == 1
     assert "load.separation = -1 m" in refused.value.problems[0]

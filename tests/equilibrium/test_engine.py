@@ -30,7 +30,7 @@ from thirdbody.laws.asperity import REGISTRY
 from thirdbody.numerics.chebyshev import chebyshev_transform
 
 pytest.importorskip("numba")
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 LOADS = np.geomspace(1e-14, 1.0, 43)
 """From what one asperity in a million carries to more than anything carries."""
@@ -61,7 +61,7 @@ def beyond(contact: tb.Contact) -> bool:
     """
     return (
         contact.particles is not None
-        and isinstance(contact.particles.diameter, tb.Weibull)
+        and isinstance(contact.particles.diameter, tb.distributions.Weibull)
         and contact.particle_law.seat != "rough"
     )
 
@@ -169,8 +169,8 @@ DISTRIBUTIONS = st.one_of(
         st.floats(1.0, 4.0),
     ).map(lambda given: sizes(given[0], 1.0, *given[1:])[0]),
     st.builds(
-        lambda ratio, share: tb.Mixture(
-            parts=(tb.LogNormal(median=1.0, gsd=1.3), tb.Monodisperse(mean=ratio)),
+        lambda ratio, share: tb.distributions.Mixture(
+            parts=(tb.LogNormal(median=1.0, gsd=1.3), tb.distributions.Monodisperse(mean=ratio)),
             weights=(1 - share, share),
         ),
         decades(0.3, 3.0),
@@ -178,13 +178,13 @@ DISTRIBUTIONS = st.one_of(
     ),
 )
 HEIGHTS = st.sampled_from(
-    [tb.GaussianHeights()] * 4
-    + [tb.ExponentialHeights(), tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2)]
+    [tb.heights.GaussianHeights()] * 4
+    + [tb.heights.ExponentialHeights(), tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2)]
 )
 
 
 @st.composite
-def contacts(draw, heights=st.just(tb.GaussianHeights())) -> tb.Contact:
+def contacts(draw, heights=st.just(tb.heights.GaussianHeights())) -> tb.Contact:
     """Three-body contacts with every seat, shadow, size distribution, spheres and flakes."""
     contact = base(draw(interfaces()))
     rough = contact.roughness.replace(heights=draw(heights))
@@ -292,11 +292,11 @@ def test_the_many_below_the_last_particles(median):
     hold_states(contact, {"roughness.R": 5e-7 * ratios(2, 8)}, F_star=np.geomspace(1e-14, 1e-9, 8))
 
 
-SLOW_TABLES = tb.WeibullHeights(shape=1.8)
+SLOW_TABLES = tb.heights.WeibullHeights(shape=1.8)
 OTHER_HEIGHTS = {
-    "gaussian": tb.GaussianHeights(),
-    "exponential": tb.ExponentialHeights(),
-    "johnson": tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
+    "gaussian": tb.heights.GaussianHeights(),
+    "exponential": tb.heights.ExponentialHeights(),
+    "johnson": tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
 }
 EXTRA = {
     "coated": {"E_1": 2e11, "nu_1": 0.3, "t": 2e-8, "E_2": 4e10, "nu_2": 0.25},
@@ -328,7 +328,7 @@ def test_states_with_inputs_of_their_own(contact, seed, scaled):
     count = 5
     vary = variations(contact, seed, count)
     diameter = contact.particles.diameter
-    if scaled and isinstance(diameter, tb.TruncatedGaussian | tb.Monodisperse):
+    if scaled and isinstance(diameter, tb.TruncatedGaussian | tb.distributions.Monodisperse):
         size = ratios(seed + 5, count, 1.2)
         vary["particles.diameter.mean"] = diameter.mean * size
         if isinstance(diameter, tb.TruncatedGaussian):
@@ -510,7 +510,7 @@ def test_switched_off_or_not_installed():
 
 def mixed_tips() -> tb.Contact:
     contact = default()
-    rough = contact.roughness.replace(ellipticity=tb.Ellipticity(ratios=(1.0, 3.0)))
+    rough = contact.roughness.replace(ellipticity=tb.surfaces.Ellipticity(ratios=(1.0, 3.0)))
     return contact.replace(asperity_law=tb.asperity.EllipticZMC(), roughness=rough)
 
 
@@ -537,7 +537,7 @@ def test_tables_that_only_numpy_knows_go_there_silently(kind, recwarn):
     assert "compiled" in set(got[1]["engine"])
     for name in ("d", "A_t", "F_ss_star", "F_sa_star"):
         np.testing.assert_allclose(got[1][name], want[name], rtol=1e-9, err_msg=name)
-    assert not [w for w in recwarn if not issubclass(w.category, tb.RangeWarning)]
+    assert not [w for w in recwarn if not issubclass(w.category, tb.errors.RangeWarning)]
 
 
 def test_few_loads_need_no_compiled_engine():
@@ -638,9 +638,9 @@ def with_one(name: str, value: float, count: int = 30) -> dict[str, np.ndarray]:
 )  # fmt: skip
 def test_a_bad_value_says_what_replace_says(name, wrong):
     contact = default()
-    with pytest.raises(tb.InvalidValue) as one:
+    with pytest.raises(tb.errors.InvalidValue) as one:
         contact.replace(**{name: wrong})
-    with pytest.raises(tb.InvalidValue) as many:
+    with pytest.raises(tb.errors.InvalidValue) as many:
         state_columns(contact, F_star=1e-6, vary=with_one(name, wrong))
     assert str(many.value) == str(one.value)
 
@@ -648,10 +648,10 @@ def test_a_bad_value_says_what_replace_says(name, wrong):
 @pytest.mark.parametrize("name", ["roughness.sgima", "particles.size", "x"])
 def test_a_wrong_name_is_named_whole_whatever_the_engine(name):
     contact, values = default(), 1e-7 * ratios(0, 30)
-    with pytest.raises(tb.InvalidValue):
+    with pytest.raises(tb.errors.InvalidValue):
         contact.replace(**{name: float(values[0])})
     for count in (1, len(values)):
-        with pytest.raises(tb.InvalidValue) as told:
+        with pytest.raises(tb.errors.InvalidValue) as told:
             state_columns(contact, F_star=1e-6, vary={name: values[:count]})
         assert [each.place for each in told.value.problems] == [f"vary[{name!r}]"]
 
@@ -664,9 +664,9 @@ def test_a_part_is_not_a_number():
 def test_jammed_particles():
     contact = default()
     vary = with_one("particles.areal_density", 1e14)
-    with pytest.raises(tb.InvalidValue, match="cover") as one:
+    with pytest.raises(tb.errors.InvalidValue, match="cover") as one:
         contact.replace(**{"particles.areal_density": 1e14})
-    with pytest.raises(tb.InvalidValue) as many:
+    with pytest.raises(tb.errors.InvalidValue) as many:
         state_columns(contact, F_star=1e-6, vary=vary)
     assert str(many.value) == str(one.value)
 
@@ -682,7 +682,7 @@ def test_lengths_and_shapes():
     ("sizes", "name"),
     [
         (tb.LogNormal(median=150e-9, gsd=1.5), "median"),
-        (tb.Weibull(scale=300e-9, shape=4.0), "scale"),
+        (tb.distributions.Weibull(scale=300e-9, shape=4.0), "scale"),
     ],
 )
 @pytest.mark.parametrize("material", [False, True])

@@ -23,7 +23,7 @@ from twins import (
 import thirdbody as tb
 from thirdbody.equilibrium.status import Status
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 DECADES = np.logspace(-14, -2, 49)
 
 
@@ -46,7 +46,7 @@ def test_solution_carries_the_load(twin, F):
     """Solve, then evaluate at the separation found; the residual reported is not too small."""
     try:
         state = tb.solve(twin.contact, F_star=F)
-    except tb.NoEquilibrium:
+    except tb.errors.NoEquilibrium:
         lowest = min(
             tb.solve(twin.contact, d=twin.interface.rough.sigma * np.array([-3.0, -2.0])).F_star
         )
@@ -192,7 +192,7 @@ def test_all_roots_of_the_window_reading(x_a, F):
     want = crossings(
         lambda d: oracle.horng_state(d, interface, law)["F_star"], F, np.linspace(0, 1.65e-6, 220)
     )
-    found = tb.roots(contact, F_star=F)
+    found = tb.equilibria.roots(contact, F_star=F)
     separations = sorted(state.d for state, _ in found)
     assert separations == pytest.approx(want, abs=1e-15)
     loading = tb.solve(contact, F_star=F)
@@ -215,7 +215,7 @@ def test_all_roots_of_the_window_reading(x_a, F):
 def test_window_reading_has_loads_with_one_and_with_three_roots():
     """Otherwise the test above tests nothing."""
     contact, _ = window_contact(1e-6)
-    counts = {len(tb.roots(contact, F_star=F)) for F in np.geomspace(1e-7, 1e-3, 15)}
+    counts = {len(tb.equilibria.roots(contact, F_star=F)) for F in np.geomspace(1e-7, 1e-3, 15)}
     assert 1 in counts
     assert max(counts) >= 3
     assert all(count % 2 for count in counts)
@@ -224,7 +224,7 @@ def test_window_reading_has_loads_with_one_and_with_three_roots():
 @given(twin=series_twins(), F=decades(1e-9, 1e-5))
 def test_the_series_law_has_one_root(twin, F):
     assume(twin.law.shadow != "projected")
-    found = tb.roots(twin.contact, F_star=F)
+    found = tb.equilibria.roots(twin.contact, F_star=F)
     state = tb.solve(twin.contact, F_star=F)
     assert len(found) == 1
     assert found[0][1]
@@ -251,7 +251,7 @@ def test_loading_branch_of_every_preset(preset):
 # ---------------------------------------------------------------------------- what fails
 def test_too_heavy_a_load():
     contact = base(oracle.Interface())
-    with pytest.raises(tb.NoEquilibrium):
+    with pytest.raises(tb.errors.NoEquilibrium):
         tb.solve(contact, F_star=10.0)
     states = tb.solve(contact, F_star=np.array([1e-6, 10.0, 1e-5]))
     assert states.status[0] == states.status[2] == "ok"
@@ -278,7 +278,7 @@ def test_too_heavy_a_load():
     ],
 )
 def test_bad_loads(load):
-    with pytest.raises((tb.InvalidValue, TypeError)):
+    with pytest.raises((tb.errors.InvalidValue, TypeError)):
         tb.solve(base(oracle.Interface()), **load)
 
 

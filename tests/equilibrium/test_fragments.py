@@ -14,15 +14,15 @@ pytest.importorskip("numba")
 from thirdbody.equilibrium.engine.run import own_columns
 from thirdbody.equilibrium.states import state_columns
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 STEEL = tb.Material(E=208e9, nu=0.3, H=6e9)
 GLASS = tb.Material(E=72e9, nu=0.2, H=7.7e9)
-STRENGTH = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+STRENGTH = tb.grains.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
 SIZES = {
     "narrow": tb.TruncatedGaussian(mean=300e-9, std=30e-9, n=3.0),
     "log-normal": tb.LogNormal(median=250e-9, gsd=1.3),
-    "powers": tb.PowerLaw(edges=(2e-7, 9e-7), counts=(1.0,), slopes=(3.2,)),
-    "uniform": tb.Uniform(low=1e-7, high=5e-7),
+    "powers": tb.distributions.PowerLaw(edges=(2e-7, 9e-7), counts=(1.0,), slopes=(3.2,)),
+    "uniform": tb.distributions.Uniform(low=1e-7, high=5e-7),
 }
 KINDS = {
     "plain": {},
@@ -115,7 +115,7 @@ def test_company_changes_no_bit(kind):
 
 
 BROAD = {
-    "powers": tb.PowerLaw(edges=(4e-6, 70e-6), counts=(1.0,), slopes=(3.0,)),
+    "powers": tb.distributions.PowerLaw(edges=(4e-6, 70e-6), counts=(1.0,), slopes=(3.0,)),
     "log-normal": tb.LogNormal(median=3e-6, gsd=1.4),
 }
 

@@ -14,7 +14,7 @@ pytest.importorskip("numba")
 from thirdbody.equilibrium.engine import gaps
 from thirdbody.equilibrium.engine.run import own_columns
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 STEEL, BRONZE = tb.materials["100Cr6"], tb.materials["CuSn8"]
 LAWS = Series(), Series(shadow="none"), Series(law=KE()), Series(law=JG()), Series(law=CEB())
 COLUMNS = "A_e", "A_ep", "A_p", "A_sa", "A_t"
@@ -24,13 +24,15 @@ def random_contact(rng, law=None):
     """A contact with sizes that spread over many widths of the seat."""
     x = math.exp(rng.uniform(math.log(5e-7), math.log(2e-5)))
     sizes = (
-        tb.PowerLaw(
+        tb.distributions.PowerLaw(
             edges=(x, 1.5 * x, 4 * x, 20 * x),
             counts=tuple(rng.uniform(0.1, 5, 3)),
             slopes=tuple(rng.uniform(0.5, 5, 3)),
         ),
-        tb.Uniform(low=x, high=x * rng.uniform(1.5, 10)),
-        tb.Histogram(edges=(x, 2 * x, 3 * x, 6 * x), counts=tuple(rng.uniform(0.1, 5, 3))),
+        tb.distributions.Uniform(low=x, high=x * rng.uniform(1.5, 10)),
+        tb.distributions.Histogram(
+            edges=(x, 2 * x, 3 * x, 6 * x), counts=tuple(rng.uniform(0.1, 5, 3))
+        ),
     )[rng.integers(3)]
     material = tb.materials[("100Cr6", "quartz", "S45C")[rng.integers(3)]]
     return tb.Contact(

@@ -19,7 +19,7 @@ from thirdbody.equilibrium.load_scan import load_scan
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.errors import NotCompiled
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def dusty(law=None, sizes=None, density: float = 1e11) -> tb.Contact:
@@ -87,12 +87,12 @@ class TestPath:
             tb.solve(dusty(), F_star=loads)
 
     def test_the_refusal_is_no_type_error(self):
-        assert not issubclass(NotCompiled, (TypeError, tb.ThirdBodyError))
+        assert not issubclass(NotCompiled, (TypeError, tb.errors.ThirdBodyError))
 
 
 # ------------------------------------------------------------------------------ jumps
-ONE_SIZE = tb.Monodisperse(mean=3e-7)
-MIXED = tb.Mixture(
+ONE_SIZE = tb.distributions.Monodisperse(mean=3e-7)
+MIXED = tb.distributions.Mixture(
     parts=(ONE_SIZE, tb.TruncatedGaussian(mean=2e-7, std=1.6e-8)), weights=(0.5, 0.5)
 )
 
@@ -175,12 +175,12 @@ class TestJump:
     def test_roots_are_no_jumps(self, printed):
         """A jump among the crossings is left out, and alone it is an error."""
         with balances_not(Status.JUMP):
-            tb.roots(dusty(tb.particle.Horng2022(), ONE_SIZE), F_star=3.2e-5)
+            tb.equilibria.roots(dusty(tb.particle.Horng2022(), ONE_SIZE), F_star=3.2e-5)
         most, least = sides(printed, 3e-7 + 3.11e-7)
         for F in np.geomspace(1.01 * least, 0.99 * most, 12):
             found = []
-            with suppress(tb.NoEquilibrium):
-                found = tb.roots(printed, F_star=F)
+            with suppress(tb.errors.NoEquilibrium):
+                found = tb.equilibria.roots(printed, F_star=F)
             for state, _ in found:
                 assert tb.solve(printed, d=state.d).F_star == pytest.approx(F, rel=1e-9)
 
@@ -210,7 +210,9 @@ class TestJump:
     def test_steep_for_floats_is_no_jump(self):
         """So few and so small loads that an ulp of d changes them: they are carried."""
         contact = dusty(
-            tb.particle.Series(deep="off", seat="plane"), tb.Monodisperse(mean=5e-6), 1e9
+            tb.particle.Series(deep="off", seat="plane"),
+            tb.distributions.Monodisperse(mean=5e-6),
+            1e9,
         )
         F = tb.solve(contact, d=5e-6 * (1 - np.geomspace(2e-8, 1e-6, 50))).F_star
         found = tb.solve(contact, F_star=F * 1.01)
@@ -268,7 +270,9 @@ class TestJump:
 
 # ------------------------------------------------------------------- several separations
 def soft_dust(
-    sizes: tb.Distribution | None = None, shadow: str = "footprint", coverage: float = 0.4
+    sizes: tb.distributions.Distribution | None = None,
+    shadow: str = "footprint",
+    coverage: float = 0.4,
 ) -> tb.Contact:
     """Spheres softer than the pressure: on approach they take more load than they carry."""
     sizes = sizes or tb.TruncatedGaussian(mean=3e-8, std=3e-9)
@@ -282,7 +286,7 @@ def soft_dust(
 class TestSeveralSeparations:
     """A load that several separations carry, in the consistent model."""
 
-    @pytest.mark.parametrize("sizes", [None, tb.Monodisperse(mean=3e-8)])
+    @pytest.mark.parametrize("sizes", [None, tb.distributions.Monodisperse(mean=3e-8)])
     @pytest.mark.parametrize("shadow", ["footprint", "projected"])
     def test_all_of_them(self, sizes, shadow):
         """Every crossing of a dense scan is a root, jumps aside."""
@@ -293,7 +297,7 @@ class TestSeveralSeparations:
         for p in np.geomspace(1.0e8, 2.2e8, 45):
             at = np.flatnonzero((F[1:] >= p) != (F[:-1] >= p))
             steep = np.abs(F[at + 1] - F[at]) > 0.02 * p  # where the shadow sets in at once
-            found = sorted(state.d for state, _ in tb.roots(contact, pressure=p))
+            found = sorted(state.d for state, _ in tb.equilibria.roots(contact, pressure=p))
             np.testing.assert_allclose(found, 0.5 * (d[at] + d[at + 1])[~steep], atol=2e-12)
             several += len(found) > 1
         assert several > 2
@@ -304,8 +308,12 @@ class TestSeveralSeparations:
             loading = tb.solve(contact, pressure=1.7e8)
         with warns_of("branches", effect=1, says="unloading branch"):
             unloading = tb.solve(contact, pressure=1.7e8, branch="unloading")
-        found = [state.d for state, _ in tb.roots(contact, pressure=1.7e8)]
-        assert [stable for _, stable in tb.roots(contact, pressure=1.7e8)] == [True, False, True]
+        found = [state.d for state, _ in tb.equilibria.roots(contact, pressure=1.7e8)]
+        assert [stable for _, stable in tb.equilibria.roots(contact, pressure=1.7e8)] == [
+            True,
+            False,
+            True,
+        ]
         assert loading.d == pytest.approx(max(found), rel=1e-12)
         assert unloading.d == pytest.approx(min(found), rel=1e-12)
         with warns_of("branches", effect=1, says="2 of the 3 loads"):
@@ -317,7 +325,9 @@ class TestSeveralSeparations:
         pytest.importorskip("numba")
         contact = soft_dust()
         loads = np.geomspace(1.2e8, 2.4e8, 60)
-        want = np.array([max(s.d for s, _ in tb.roots(contact, pressure=p)) for p in loads])
+        want = np.array(
+            [max(s.d for s, _ in tb.equilibria.roots(contact, pressure=p)) for p in loads]
+        )
         vary = {"roughness.R": np.full(60, contact.roughness.R) * np.linspace(1, 1 + 1e-9, 60)}
         few = mock.patch.object(engine, "FEWEST", 1), mock.patch.object(states, "FEWEST", 2)
         with few[0], few[1]:
@@ -423,5 +433,5 @@ def test_stones_among_dust_hide_no_root():
         with warns_of("branches", effect=1, says="5 separations"):
             state = tb.solve(contact, F_star=load)
         assert state.d == pytest.approx(d[crossed[-1]], abs=6e-9)
-        roots = tb.roots(contact, F_star=load)
+        roots = tb.equilibria.roots(contact, F_star=load)
         assert len(roots) == len(crossed) == 5

@@ -68,7 +68,7 @@ def test_the_area_after_persson():
     assert np.all(np.isnan(table.d))
     assert "second opinion" in table.note.item()
     dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e10,
-                        diameter=tb.Monodisperse(mean=3e-7))  # fmt: skip
+                        diameter=tb.distributions.Monodisperse(mean=3e-7))  # fmt: skip
     dusty = case.replace(particles=dust)
     assert "persson" not in tb.compare(dusty, pressure=p).law
     asked = tb.compare(dusty, pressure=p, laws="persson").sel(law="persson")
@@ -111,7 +111,7 @@ def test_elastic_asperities_of_a_broad_spectrum_are_told_of():
 
 def test_they_are_not_told_of_where_particles_are_all():
     dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e10,
-                        diameter=tb.Monodisperse(mean=3e-6))  # fmt: skip
+                        diameter=tb.distributions.Monodisperse(mean=3e-6))  # fmt: skip
     dusty = contact(12.0, tb.materials["S45C"], particles=dust)
     assert told(dusty, pressure=1e3) == []
     assert told(dusty.replace(particles=None), pressure=1e3) != []

@@ -13,7 +13,7 @@ from thirdbody.laws.particle.one_particle import squeezed_particle
 from thirdbody.numerics.chebyshev import PiecewiseChebyshev
 from thirdbody.numerics.quadrature import gauss_legendre
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SIGMA, MEAN = 100e-9, 500e-9
 
@@ -85,7 +85,9 @@ def test_loads_that_do_not_change_with_the_separation(load):
     """Far above the asperities, yet under the lowest gap that particles feel, nothing changes."""
     pytest.importorskip("numba")
     surfaces = (STEEL, STEEL.replace(H=3e9))
-    contact = case(tb.Uniform(low=3e-6, high=5e-6), "plane", surfaces=surfaces, density=2e6)
+    contact = case(
+        tb.distributions.Uniform(low=3e-6, high=5e-6), "plane", surfaces=surfaces, density=2e6
+    )
     contact = contact.replace(roughness=tb.Roughness(sigma=30e-9, R=1e-6))
     vary = {"particles.areal_density": np.linspace(1e6, 2e6, 24)}
     states = state_columns(contact, F_star=load, vary=vary)
@@ -94,12 +96,12 @@ def test_loads_that_do_not_change_with_the_separation(load):
 
 
 # ------------------------------------------------------------------------- close sizes
-def close_sizes(kind: str, spread: float) -> tb.Distribution:
+def close_sizes(kind: str, spread: float) -> tb.distributions.Distribution:
     if kind == "gaussian":
         return tb.TruncatedGaussian(mean=MEAN, std=spread * MEAN)
     if kind == "lognormal":
         return tb.LogNormal(median=MEAN, gsd=1 + spread)
-    return tb.Uniform(low=MEAN * (1 - spread), high=MEAN * (1 + spread))
+    return tb.distributions.Uniform(low=MEAN * (1 - spread), high=MEAN * (1 + spread))
 
 
 @pytest.mark.parametrize("seat", ["plane", "offset", "rough"])
@@ -108,7 +110,7 @@ def close_sizes(kind: str, spread: float) -> tb.Distribution:
 def test_sizes_too_close_to_tell_are_as_one(kind, spread, seat):
     loads = [1e-6, 1e-5, 1e-4]
     got = tb.solve(case(close_sizes(kind, spread), seat), F_star=loads).columns()
-    want = tb.solve(case(tb.Monodisperse(mean=MEAN), seat), F_star=loads).columns()
+    want = tb.solve(case(tb.distributions.Monodisperse(mean=MEAN), seat), F_star=loads).columns()
     for name in ("F_ss_star", "F_sa_star", "A_t", "A_sa", "A_sa2", "shadow", "d"):
         assert_allclose(got[name], want[name], rtol=1e-12, err_msg=name)
 
@@ -150,8 +152,8 @@ def test_states_of_close_sizes(kind, spread):
     [
         tb.TruncatedGaussian(mean=3.0, std=0.2, n=2.5),
         tb.LogNormal(median=3.0, gsd=1.04),
-        tb.Uniform(low=2.0, high=3.0),
-        tb.Weibull(scale=3.0, shape=20.0),
+        tb.distributions.Uniform(low=2.0, high=3.0),
+        tb.distributions.Weibull(scale=3.0, shape=20.0),
     ],
 )
 def test_density_below_the_largest_size(sizes):
@@ -164,7 +166,7 @@ def test_density_below_the_largest_size(sizes):
 BODIES = {
     "two bins": (
         *("ZMC", (5.24e9, 3.73e6, 0.341), (7.12e9, 4.93e5, 0.29)),
-        tb.Histogram(edges=(1 / 3, 0.5333333, 2 / 3, 1.0), counts=(1, 3, 2)),
+        tb.distributions.Histogram(edges=(1 / 3, 0.5333333, 2 / 3, 1.0), counts=(1, 3, 2)),
     ),
     "yielding together": (
         *("Hermite", (2.43e10, 3.1e7, 0.203), (2.43e10, 3e7, 0.0716)),
@@ -176,7 +178,7 @@ BODIES = {
     ),
     "very soft": (
         *("ZMC", (1.34e9, 1.87e5, 0.0583), (1.34e10, 1.87e5, 0.0583)),
-        tb.PowerLaw(edges=(0.1, 1 / 3, 1.0), counts=(3, 1), slopes=(3.4, 2.5)),
+        tb.distributions.PowerLaw(edges=(0.1, 1 / 3, 1.0), counts=(3, 1), slopes=(3.4, 2.5)),
     ),
     "very hard": (
         *("Hermite", (3.62e9, 2.92e9, 0.126), (3.62e9, 2.92e9, 0.126)),

@@ -18,7 +18,7 @@ from thirdbody.laws.field.own import RollOff
 pytest.importorskip("numba")
 from thirdbody.equilibrium.engine.run import own_columns
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 STEEL = tb.Material(E=208e9, nu=0.3, H=6e9)
 HELD = ("d_star", "F_ss_star", "F_sa_star", "A_e", "A_p", "A_sa", "A_sa2", "A_t", "shadow")
 BOUND, ROUNDED = 1e-11, 2e-12
@@ -128,8 +128,8 @@ def test_a_load_that_is_too_much_is_told_of_the_table():
     [
         (None, 6e9, 0),
         (tb.TruncatedGaussian(mean=300e-9, std=30e-9), 6e9, 1e11),
-        (tb.Monodisperse(mean=200e-9), 20e9, 3e11),
-        (tb.Mixture(parts=(tb.Monodisperse(mean=100e-9), tb.LogNormal(median=250e-9, gsd=1.2)),
+        (tb.distributions.Monodisperse(mean=200e-9), 20e9, 3e11),
+        (tb.distributions.Mixture(parts=(tb.distributions.Monodisperse(mean=100e-9), tb.LogNormal(median=250e-9, gsd=1.2)),
                     weights=(7, 3)), 3e9, 1e11),
     ],
 )  # fmt: skip
@@ -153,7 +153,9 @@ BRITTLE = tb.Particles(
     material=STEEL,
     areal_density=1e10,
     diameter=tb.LogNormal(median=250e-9, gsd=1.2),
-    strength=tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9),
+    strength=tb.grains.WeibullStrength(
+        sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9
+    ),
 )
 
 

@@ -50,7 +50,7 @@ CASES = {
     "two different sides": (contact(), FIRST),
     "another seat": (contact(), SEAT),
     "one size": (
-        contact(HARD.replace(diameter=tb.Monodisperse(mean=300e-9))),
+        contact(HARD.replace(diameter=tb.distributions.Monodisperse(mean=300e-9))),
         {"particles.diameter.mean": (150e-9, 450e-9)},
     ),
     "log-normal": (
@@ -59,7 +59,7 @@ CASES = {
     ),
     "uniform, covered": (
         contact(
-            HARD.replace(diameter=tb.Uniform(low=200e-9, high=400e-9)),
+            HARD.replace(diameter=tb.distributions.Uniform(low=200e-9, high=400e-9)),
             tb.particle.Series(seat="rough", shadow="covered"),
         ),
         {"particles.diameter.low": (150e-9, 250e-9)},
@@ -69,11 +69,11 @@ CASES = {
         {"particle_law.friction_factor": (0.1, 1.0)},
     ),
     "uniform, squashed": (
-        contact(SOFT.replace(diameter=tb.Uniform(low=200e-9, high=400e-9))),
+        contact(SOFT.replace(diameter=tb.distributions.Uniform(low=200e-9, high=400e-9))),
         {"particles.diameter.low": (150e-9, 250e-9)},
     ),
     "grit": (
-        contact(HARD.replace(shape=tb.Angular(roundness=0.25, angle=math.radians(35)))),
+        contact(HARD.replace(shape=tb.grains.Angular(roundness=0.25, angle=math.radians(35)))),
         {"particles.shape.angle": (0.5, 0.7)},
     ),
 }
@@ -84,10 +84,12 @@ USUAL = {
     "particles.material.E": (5e10, 3e11),
     "particles.material.H": (1e9, 2e10),
 }
-UNIFORM = SOFT.replace(areal_density=3e10, diameter=tb.Uniform(low=150e-9, high=380e-9))
+UNIFORM = SOFT.replace(
+    areal_density=3e10, diameter=tb.distributions.Uniform(low=150e-9, high=380e-9)
+)
 COVERED = tb.particle.Series(seat="rough", shadow="covered")
 DIRT = HARD.replace(
-    diameter=tb.PowerLaw(
+    diameter=tb.distributions.PowerLaw(
         edges=(150e-9, 250e-9, 400e-9, 600e-9),
         counts=(1350.0, 396.0, 56.6),
         slopes=(3.41, 2.45, 3.34),
@@ -103,13 +105,17 @@ SEVERAL = {
             (
                 HARD,
                 SOFT.replace(areal_density=5e10, diameter=tb.LogNormal(median=250e-9, gsd=1.25)),
-                HARD.replace(areal_density=2e10, diameter=tb.Monodisperse(mean=420e-9)),
+                HARD.replace(
+                    areal_density=2e10, diameter=tb.distributions.Monodisperse(mean=420e-9)
+                ),
             )
         ),
         {"particles.1.material.H": (5e8, 5e9), "particles.2.areal_density": (1e8, 1e11)},
     ),
     "grit and squashed": (
-        contact((HARD.replace(shape=tb.Angular(roundness=0.25, angle=math.radians(35))), UNIFORM)),
+        contact(
+            (HARD.replace(shape=tb.grains.Angular(roundness=0.25, angle=math.radians(35))), UNIFORM)
+        ),
         {"particles.0.areal_density": (1e9, 1e11), "particles.1.diameter.low": (1e-7, 3e-7)},
     ),
     "laws of their own, two different sides": (
@@ -283,7 +289,7 @@ def test_a_bandwidth_without_a_table_leaves_the_other_states_to_the_kernel():
     assert found["doubt"].tolist() == ["", NO_TABLE, ""]
     inside = own_columns(case, {"roughness.alpha": np.array([5.0, 8.0])}, "F_star", loads[:2])
     np.testing.assert_array_equal(found["d"][[0, 2]], inside["d"])
-    with pytest.raises(tb.InvalidValue) as error:  # the law itself is not known there
+    with pytest.raises(tb.errors.InvalidValue) as error:  # the law itself is not known there
         state_columns(case, F_star=loads, vary={"roughness.alpha": np.array([5.0, 31.0, 8.0])})
     assert [each.code for each in error.value.problems] == [tb.errors.Mistake.BEYOND]
 
@@ -327,7 +333,9 @@ def test_what_the_kernel_does_not_know_is_left_to_tables():
     assert states.solves_each(high, ["roughness.alpha"])
     assert not states.solves_each(own, ["roughness.sigma"])
     assert states.solves_each(contact((HARD, SOFT)), ["roughness.sigma"])
-    strength = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+    strength = tb.grains.WeibullStrength(
+        sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9
+    )
     brittle = contact((SOFT, HARD.replace(strength=strength)))
     assert not states.solves_each(brittle, ["roughness.sigma"])
 

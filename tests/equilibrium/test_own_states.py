@@ -19,7 +19,7 @@ pytest.importorskip("numba")
 from thirdbody.equilibrium.compiled.batch import NOT_MONOTONE
 from thirdbody.equilibrium.engine.run import own_columns
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 BOUND = 1e-9
 """Of d over σ, of loads over F, of areas over A_t."""
 ROUNDED = 2e-11
@@ -45,7 +45,7 @@ SEATS = ("rough", "plane")
 BODIES = {"hard": (72e9, 7.7e9), "soft": (190e9, 1e9)}
 SIZES = {
     "gaussian": tb.TruncatedGaussian(mean=300e-9, std=30e-9, n=3.0),
-    "one size": tb.Monodisperse(mean=300e-9),
+    "one size": tb.distributions.Monodisperse(mean=300e-9),
 }
 
 
@@ -149,9 +149,9 @@ def test_loads_that_jump_hold_to_the_slow_path(law, seat, body, unlike):
 
 
 GRIT = {
-    "faces": tb.Angular(roundness=0.25, angle=0.6),
-    "blunt": tb.Angular(roundness=0.5, angle=0.2, flatness=1.4),
-    "round": tb.Angular(roundness=0.9, angle=1.3),
+    "faces": tb.grains.Angular(roundness=0.25, angle=0.6),
+    "blunt": tb.grains.Angular(roundness=0.5, angle=0.2, flatness=1.4),
+    "round": tb.grains.Angular(roundness=0.9, angle=1.3),
 }
 
 
@@ -191,7 +191,9 @@ def test_particles_squeezed_to_the_end_have_the_area_of_the_law(seat):
     )
     d = np.linspace(-2.0, 0.5, 6) * case.roughness.sigma
     if seat == "plane":
-        case = case.replace(particles=case.particles.replace(diameter=tb.Monodisperse(mean=3e-7)))
+        case = case.replace(
+            particles=case.particles.replace(diameter=tb.distributions.Monodisperse(mean=3e-7))
+        )
         d = np.linspace(0.05, 0.15, 6) * 3e-7  # the squeeze of the end is 0.934
     got, want = own_columns(case, {}, "d", d), tb.solve(case, d=d).columns()
     assert not np.any(got["status"])
@@ -264,11 +266,11 @@ def test_a_load_that_the_slow_path_carries_is_not_too_large_where_formulas_end()
             tb.Material(E=68e9, nu=0.16, H=3.1e9), tb.Material(E=256e9, nu=0.19, H=6e9)
         ),
         roughness=tb.Roughness(
-            sigma=107e-9, R=86e-6, alpha=20.9, heights=tb.ExponentialHeights()
+            sigma=107e-9, R=86e-6, alpha=20.9, heights=tb.heights.ExponentialHeights()
         ),
         particles=tb.Particles(
             material=tb.Material(E=14.2e9, nu=0.44, H=369e6), areal_density=4.3e4,
-            diameter=tb.LogNormal(median=77e-6, gsd=1.06), shape=tb.Angular(roundness=0.13, angle=0.91),
+            diameter=tb.LogNormal(median=77e-6, gsd=1.06), shape=tb.grains.Angular(roundness=0.13, angle=0.91),
         ),
         particle_law=SERIES(seat="offset", h_0=2.6e-7, shadow="none"),
     )  # fmt: skip
@@ -282,7 +284,7 @@ def test_a_load_that_the_slow_path_carries_is_not_too_large_where_formulas_end()
     np.testing.assert_allclose(got["d"][sure], want["d"][sure], rtol=1e-9)
 
 
-STRENGTH = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+STRENGTH = tb.grains.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
 BREAKING = {
     "plain": ("hermite", {}, {}),
     "gone": ("deep", {"fragments": "gone"}, {}),
@@ -292,7 +294,7 @@ BREAKING = {
     "small ones too": ("hermite", {"x_c": 0.0, "size_exponent": 0.8}, {}),
     "wide": ("hermite", {}, {"diameter": tb.LogNormal(median=2.5e-7, gsd=1.3)}),
     "grit": ("hermite", {}, {"shape": GRIT["faces"]}),
-    "from zero": ("deep", {}, {"diameter": tb.Uniform(low=0.0, high=6e-7)}),
+    "from zero": ("deep", {}, {"diameter": tb.distributions.Uniform(low=0.0, high=6e-7)}),
 }
 
 
@@ -334,10 +336,11 @@ def test_particles_of_one_size_that_break_are_for_the_numpy_engine():
 
 
 CLASSES = {
-    "bins": tb.Histogram(edges=(0.0, 3e-7, 5e-7, 8e-7), counts=(410, 0, 90)),
+    "bins": tb.distributions.Histogram(edges=(0.0, 3e-7, 5e-7, 8e-7), counts=(410, 0, 90)),
     "powers": PowerLaw(edges=(1e-7, 2e-7, 4e-7, 14e-7), counts=(9, 3, 1), slopes=(3.4, 2.0, -1)),
-    "mixture": tb.Mixture(
-        parts=(tb.Monodisperse(mean=3e-7), tb.LogNormal(median=2e-7, gsd=1.4)), weights=(1, 2)
+    "mixture": tb.distributions.Mixture(
+        parts=(tb.distributions.Monodisperse(mean=3e-7), tb.LogNormal(median=2e-7, gsd=1.4)),
+        weights=(1, 2),
     ),
 }
 
@@ -404,7 +407,11 @@ def test_other_sizes_and_flakes(seat):
     loads, turn = np.array([1e-7, 3e-5]), np.array([0.9, 1.1])
     for particles, law, vary in (
         (tb.LogNormal(median=250e-9, gsd=1.3), {}, {"particles.diameter.gsd": 1.3 * turn}),
-        (tb.Uniform(low=1e-7, high=4e-7), {}, {"particles.diameter.high": 4e-7 * turn}),
+        (
+            tb.distributions.Uniform(low=1e-7, high=4e-7),
+            {},
+            {"particles.diameter.high": 4e-7 * turn},
+        ),
         (SIZES["gaussian"], {"aspect": 2.0}, {"particle_law.aspect": 2.0 * turn}),
     ):
         own = tb.particle.Flakes(seat=seat, **law) if law else case.particle_law
@@ -431,7 +438,7 @@ def test_printed_integrals_hold_to_the_slow_path(reading, sizes):
     kind = {
         "gaussian": SIZES["gaussian"],
         "lognormal": tb.LogNormal(median=3e-7, gsd=1.3),
-        "uniform": tb.Uniform(low=1e-7, high=4e-7),
+        "uniform": tb.distributions.Uniform(low=1e-7, high=4e-7),
     }[sizes]
     base = case.replace(particles=case.particles.replace(diameter=kind))
     vary, loads = drawn(case, 6, 8, unlike=True)
@@ -452,7 +459,7 @@ def test_the_highest_of_several_separations_is_found():
     dust = tb.TruncatedGaussian(mean=3e-7, std=6e-9, n=3.0)
     case = case.replace(particles=case.particles.replace(diameter=dust))
     loads = np.geomspace(1e-6, 1e-3, 60)
-    several = [len(tb.roots(case, F_star=x)) > 1 for x in loads]
+    several = [len(tb.equilibria.roots(case, F_star=x)) > 1 for x in loads]
     assert 3 < sum(several) < 57
     vary = {"roughness.alpha": np.full(60, case.roughness.alpha)}
     got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
@@ -487,14 +494,16 @@ def test_inputs_of_one_population_of_several_are_compiled():
 
 def test_the_engine_is_asked_what_is_slow():
     sizes, body = "particles.diameter.mean", "particles.material.H"
-    deep, grit = contact("deep", "plane", "soft"), tb.Angular(roundness=0.25, angle=0.6)
+    deep, grit = contact("deep", "plane", "soft"), tb.grains.Angular(roundness=0.25, angle=0.6)
     angular = deep.replace(particles=deep.particles.replace(shape=grit))
     both = deep.replace(particles=(deep.particles, contact().particles))
     assert not tables_each(deep, [sizes, body, "pressure"])
     assert not tables_each(both, ["particles.1.diameter.mean", "surfaces.first.H"])
     assert not tables_each(angular, [sizes])
     strong = deep.particles.replace(
-        strength=tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+        strength=tb.grains.WeibullStrength(
+            sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9
+        )
     )
     breaks = deep.replace(particles=strong)
     assert tables_each(breaks, [sizes])
@@ -590,7 +599,9 @@ def test_coated_asperities_hold_to_the_slow_path(indenter):
 
 @pytest.mark.parametrize("heights", ["gaussian", "exponential"])
 def test_asperities_of_several_shapes_hold_to_the_slow_path(heights):
-    shapes = tb.Ellipticity(ratios=(1.0, 2.0, 9.0), weights=(3, 2, 1), radii=(1.0, 0.7, 1.9))
+    shapes = tb.surfaces.Ellipticity(
+        ratios=(1.0, 2.0, 9.0), weights=(3, 2, 1), radii=(1.0, 0.7, 1.9)
+    )
     rough = contact().roughness.replace(ellipticity=shapes)
     if heights == "exponential":
         rough = rough.replace(heights=HEIGHTS["exponential"])
@@ -711,7 +722,7 @@ ASPERITIES = {
 def test_company_order_and_threads_change_no_bit_of_asperities(law):
     case = contact().replace(particles=None, asperity_law=ASPERITIES[law])
     if law == "shapes":
-        shapes = tb.Ellipticity(ratios=(1.0, 3.0))
+        shapes = tb.surfaces.Ellipticity(ratios=(1.0, 3.0))
         case = case.replace(**{"roughness.ellipticity": shapes})
     count, rng = 520, np.random.default_rng(6)  # more than one thread is handed at a time
     vary = {

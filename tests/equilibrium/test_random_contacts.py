@@ -64,7 +64,7 @@ def test_ranges_and_laws_are_reached():
     for index in range(400):
         try:
             every.append(random_contacts.draw(SEED, index).contact)
-        except tb.InvalidValue:  # no such heights
+        except tb.errors.InvalidValue:  # no such heights
             continue
     assert len(every) > 380
     grains = [p for each in every for p in each.populations]
@@ -81,8 +81,14 @@ def test_ranges_and_laws_are_reached():
     }
     kinds = {type(p.diameter) for p in grains}
     assert kinds == {
-        *(tb.Monodisperse, tb.TruncatedGaussian, tb.LogNormal, tb.Weibull, tb.Uniform),
-        *(tb.Histogram, tb.PowerLaw, tb.Mixture),
+        *(
+            tb.distributions.Monodisperse,
+            tb.TruncatedGaussian,
+            tb.LogNormal,
+            tb.distributions.Weibull,
+            tb.distributions.Uniform,
+        ),
+        *(tb.distributions.Histogram, tb.distributions.PowerLaw, tb.distributions.Mixture),
     }
     covered = [p.coverage for p in grains]
     assert min(covered) < 1e-7

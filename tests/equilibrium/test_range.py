@@ -12,7 +12,7 @@ CLOSE = "pressed point by point, surfaces with more than 0.05"
 
 def told(contact, F_star):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return " ".join(tb.solve(contact, F_star=F_star).warnings)
 
 

@@ -15,7 +15,7 @@ from twins import Twin, agree, base, differences, material, series_twin
 
 import thirdbody as tb
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 OURS = json.loads((Path(__file__).parents[1] / "cases" / "states.json").read_text("utf-8"))[
     "states"
 ]

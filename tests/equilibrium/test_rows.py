@@ -14,10 +14,10 @@ from thirdbody.equilibrium.compiled.rows import InterfaceRows, StateRows
 pytest.importorskip("numba")
 
 SIZES = {
-    "one size": tb.Monodisperse(mean=300e-9),
+    "one size": tb.distributions.Monodisperse(mean=300e-9),
     "many sizes": tb.LogNormal(median=250e-9, gsd=1.4),
-    "two kinds": tb.Mixture(
-        parts=(tb.LogNormal(median=200e-9, gsd=1.3), tb.Monodisperse(mean=400e-9)),
+    "two kinds": tb.distributions.Mixture(
+        parts=(tb.LogNormal(median=200e-9, gsd=1.3), tb.distributions.Monodisperse(mean=400e-9)),
         weights=(0.7, 0.3),
     ),
 }

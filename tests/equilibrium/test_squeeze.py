@@ -17,7 +17,7 @@ from thirdbody.populations.materials import reduced_modulus
 pytest.importorskip("numba", reason="states of their own are compiled")
 from thirdbody.equilibrium.compiled.size_rules import NEAR, near_rule, seat_rule
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 LAWS = [Hermite(), ZMC()]
 BODIES = {  # E and H [Pa] of the first and second surface, softer than the particle or not
@@ -38,7 +38,7 @@ def case(law, bodies, diameter=None, particle_law=None):
         particles=tb.Particles(
             material=tb.Material(E=7e10, nu=0.2, H=8e9),
             areal_density=1e11,
-            diameter=diameter or tb.Monodisperse(mean=SIZE),
+            diameter=diameter or tb.distributions.Monodisperse(mean=SIZE),
         ),
         particle_law=particle_law or tb.particle.Series(law=law, deep="off", soft="sphere"),
     )
@@ -188,7 +188,7 @@ def average_of(name):
     particle = contact.law_of(contact.particles).one(
         surfaces=contact.surfaces, particle=contact.particles.material
     )
-    return SizeAverage(particle, tb.Monodisperse(mean=1.0))
+    return SizeAverage(particle, tb.distributions.Monodisperse(mean=1.0))
 
 
 def over_seats(rows, width, gap):

@@ -18,7 +18,7 @@ from thirdbody.equilibrium.status import SENTENCES, WORDS, Status
 from thirdbody.errors import code_of
 from thirdbody.papers import seats
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def rough(H: float = 3e9, E: float = 2e11) -> tb.Contact:
@@ -80,7 +80,7 @@ class TestEveryDoor:
                 got, said, A_t = found.status_code, found.status, found.A_t
             elif door in ("states", "varied"):
                 own = {"roughness.R": 3e-6 * np.linspace(1, 1 + 1e-9, len(loads))}
-                data = tb.solve_states(
+                data = tb.equilibria.solve_states(
                     contact, F_star=loads, vary=own if door == "varied" else None
                 )
                 got, said, A_t = data.status_code.values, data.status.values, data.A_t.values

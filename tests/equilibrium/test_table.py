@@ -21,8 +21,8 @@ from thirdbody.equilibrium.table.writers import FORMATS, rounded_up
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SIZES = {
     "sizes": tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-    "uniform": tb.Uniform(low=200e-9, high=350e-9),
-    "one size": tb.Monodisperse(mean=300e-9),
+    "uniform": tb.distributions.Uniform(low=200e-9, high=350e-9),
+    "one size": tb.distributions.Monodisperse(mean=300e-9),
 }
 
 
@@ -47,7 +47,7 @@ CONTACTS = {
     "ke": contact(tb.asperity.KE()),
     "ceb": contact(tb.asperity.CEB()),
     "bounded heights": contact(
-        heights=tb.HistogramHeights(edges=(0, 1, 2.5, 3, 5), counts=(1, 3, 4, 2))
+        heights=tb.heights.HistogramHeights(edges=(0, 1, 2.5, 3, 5), counts=(1, 3, 4, 2))
     ),
     "rough seat": contact(sizes="sizes"),
     "plane seat": contact(sizes="sizes", particle_law=PLANE),
@@ -126,7 +126,9 @@ def test_against_an_integral_of_hertz_over_gaussian_heights():
 
 def test_exponential_heights_give_an_exponential():
     """p ∝ exp(−d/σ_s) exactly: the table, its slope and its tail are exact."""
-    made = tb.table(contact(tb.asperity.GW(), tb.ExponentialHeights()), low=2e-7, tolerance=1e-8)
+    made = tb.table(
+        contact(tb.asperity.GW(), tb.heights.ExponentialHeights()), low=2e-7, tolerance=1e-8
+    )
     sigma_s = made.contact.roughness.sigma_s
     x = np.linspace(2e-7, made.h[-1] + 3 * sigma_s, 1000)
     assert made.p(x) == pytest.approx(made.p(2e-7) * np.exp(-(x - 2e-7) / sigma_s), rel=1e-11)
@@ -257,7 +259,7 @@ def test_attraction_is_refused():
     with refuses(Mistake.BEYOND, "high", says="h = 1e-06 m"):
         tb.table(sticky, high=1e-6)
     made = tb.table(sticky, tolerance=1e-3)
-    pull, d = tb.pull_off(sticky)
+    pull, d = tb.equilibria.pull_off(sticky)
     assert made.error.above > pull - made.p(d + interface(sticky).mean_plane) > 1e3
     sticky = sticky.replace(asperity_law=tb.asperity.JKR(w=0.05, unloading=True))
     with refuses(Mistake.BEYOND, "", says="A_t is above 0.2 "):
@@ -340,7 +342,7 @@ def test_abaqus(table, tmp_path):
     last = np.array(text.splitlines()[-1].split(","), dtype=float)
     assert last == pytest.approx([p[-1] * 1e-6, (1e-7 + over[-1]) * 1e3], rel=1e-11)
     for bad in ({"units": "inch"}, {"name": "a, b"}, {"tolerance": 0}, {"datum": 1e6}):
-        with pytest.raises(tb.InvalidValue, match=next(iter(bad))):
+        with pytest.raises(tb.errors.InvalidValue, match=next(iter(bad))):
             table.to_abaqus(tmp_path / "bad.inp", **bad)
     assert not (tmp_path / "bad.inp").exists()
 

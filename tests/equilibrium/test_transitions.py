@@ -9,7 +9,7 @@ from twins import base, series_twin, sizes
 
 import thirdbody as tb
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 WINDOW = (1e-8, 1e-2)
 LOADS = np.geomspace(*WINDOW, 6001)
 STEP = LOADS[1] / LOADS[0]
@@ -239,5 +239,5 @@ def test_as_json():
     ],
 )
 def test_bad_questions(bad):
-    with pytest.raises(tb.InvalidValue):
+    with pytest.raises(tb.errors.InvalidValue):
         tb.transitions(CASES["rough 300"], **bad)

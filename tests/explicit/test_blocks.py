@@ -15,17 +15,19 @@ from thirdbody.quantities.say import percent
 from thirdbody.study import load_study
 from thirdbody.study.run_explicit import run_explicit
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 STEEL, GLASS = tb.materials["S45C"], tb.materials["SiO2"]
 
 
 def made(points, longest, seed=5):
     """A surface and a contact of it with particles."""
-    surface = tb.synthetic.self_affine(
+    surface = tb.surfaces.self_affine(
         sigma=100e-9, hurst=0.8, shortest=8e-7, longest=longest, spacing=1e-7, points=points,
         seed=seed,
     )  # fmt: skip
-    dust = tb.Particles(material=GLASS, areal_density=1e12, diameter=tb.Monodisperse(mean=2e-7))
+    dust = tb.Particles(
+        material=GLASS, areal_density=1e12, diameter=tb.distributions.Monodisperse(mean=2e-7)
+    )
     surfaces = tb.MaterialPair(STEEL, STEEL)
     return surface, tb.Contact(surfaces=surfaces, roughness=surface.roughness(), particles=dust)
 

@@ -46,7 +46,7 @@ def test_a_pattern_is_brought_to_the_sum(seed):
 
 
 @pytest.mark.parametrize("seed", range(25))
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_a_state_at_a_load_carries_that_load(seed):
     """Rough steel that yields nearly everywhere, down to chi = H/(E* g) of 0.001."""
     rng = np.random.default_rng(seed)

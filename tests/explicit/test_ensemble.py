@@ -29,7 +29,7 @@ CONTACT = tb.Contact(
     surfaces=tb.MaterialPair(STEEL, STEEL),
     roughness=tb.Roughness(sigma=300e-9, R=3e-6),
     particles=tb.Particles(
-        material=SILICA, areal_density=2e11, diameter=tb.Monodisperse(mean=4e-7)
+        material=SILICA, areal_density=2e11, diameter=tb.distributions.Monodisperse(mean=4e-7)
     ),
     particle_law=tb.particle.Series(deep="off"),
 )
@@ -46,7 +46,7 @@ HOW = dict(F_star=[3e-4, 2e-3], size=128, spacing=2e-7, seed=3)
 
 def many(count=4, contact=CONTACT, **changes):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return function(contact, **(HOW | {"surfaces": count} | changes))
 
 
@@ -374,7 +374,7 @@ def test_the_command_in_words():
 
 
 def test_a_measured_surface_is_pressed_itself():
-    map_of = tb.synthetic.self_affine(
+    map_of = tb.surfaces.self_affine(
         sigma=300e-9, hurst=0.8, shortest=2.4e-6, longest=8e-6, spacing=2e-7, points=128
     ).heights
     measured = tb.surfaces.from_topography(map_of, spacing=2e-7, cutoff=0)
@@ -384,7 +384,7 @@ def test_a_measured_surface_is_pressed_itself():
     assert "h_cv" not in result.data["table"]
     assert "explicit.rim" in map(code_of, result.data["warnings"])
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         alone = tb.explicit.solve(asked.contact, measured, F_star=[1e-4, 1e-3])
     assert result.data["table"]["h_raw"] == alone.h.tolist()
     shared = run_explicit(asked, workers=2)

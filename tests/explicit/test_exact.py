@@ -212,7 +212,7 @@ def test_to_a_separation_the_certificate_bounds_the_energy_too():
 
 # ---------------------------------------------------------------- caps
 def rough(points=128, seed=0, sigma=300e-9):
-    return tb.synthetic.self_affine(
+    return tb.surfaces.self_affine(
         sigma=sigma, hurst=0.8, shortest=1.2e-6, longest=6e-6, spacing=SPACING, points=points,
         seed=seed,
     ).heights  # fmt: skip
@@ -282,7 +282,7 @@ def between(z, k):
 def test_an_area_is_that_of_a_finer_grid(hardness):
     """Plastic, elastic and between: where the cap acts no rim is taken off, elsewhere it is."""
     n, coarse = 64, 4e-7
-    z = tb.synthetic.self_affine(
+    z = tb.surfaces.self_affine(
         sigma=300e-9, hurst=0.8, shortest=3.2e-6, longest=8e-6, spacing=coarse, points=n, seed=1
     ).heights
     H = None if hardness is None else hardness * E

@@ -36,7 +36,7 @@ def measured(heights, spacing=2e-7):
 
 
 def rough(points=128):
-    return tb.synthetic.self_affine(
+    return tb.surfaces.self_affine(
         sigma=300e-9, hurst=0.8, shortest=2.4e-6, longest=8e-6, spacing=2e-7, points=points
     ).heights
 
@@ -45,7 +45,7 @@ def test_it_is_a_surface_of_the_ensemble(study, found):
     contact = study.contact
     surface = tb.explicit.surface_of(contact, size=128, spacing=150e-9, seed=0)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         alone = tb.explicit.solve(contact, surface, F_star=LOADS)
     assert found.state.h.tolist() == alone.h.tolist()
     assert "128 × 128 points, 19.2 µm wide" in found.words

@@ -12,7 +12,7 @@ CAP = 0.03 * E_STAR
 
 
 def heights():
-    return tb.synthetic.self_affine(
+    return tb.surfaces.self_affine(
         sigma=5e-8, hurst=0.8, shortest=1.2e-6, longest=6e-6, spacing=SPACING, points=POINTS
     ).heights
 

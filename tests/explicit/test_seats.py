@@ -23,7 +23,7 @@ from thirdbody.explicit.seats import (
 
 SPACING = 1e-7
 MAPS = [
-    tb.synthetic.self_affine(
+    tb.surfaces.self_affine(
         sigma=300e-9, hurst=0.8, shortest=2.37e-6, longest=11.8e-6, spacing=SPACING, points=1024,
         seed=seed,
     ).heights

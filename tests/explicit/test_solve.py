@@ -12,7 +12,7 @@ from thirdbody.explicit.interface import map_of
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SPACING, POINTS = 1e-7, 128
-ROUGH = tb.synthetic.self_affine(
+ROUGH = tb.surfaces.self_affine(
     sigma=300e-9, hurst=0.8, shortest=1.2e-6, longest=6e-6, spacing=SPACING, points=POINTS, seed=5
 )
 SIDE = POINTS * SPACING
@@ -25,7 +25,7 @@ def contact(density=5e11, diameter=None, **changes):
         particles=tb.Particles(
             material=SILICA,
             areal_density=density,
-            diameter=diameter or tb.Monodisperse(mean=3e-7),
+            diameter=diameter or tb.distributions.Monodisperse(mean=3e-7),
         ),
         particle_law=tb.particle.Series(deep="off"),
     )
@@ -34,7 +34,7 @@ def contact(density=5e11, diameter=None, **changes):
 
 def pressed(made=None, surface=ROUGH, **how):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return tb.explicit.solve(made or contact(), surface, **({"F_star": 2e-3} | how))
 
 
@@ -119,7 +119,7 @@ def test_without_a_cap_load_and_separation_control_are_one(density):
 def test_no_area_carries_more_than_its_hardness(hardness, diameter):
     """A ≥ F/H, with and without particles; those of 1.5 pixels cover parts of pixels."""
     soft = STEEL.replace(H=hardness)
-    made = contact(1e12, diameter=tb.Monodisperse(mean=diameter)).replace(
+    made = contact(1e12, diameter=tb.distributions.Monodisperse(mean=diameter)).replace(
         surfaces=tb.MaterialPair(soft, soft)
     )
     least = hardness / made.E_ss
@@ -202,7 +202,7 @@ def test_change_of_units():
     plain = with_places(ROUGH.heights, PLACES)
     k, q = 1e3, 7.0
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
 
         def stiffer(body):
             return body.replace(E=q * body.E, H=q * body.H)
@@ -235,10 +235,16 @@ def test_several_populations_and_unequal_hardness():
         surfaces=tb.MaterialPair(STEEL, soft),
         particles=(
             tb.Particles(
-                material=SILICA, areal_density=2e11, diameter=tb.Monodisperse(mean=4e-7), name="a"
+                material=SILICA,
+                areal_density=2e11,
+                diameter=tb.distributions.Monodisperse(mean=4e-7),
+                name="a",
             ),
             tb.Particles(
-                material=STEEL, areal_density=2e11, diameter=tb.Monodisperse(mean=5e-7), name="b"
+                material=STEEL,
+                areal_density=2e11,
+                diameter=tb.distributions.Monodisperse(mean=5e-7),
+                name="b",
             ),
         ),
     )
@@ -341,7 +347,7 @@ def test_what_is_doubtful_is_said():
     assert "explicit.overlap" in warned(
         particles=told(x=[0.0, 1e-7], y=[0.0, 0.0], diameter=[4e-7] * 2)
     )
-    fine = tb.synthetic.self_affine(
+    fine = tb.surfaces.self_affine(
         sigma=300e-9, hurst=0.8, shortest=3e-7, longest=6e-6, spacing=1e-7, points=128
     )
     assert "explicit.grid" in warned(surface=fine)
@@ -354,7 +360,7 @@ def test_what_is_doubtful_is_said():
 
 def test_a_jump_at_the_rim_is_no_short_wave():
     """Of a part cut out of a map, whose own waves are well resolved."""
-    heights = tb.synthetic.self_affine(
+    heights = tb.surfaces.self_affine(
         sigma=300e-9, hurst=0.8, shortest=1.6e-6, longest=6e-6, spacing=1e-7, points=256
     ).heights
     whole, part = map_of(heights, 1e-7), map_of(heights[:100, :90], 1e-7)
@@ -364,7 +370,7 @@ def test_a_jump_at_the_rim_is_no_short_wave():
 
 def test_waves_are_left_out_only_where_it_is_said():
     """A topography is its heights with cutoff=0; without one it is said what is pressed."""
-    fine = tb.synthetic.self_affine(
+    fine = tb.surfaces.self_affine(
         sigma=300e-9, hurst=0.6, shortest=8e-7, longest=6e-6, spacing=SPACING, points=128
     ).heights
     given = tb.surfaces.from_topography(fine, spacing=SPACING, periodic=True, cutoff=0)
@@ -407,7 +413,9 @@ def test_a_map_in_nanometres_is_asked_for_its_unit():
         surfaces=tb.MaterialPair(tb.materials["S45C"], tb.materials["S45C"]),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(
-            material=tb.materials["SiO2"], areal_density=1e11, diameter=tb.Monodisperse(mean=3e-7)
+            material=tb.materials["SiO2"],
+            areal_density=1e11,
+            diameter=tb.distributions.Monodisperse(mean=3e-7),
         ),
     )
     heights = 100.0 * np.random.default_rng(3).normal(size=(32, 32))

@@ -333,7 +333,7 @@ def hard_is_elastic(law: Law) -> None:
         )
     d = np.array([-1.0, 0.5, 3.0]) * SIGMA_S
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         one, gw = (tb.solve(contact(x, hardness=20 * E_STAR), d=d) for x in (law, GW()))
     assert_allclose(one.F_star, gw.F_star, rtol=1e-12)
     assert_allclose(one.A_t, gw.A_t, rtol=1e-12)
@@ -364,7 +364,7 @@ def exponential_heights(law: Law) -> None:
         d = d[1:]
     bare = contact(law, HEIGHTS["exponential"])
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         state = tb.solve(bare, d=d)
     F, slope, curve = interface(bare).load(d).T
     assert_allclose(state.F_star / state.A_t, state.F_star[0] / state.A_t[0], rtol=1e-11)
@@ -392,7 +392,7 @@ def derivative_of_the_sum(law: Law) -> None:
             assert abs(got - slope) <= 1e-8 * (abs(got) + size)
 
 
-def by_parts(law: Law, heights: tb.Heights, h: float) -> float:
+def by_parts(law: Law, heights: tb.heights.Heights, h: float) -> float:
     start = bound(law).start * unit(law)
     top = start + 42 * SIGMA_S if heights.kinks else start + (h + 12) * SIGMA_S
     inside = [w for w in edges(law) if w < top]

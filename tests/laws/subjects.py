@@ -67,7 +67,7 @@ def subjects() -> list[Subject]:
         for options in OPTIONS.get(name, [{}]):
             try:
                 law = build(name, **options)
-            except (tb.InvalidValue, TypeError):
+            except (tb.errors.InvalidValue, TypeError):
                 continue
             words = ",".join(
                 f"{k}={v:.3g}" if isinstance(v, float) else str(v) for k, v in options.items()
@@ -86,13 +86,13 @@ SLOW = {"weibull", "johnson-SB", "histogram"}
 """Heights whose tables take long: only some laws are asked for theirs, the others for the sum."""
 TABULATED = {"gw", "ceb", "dmt"}
 
-HEIGHTS: dict[str, tb.Heights] = {
-    "gaussian": tb.GaussianHeights(),
-    "exponential": tb.ExponentialHeights(),
-    "weibull": tb.WeibullHeights(shape=1.8),
-    "johnson-SU": tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
-    "johnson-SB": tb.JohnsonHeights(skewness=0.6, kurtosis=2.8),
-    "histogram": tb.HistogramHeights(edges=(0, 1, 2.5, 3, 5), counts=(1, 3, 4, 2)),
+HEIGHTS: dict[str, tb.heights.Heights] = {
+    "gaussian": tb.heights.GaussianHeights(),
+    "exponential": tb.heights.ExponentialHeights(),
+    "weibull": tb.heights.WeibullHeights(shape=1.8),
+    "johnson-SU": tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
+    "johnson-SB": tb.heights.JohnsonHeights(skewness=0.6, kurtosis=2.8),
+    "histogram": tb.heights.HistogramHeights(edges=(0, 1, 2.5, 3, 5), counts=(1, 3, 4, 2)),
 }
 
 
@@ -107,7 +107,7 @@ class _Untabulated:
 
 
 def quadrature(
-    law: AbstractAsperityLaw, heights: tb.Heights, separation: float
+    law: AbstractAsperityLaw, heights: tb.heights.Heights, separation: float
 ) -> tuple[float, float]:
     """F* and A_t at d = separation·σ_s without the table, which takes seconds for some heights."""
     bare = contact(law, heights)
@@ -126,7 +126,7 @@ def nu_of(law: AbstractAsperityLaw) -> float:
 
 def contact(
     law: AbstractAsperityLaw,
-    heights: tb.Heights = HEIGHTS["gaussian"],
+    heights: tb.heights.Heights = HEIGHTS["gaussian"],
     *,
     hardness: float = H,
     particles: tb.Particles | None = None,

@@ -28,7 +28,7 @@ ROUGH = tb.Roughness(sigma=100e-9, R=3e-6)
 
 
 def angular(roundness=0.25, degrees=35.0, flatness=1.0):
-    return tb.Angular(roundness=roundness, angle=f"{degrees} deg", flatness=flatness)
+    return tb.grains.Angular(roundness=roundness, angle=f"{degrees} deg", flatness=flatness)
 
 
 def load(eps, shape, surfaces=HARD, particle=QUARTZ, law=None):
@@ -132,8 +132,8 @@ def test_a_round_shape_is_a_sphere(degrees):
 
 def test_a_sphere_is_what_the_law_is_written_for():
     law = Series(deep="off")
-    assert law.of_shape(tb.Sphere()) is law
-    assert contact(tb.Sphere()) == contact()
+    assert law.of_shape(tb.grains.Sphere()) is law
+    assert contact(tb.grains.Sphere()) == contact()
     assert contact().law_of(contact().particles) is contact().particle_law or law == Series(
         deep="off"
     )
@@ -252,7 +252,9 @@ def test_no_more_load_than_a_sphere_of_the_size(degrees, surfaces):
     particle = one(shape, surfaces)
     ends = [half.cap * half.delta_1 for half in particle.sides]
     eps = np.geomspace(1e-5, min(ends), 300)
-    assert np.all(load(eps, shape, surfaces) <= load(eps, tb.Sphere(), surfaces) * (1 + 1e-12))
+    assert np.all(
+        load(eps, shape, surfaces) <= load(eps, tb.grains.Sphere(), surfaces) * (1 + 1e-12)
+    )
 
 
 def test_flatness_bounds_the_area():
@@ -332,11 +334,11 @@ def test_a_tip_softer_than_the_surface_is_blunted_at_its_own_hardness():
 
 def test_grains_that_break_may_be_angular():
     """Infinitely strong they are whole; quartz breaks at its corners' tension."""
-    strong = tb.WeibullStrength(sigma_0=1e16, x_0=1e-3, m=3, x_c=0.0)
+    strong = tb.grains.WeibullStrength(sigma_0=1e16, x_0=1e-3, m=3, x_c=0.0)
     whole = tb.solve(contact(angular()), pressure=5e6)
     kept = tb.solve(contact(angular(), strength=strong), pressure=5e6)
     assert kept.d == pytest.approx(whole.d, rel=1e-9)
-    weak = tb.WeibullStrength(sigma_0=1e8, x_0=1e-6, m=3, x_c=0.0, fragments="gone")
+    weak = tb.grains.WeibullStrength(sigma_0=1e8, x_0=1e-6, m=3, x_c=0.0, fragments="gone")
     gone = tb.solve(contact(angular(), strength=weak), d=5e-7)
     assert gone.F_sa_star < 0.5 * tb.solve(contact(angular()), d=5e-7).F_sa_star
 
@@ -345,7 +347,7 @@ def test_grains_that_break_may_be_angular():
 def test_dents_are_cones():
     case = contact(angular(0.1, 30.0), surfaces=HARD, outputs=(tb.outputs.Dents(),),
                    law=Series(deep="off", seat="plane"))  # fmt: skip
-    case = case.replace(**{"particles.diameter": tb.Monodisperse(mean=1e-6)})
+    case = case.replace(**{"particles.diameter": tb.distributions.Monodisperse(mean=1e-6)})
     state = tb.solve(case, d=6e-7)
     law = case.law_of(case.particles)
     found = law.single(1e-6, 6e-7, surfaces=HARD, particle=QUARTZ)
@@ -364,7 +366,7 @@ def test_half_a_radius_is_a_quarter_of_the_size():
         case = contact(
             angular(), surfaces=HARD, outputs=outputs, law=Series(deep="off", seat="plane")
         )
-        case = case.replace(**{"particles.diameter": tb.Monodisperse(mean=1e-6)})
+        case = case.replace(**{"particles.diameter": tb.distributions.Monodisperse(mean=1e-6)})
         assert tb.solve(case, d=d).outputs["embedded_1"] == pytest.approx(n)
 
 
@@ -375,7 +377,7 @@ def test_the_groove_no_longer_grows_with_load(degrees):
     case = contact(
         angular(0.05, degrees), outputs=(friction,), law=Series(deep="off", seat="plane")
     )
-    case = case.replace(**{"particles.diameter": tb.Monodisperse(mean=1e-6)})
+    case = case.replace(**{"particles.diameter": tb.distributions.Monodisperse(mean=1e-6)})
     law = case.law_of(case.particles)
     spots = law.probe(np.array([0.4, 0.6]), surfaces=UNLIKE, particle=QUARTZ)
     one_side, _ = friction.motion(spots).plough
@@ -388,8 +390,10 @@ def test_shapes_round_trip():
     assert tb.Contact.from_dict(case.to_dict()) == case
     assert hash(case) == hash(tb.Contact.from_dict(case.to_dict()))
     moved = case.replace(**{"particles.shape.angle": 0.5})
-    assert moved.particles.shape == tb.Angular(roundness=0.3, angle=0.5, flatness=1.4)
-    assert tb.Angular.from_spq(0.5, roundness=0.3).angle == pytest.approx(math.pi / 6, rel=1e-15)
+    assert moved.particles.shape == tb.grains.Angular(roundness=0.3, angle=0.5, flatness=1.4)
+    assert tb.grains.Angular.from_spq(0.5, roundness=0.3).angle == pytest.approx(
+        math.pi / 6, rel=1e-15
+    )
 
 
 @pytest.mark.parametrize(
@@ -398,7 +402,7 @@ def test_shapes_round_trip():
         (lambda: angular(0.0), refuses(Mistake.RANGE, "Angular.roundness", value="0.0")),
         (lambda: angular(1.1), refuses(Mistake.RANGE, "Angular.roundness", value="1.1")),
         (
-            lambda: tb.Angular(roundness=0.3, angle=25),
+            lambda: tb.grains.Angular(roundness=0.3, angle=25),
             refuses(Mistake.RANGE, "Angular.angle", value="25"),
         ),
         (lambda: angular(0.3, 0.0), refuses(Mistake.RANGE, "Angular.angle", value="0.0")),
@@ -408,10 +412,13 @@ def test_shapes_round_trip():
         ),
         (lambda: angular(0.3, 30.0, 0.9), refuses(Mistake.RANGE, "Angular.flatness", value="0.9")),
         (
-            lambda: tb.Angular(roundness=0.3, angle="3 nm"),
+            lambda: tb.grains.Angular(roundness=0.3, angle="3 nm"),
             refuses(Mistake.UNIT, "Angular.angle", says='"3 nm"'),
         ),
-        (lambda: tb.Angular.from_spq(1.0, roundness=0.3), refuses(Mistake.RANGE, "", says="1.0")),
+        (
+            lambda: tb.grains.Angular.from_spq(1.0, roundness=0.3),
+            refuses(Mistake.RANGE, "", says="1.0"),
+        ),
         (lambda: contact("angular"), refuses(Mistake.KIND, "Particles.shape", value="'angular'")),
         (lambda: contact(angular(), law=Flakes()), refuses(Mistake.CLASH, "particles.shape")),
         (lambda: contact(angular(), law=Horng2022()), refuses(Mistake.CLASH, "particles.shape")),
@@ -424,7 +431,7 @@ def test_bad_input(build, refusal):
 
 def test_angles_have_no_default():
     with pytest.raises(TypeError):
-        tb.Angular(roundness=0.3)
+        tb.grains.Angular(roundness=0.3)
 
 
 def test_blunt_faces_are_told_of():
@@ -441,7 +448,7 @@ def test_steep_faces_cut():
 def test_no_joint_is_a_tip_with_its_own_end():
     """b ≥ φ/2: the tip's law up to the end."""
     shape = angular(0.9, 60.0)
-    assert not shape.faced
+    assert not shape.has_touching_faces
     (half, _) = one(shape).sides
     assert type(half) is Side
     assert half.area(np.array([5.0]))[0] == pytest.approx(np.pi / 4, rel=1e-15)

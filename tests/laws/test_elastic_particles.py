@@ -121,8 +121,8 @@ def test_sums_agree_with_the_single_ball_at_any_gap(seat, sizes):
     """Populations, deep inside too, by direct quadrature over size and seat."""
     law = ELASTIC.replace(seat=seat)
     diameter = {
-        "one": tb.Monodisperse(mean=1.0),
-        "many": tb.Uniform(low=0.9, high=1.1),
+        "one": tb.distributions.Monodisperse(mean=1.0),
+        "many": tb.distributions.Uniform(low=0.9, high=1.1),
     }[sizes]
     dust = population(diameter=diameter)
     rough = tb.Roughness(sigma=0.5, R=1e3)

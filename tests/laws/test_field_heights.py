@@ -122,7 +122,7 @@ def test_particles_lie_on_the_heights_of_the_map():
     law = Field(spectrum=own_of(rolled_off(5.0), SKEWED))
     dust = tb.Particles(
         material=body.replace(H=4 * body.H), areal_density=1e11,
-        diameter=tb.Monodisperse(mean=SIGMA),
+        diameter=tb.distributions.Monodisperse(mean=SIGMA),
     )  # fmt: skip
     case = tb.Contact(
         surfaces=tb.MaterialPair(body, body), roughness=tb.Roughness(sigma=SIGMA, R=3e-6),

@@ -153,11 +153,11 @@ def test_flakes_solve():
 
 
 def test_refusals_and_warnings():
-    with pytest.raises(tb.InvalidValue, match="aspect"):
+    with pytest.raises(tb.errors.InvalidValue, match="aspect"):
         Flakes(aspect=0.5)
-    with pytest.raises(tb.InvalidValue, match=r"Flakes\.h_0"):
+    with pytest.raises(tb.errors.InvalidValue, match=r"Flakes\.h_0"):
         Flakes(aspect=2, h_0=1e-9)
-    with pytest.raises(tb.InvalidValue, match="thickness"):
+    with pytest.raises(tb.errors.InvalidValue, match="thickness"):
         tb.solve(contact(Flakes(aspect=40.0)), pressure=1e7)
     assert not Flakes(aspect=3.0).warnings(SURFACES, ROUGH, FLAKES)
     (told,) = Flakes(aspect=40.0).warnings(SURFACES, ROUGH, FLAKES)

@@ -22,7 +22,7 @@ from thirdbody.contact.asperity_sums import DensitySum
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)
 
 
-def integral(law: tb.Heights, powers: range, top: float | None = None) -> np.ndarray:
+def integral(law: tb.heights.Heights, powers: range, top: float | None = None) -> np.ndarray:
     """∫z^j φ dz up to ``top``; the first panel with u = (z − z_0)^(1/6), for an edge z^(β−1)."""
     marks = np.array(law.pieces)
     ends = [z for z in (*law.kinks, *marks) if top is None or z < top]
@@ -43,17 +43,17 @@ def integral(law: tb.Heights, powers: range, top: float | None = None) -> np.nda
 
 ALL = {
     **HEIGHTS,
-    "weibull-1": tb.WeibullHeights(shape=1.0),
-    "weibull-1.3": tb.WeibullHeights(shape=1.3),
-    "weibull-3.6": tb.WeibullHeights(shape=3.6),
-    "weibull-20": tb.WeibullHeights(shape=20.0),
-    "johnson-SN": tb.JohnsonHeights(),
-    "johnson-SU-symmetric": tb.JohnsonHeights(skewness=0.0, kurtosis=5.0),
-    "johnson-SU-right": tb.JohnsonHeights(skewness=1.0, kurtosis=6.0),
-    "johnson-SB-left": tb.JohnsonHeights(skewness=-0.9, kurtosis=3.3),
-    "johnson-SB-flat": tb.JohnsonHeights(skewness=0.0, kurtosis=2.0),
-    "histogram-one": tb.HistogramHeights(edges=(-3, 5), counts=(7,)),
-    "histogram-gap": tb.HistogramHeights(edges=(0, 1, 2, 4), counts=(1, 0, 2)),
+    "weibull-1": tb.heights.WeibullHeights(shape=1.0),
+    "weibull-1.3": tb.heights.WeibullHeights(shape=1.3),
+    "weibull-3.6": tb.heights.WeibullHeights(shape=3.6),
+    "weibull-20": tb.heights.WeibullHeights(shape=20.0),
+    "johnson-SN": tb.heights.JohnsonHeights(),
+    "johnson-SU-symmetric": tb.heights.JohnsonHeights(skewness=0.0, kurtosis=5.0),
+    "johnson-SU-right": tb.heights.JohnsonHeights(skewness=1.0, kurtosis=6.0),
+    "johnson-SB-left": tb.heights.JohnsonHeights(skewness=-0.9, kurtosis=3.3),
+    "johnson-SB-flat": tb.heights.JohnsonHeights(skewness=0.0, kurtosis=2.0),
+    "histogram-one": tb.heights.HistogramHeights(edges=(-3, 5), counts=(7,)),
+    "histogram-gap": tb.heights.HistogramHeights(edges=(0, 1, 2, 4), counts=(1, 0, 2)),
 }
 every = pytest.mark.parametrize("law", ALL.values(), ids=ALL)
 
@@ -89,7 +89,7 @@ def test_density_is_a_density(law):
 
 @every
 def test_round_trip(law):
-    again = tb.Heights.from_dict(json.loads(json.dumps(law.to_dict())))
+    again = tb.heights.Heights.from_dict(json.loads(json.dumps(law.to_dict())))
     assert again == law
     assert hash(again) == hash(law)
 
@@ -107,7 +107,7 @@ def test_samples(law):
 
 # -------------------------------------------------------------------------------- Johnson
 @pytest.mark.parametrize(
-    "name", [name for name, law in ALL.items() if isinstance(law, tb.JohnsonHeights)]
+    "name", [name for name, law in ALL.items() if isinstance(law, tb.heights.JohnsonHeights)]
 )
 def test_johnson_has_the_moments_asked_for(name):
     law = ALL[name]
@@ -115,7 +115,7 @@ def test_johnson_has_the_moments_asked_for(name):
 
 
 def test_johnson_anchor_and_closed_moments():
-    law = tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2)
+    law = tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2)
     assert law.family == "SU"
     assert_allclose(law.parameters, [2.25366, 2.99553, 1.88369, 2.15859], atol=6e-6)
     gamma, delta, xi, lam = law.parameters
@@ -137,20 +137,20 @@ def test_johnson_anchor_and_closed_moments():
 def test_johnson_on_the_lognormal_line(W, sign):
     skew = sign * math.sqrt(W - 1) * (W + 2)
     line = W**4 + 2 * W**3 + 3 * W**2 - 3
-    law = tb.JohnsonHeights(skewness=skew, kurtosis=line)
+    law = tb.heights.JohnsonHeights(skewness=skew, kurtosis=line)
     assert law.family == "SL"
     moments = integral(law, range(5))
     assert_allclose(moments, [1, 0, 1, skew, line], rtol=1e-9, atol=1e-11)
     q = np.array([0.01, 0.5, 0.9])
     assert_allclose([integral(law, range(1), top)[0] for top in law.ppf(q)], q, rtol=1e-9)
-    assert tb.JohnsonHeights(skewness=skew, kurtosis=1.05 * line).family == "SU"
-    assert tb.JohnsonHeights(skewness=skew, kurtosis=0.97 * line).family == "SB"
+    assert tb.heights.JohnsonHeights(skewness=skew, kurtosis=1.05 * line).family == "SU"
+    assert tb.heights.JohnsonHeights(skewness=skew, kurtosis=0.97 * line).family == "SB"
 
 
 @pytest.mark.parametrize(("skew", "kurtosis"), [(-1.8, 8.6), (-2.15, 11.35), (-2.475, 15.1)])
 def test_skewness_of_either_sign(skew, kurtosis):
-    right = tb.JohnsonHeights(skewness=-skew, kurtosis=kurtosis)
-    left = tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+    right = tb.heights.JohnsonHeights(skewness=-skew, kurtosis=kurtosis)
+    left = tb.heights.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
     z = np.linspace(-3, 3, 7)
     assert_allclose(left.pdf(-z), right.pdf(z), rtol=1e-6, atol=1e-9)
 
@@ -160,21 +160,23 @@ def test_any_feasible_johnson(skew, above):
     """Moments as asked; mirrored heights for the opposite skewness."""
     assume(abs(skew) > 1e-3)
     kurtosis = skew**2 + 1 + above
-    law = tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+    law = tb.heights.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
     moments = integral(law, range(5))
     assert_allclose(moments[:3], [1, 0, 1], atol=1e-10)
     assert_allclose(moments[3:], [skew, kurtosis], rtol=1e-6, atol=1e-6)
-    other = tb.JohnsonHeights(skewness=-skew, kurtosis=kurtosis)
+    other = tb.heights.JohnsonHeights(skewness=-skew, kurtosis=kurtosis)
     z = np.array([-1.7, -0.4, 0.6, 2.1])
     assert_allclose(other.pdf(-z), law.pdf(z), rtol=1e-5, atol=1e-8)
 
 
 def test_gaussian_is_a_johnson():
     z = np.linspace(-4, 4, 9)
-    assert tb.JohnsonHeights(skewness=0, kurtosis=3).family == "SN"
-    assert_allclose(tb.JohnsonHeights().pdf(z), tb.GaussianHeights().pdf(z), rtol=1e-14)
-    near = tb.JohnsonHeights(skewness=0.0, kurtosis=3.0001)
-    assert_allclose(near.pdf(z), tb.GaussianHeights().pdf(z), rtol=1e-3)
+    assert tb.heights.JohnsonHeights(skewness=0, kurtosis=3).family == "SN"
+    assert_allclose(
+        tb.heights.JohnsonHeights().pdf(z), tb.heights.GaussianHeights().pdf(z), rtol=1e-14
+    )
+    near = tb.heights.JohnsonHeights(skewness=0.0, kurtosis=3.0001)
+    assert_allclose(near.pdf(z), tb.heights.GaussianHeights().pdf(z), rtol=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -182,8 +184,8 @@ def test_gaussian_is_a_johnson():
 )
 def test_impossible_kurtosis_is_refused(skew, kurtosis):
     """κ ≥ Sk² + 1 for any distribution; 0 is the excess of a Gaussian, a likely slip."""
-    with pytest.raises(tb.InvalidValue, match="kurtosis"):
-        tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+    with pytest.raises(tb.errors.InvalidValue, match="kurtosis"):
+        tb.heights.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
 
 
 EDGE = np.random.default_rng(20).random((24, 3)).tolist()
@@ -197,8 +199,8 @@ def test_edge_of_the_feasible_region(at):
     skew = (1 if at[2] < 0.5 else -1) * 10 ** (4 * at[0] - 2)
     kurtosis = skew**2 + 1 + 10 ** (8 * at[1] - 7)
     try:
-        law = tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
-    except tb.InvalidValue as error:
+        law = tb.heights.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+    except tb.errors.InvalidValue as error:
         (problem,) = error.problems
         assert "kurtosis" in problem
         assert problem.code is Mistake.BEYOND or kurtosis <= skew**2 + 1
@@ -230,7 +232,7 @@ def test_edge_of_the_feasible_region(at):
 def test_too_extreme_is_refused_when_built(skew, kurtosis):
     code, place = (Mistake.BEYOND, "") if kurtosis < 1e40 else (Mistake.RANGE, ".kurtosis")
     with refuses(code, "JohnsonHeights" + place, says=f"{kurtosis:g}"):
-        tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+        tb.heights.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
 
 
 @pytest.mark.parametrize(
@@ -238,7 +240,7 @@ def test_too_extreme_is_refused_when_built(skew, kurtosis):
 )
 def test_near_the_edge_fractions_are_right(skew, kurtosis):
     """Pile-ups at the ends, and a heavy tail, are summed to what the quantiles say."""
-    law = tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+    law = tb.heights.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
     q = np.array([0.01, 0.3, 0.5, 0.9])
     assert_allclose(law.sf(law.ppf(q)), 1 - q, rtol=1e-6)
 
@@ -249,18 +251,18 @@ def test_kurtosis_is_not_the_excess():
     sample = stats.norm.ppf((np.arange(20_000) + 0.5) / 20_000)
     excess = float(stats.kurtosis(sample))
     assert excess == pytest.approx(0, abs=0.01)
-    assert tb.JohnsonHeights(kurtosis=excess + 3).family in ("SN", "SB", "SU")
+    assert tb.heights.JohnsonHeights(kurtosis=excess + 3).family in ("SN", "SB", "SU")
 
 
 # -------------------------------------------------------------------------------- Weibull
 def test_weibull_anchors():
     z = np.linspace(-0.99, 8, 40)
-    one = tb.WeibullHeights(shape=1.0)
-    assert_allclose(one.pdf(z), tb.ExponentialHeights().pdf(z), rtol=1e-13)
-    law = tb.WeibullHeights(shape=1.8)
+    one = tb.heights.WeibullHeights(shape=1.0)
+    assert_allclose(one.pdf(z), tb.heights.ExponentialHeights().pdf(z), rtol=1e-13)
+    law = tb.heights.WeibullHeights(shape=1.8)
     assert_allclose(law.lowest, -1.7395151310437456, rtol=1e-14)
     assert law.pdf(law.lowest - 1e-9) == 0
-    no_skew = tb.WeibullHeights(shape=3.6023494257197)
+    no_skew = tb.heights.WeibullHeights(shape=3.6023494257197)
     _, _, _, skew, kurtosis = integral(no_skew, range(5))
     assert abs(skew) < 1e-9
     assert kurtosis == pytest.approx(2.72, abs=0.005)  # not a Gaussian's 3
@@ -272,23 +274,23 @@ def test_weibull_moments_by_gamma_functions():
         var = g[2] - g[1] ** 2
         skew = (g[3] - 3 * g[1] * g[2] + 2 * g[1] ** 3) / var**1.5
         kurt = (g[4] - 4 * g[1] * g[3] + 6 * g[1] ** 2 * g[2] - 3 * g[1] ** 4) / var**2
-        got = integral(tb.WeibullHeights(shape=shape), range(5))
+        got = integral(tb.heights.WeibullHeights(shape=shape), range(5))
         assert_allclose(got[3:], [skew, kurt], rtol=3e-10, atol=1e-10)
 
 
 @pytest.mark.parametrize("shape", [0.5, 0.0, -1.0, math.nan, 51.0])
 def test_weibull_refuses(shape):
-    with pytest.raises(tb.InvalidValue, match="shape"):
-        tb.WeibullHeights(shape=shape)
+    with pytest.raises(tb.errors.InvalidValue, match="shape"):
+        tb.heights.WeibullHeights(shape=shape)
 
 
 # ------------------------------------------------------------------------------ histogram
 def test_histogram_of_a_sample_comes_back():
     counts, edges = np.histogram(np.random.default_rng(3).standard_normal(4000), bins=25)
-    law = tb.HistogramHeights(edges=tuple(edges), counts=tuple(counts))
+    law = tb.heights.HistogramHeights(edges=tuple(edges), counts=tuple(counts))
     assert_allclose(integral(law, range(3)), [1, 0, 1], atol=1e-12)
     # position and unit of the heights do not matter
-    other = tb.HistogramHeights(edges=tuple(1e-9 * edges + 5e-9), counts=tuple(3 * counts))
+    other = tb.heights.HistogramHeights(edges=tuple(1e-9 * edges + 5e-9), counts=tuple(3 * counts))
     z = np.array([-1.23, 0.04, 1.01])
     assert_allclose(other.pdf(z), law.pdf(z), rtol=1e-9)
     assert_allclose(other.ppf([0.2, 0.7]), law.ppf([0.2, 0.7]), rtol=1e-9)
@@ -296,16 +298,18 @@ def test_histogram_of_a_sample_comes_back():
 
 def test_histogram_far_from_its_origin():
     """Heights above a far datum: their variance is no small difference of squares."""
-    near = tb.HistogramHeights(edges=(0, 1, 2, 4), counts=(1, 3, 2))
+    near = tb.heights.HistogramHeights(edges=(0, 1, 2, 4), counts=(1, 3, 2))
     for far in (2.0**27, 2.0**40):
-        law = tb.HistogramHeights(edges=tuple(far + x for x in near.edges), counts=near.counts)
+        law = tb.heights.HistogramHeights(
+            edges=tuple(far + x for x in near.edges), counts=near.counts
+        )
         assert_allclose(law.pieces, near.pieces, rtol=1e-14)
 
 
 def test_fine_histogram_tends_to_its_density():
     z = np.linspace(-6, 6, 241)
     cdf = 0.5 * (1 + np.array([math.erf(x / math.sqrt(2)) for x in z]))
-    law = tb.HistogramHeights(edges=tuple(z), counts=tuple(np.diff(cdf)))
+    law = tb.heights.HistogramHeights(edges=tuple(z), counts=tuple(np.diff(cdf)))
     for h in (0.5, 1.5):
         fine, exact = (
             quadrature(tb.asperity.GW(), heights, h) for heights in (law, HEIGHTS["gaussian"])
@@ -329,8 +333,8 @@ def test_fine_histogram_tends_to_its_density():
     ],
 )
 def test_histogram_refuses(bad):
-    with pytest.raises(tb.InvalidValue, match="HistogramHeights"):
-        tb.HistogramHeights(**bad)
+    with pytest.raises(tb.errors.InvalidValue, match="HistogramHeights"):
+        tb.heights.HistogramHeights(**bad)
 
 
 # ---------------------------------------------------------------------------- conventions
@@ -349,7 +353,7 @@ def test_one_lower_edge_below_which_all_touch():
     bare = contact(tb.asperity.GW(), HEIGHTS["histogram"])
     lowest = HEIGHTS["histogram"].pieces[0]
     h = lowest - np.array([0.3, 0.2, 0.1])
-    with pytest.warns(tb.RangeWarning):
+    with pytest.warns(tb.errors.RangeWarning):
         A = tb.solve(bare, d=h * SIGMA_S).A_t
     assert_allclose(A, math.pi * 0.05 * -h, rtol=1e-11)
 
@@ -383,7 +387,7 @@ def test_johnson_in_place_of_pearson():
     pearson = stats.pearson3(skew)
     kurtosis = 3 + float(pearson.stats(moments="k"))
     assert kurtosis == pytest.approx(3.735, rel=1e-12)
-    johnson = tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+    johnson = tb.heights.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
     less = {}
     for pressure in (3e5, 3e6, 3e7):
         two = area_at(pressure, johnson.pdf, johnson.highest)
@@ -436,7 +440,7 @@ def test_light_loads_on_the_last_asperities(name, w):
 @pytest.mark.parametrize(("skewness", "kurtosis"), [(-2.0, 6.0), (-1.0, 2.6), (0.0, 1.5)])
 def test_loads_on_heights_that_crowd_at_their_ends(skewness, kurtosis):
     """Hertz contacts on bounded Johnson heights, by the normal variable behind them."""
-    heights = tb.JohnsonHeights(skewness=skewness, kurtosis=kurtosis)
+    heights = tb.heights.JohnsonHeights(skewness=skewness, kurtosis=kurtosis)
     gamma, delta, xi, lam = heights.parameters
     assert heights.family == "SB"
     law = tb.asperity.GW()

@@ -195,7 +195,7 @@ def test_soft_indenter_takes_over():
 
 @pytest.mark.parametrize("a_t", [-0.1, 2000.0, math.inf])
 def test_radius_out_of_range(a_t):
-    with pytest.raises(tb.InvalidValue, match="a/t"):
+    with pytest.raises(tb.errors.InvalidValue, match="a/t"):
         layer(MILD).contact([1.0, a_t])
 
 
@@ -302,18 +302,18 @@ def test_a_stiff_coating_lowers_the_approach_at_one_load_only():
 @pytest.mark.parametrize(
     ("heights", "h", "F", "A", "rtol"),
     [
-        (tb.GaussianHeights(), 0.5, 2.726132100026e-4, 2.652385534603e-2, 1e-10),
-        (tb.GaussianHeights(), 3.0, 3.777405748688e-7, 4.871026776323e-5, 1e-11),
+        (tb.heights.GaussianHeights(), 0.5, 2.726132100026e-4, 2.652385534603e-2, 1e-10),
+        (tb.heights.GaussianHeights(), 3.0, 3.777405748688e-7, 4.871026776323e-5, 1e-11),
         (
-            tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
+            tb.heights.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
             1.5,
             1.243286623426e-5,
             1.599285161095e-3,
             1e-11,
         ),
         # these two were made with an equation resolved to a/t = 30 and reach to 60
-        (tb.WeibullHeights(shape=1.8), 0.5, 3.420807024881e-4, 2.994559938564e-2, 2e-9),
-        (tb.ExponentialHeights(), 1.5, 1.500471506989e-4, 1.131086556798e-2, 4e-7),
+        (tb.heights.WeibullHeights(shape=1.8), 0.5, 3.420807024881e-4, 2.994559938564e-2, 2e-9),
+        (tb.heights.ExponentialHeights(), 1.5, 1.500471506989e-4, 1.131086556798e-2, 4e-7),
     ],
 )
 def test_sums_over_a_rough_surface(heights, h, F, A, rtol):
@@ -357,7 +357,7 @@ def test_a_vanishing_coating_in_a_contact_is_no_coating():
 def test_refusals():
     with refuses(Mistake.BEYOND, "Series.law", value="Coated"):
         tb.particle.Series(deep="off", law=coated(STIFF))
-    with pytest.raises(tb.InvalidValue, match="scale"):
+    with pytest.raises(tb.errors.InvalidValue, match="scale"):
         coated(STIFF).reduced("force", 1.0)
-    with pytest.raises(tb.InvalidValue, match=r"Coated\.t"):
+    with pytest.raises(tb.errors.InvalidValue, match=r"Coated\.t"):
         coated(STIFF, t=0.0)

@@ -213,7 +213,9 @@ def by_quadrature(contact, d):
 
 @pytest.mark.parametrize("shadow", ["footprint", "projected", "covered", "none"])
 @pytest.mark.parametrize("seat", ["plane", "rough"])
-@pytest.mark.parametrize("sizes", [SPREAD, tb.Monodisperse(mean=3e-7)], ids=["spread", "one"])
+@pytest.mark.parametrize(
+    "sizes", [SPREAD, tb.distributions.Monodisperse(mean=3e-7)], ids=["spread", "one"]
+)
 def test_the_particle_law_of_the_page_is_summed(package, sizes, seat, shadow):
     contact = pegs(package.Pegs(), sizes, seat=seat, shadow=shadow)
     d = 2.6e-7
@@ -260,7 +262,7 @@ def test_the_particle_law_of_the_page_works_everywhere(package, tmp_path):
         for name in ("F_sa_star", "A_t", "A_e", "A_p", "shadow"):
             np.testing.assert_allclose(getattr(again, name), getattr(states, name), rtol=1e-9)
     sigma = np.linspace(0.9e-7, 1.2e-7, 30)
-    found = tb.solve_states(contact, F_star=1e-5, vary={"roughness.sigma": sigma})
+    found = tb.equilibria.solve_states(contact, F_star=1e-5, vary={"roughness.sigma": sigma})
     alone = tb.solve(contact.replace(**{"roughness.sigma": sigma[7]}), F_star=1e-5)
     assert found["A_t"][7] == pytest.approx(alone.A_t, rel=1e-9)
 

@@ -130,7 +130,7 @@ def test_sums(name, shared_reference):
         found = quadrature(law, heights, float(row["h"]))
         if DENSITIES[row["dist"]] not in SLOW or law.name in TABULATED:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", tb.RangeWarning)
+                warnings.simplefilter("ignore", tb.errors.RangeWarning)
                 state = tb.solve(contact(law, heights), d=float(row["h"]) * SIGMA_S)
             assert (state.F_star, state.A_t) == pytest.approx(found, rel=1e-11)
         for got, want in zip(found, (float(row["F"]), float(row["A"])), strict=True):

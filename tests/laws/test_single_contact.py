@@ -194,13 +194,13 @@ def test_laws_are_values():
 @pytest.mark.parametrize("bad", [{"k": 0}, {"k": 1.2}, {"k": math.nan}, {"rho": 1}, {"rho": -3}])
 @pytest.mark.parametrize("kind", [tb.asperity.ZMC, tb.asperity.Hermite])
 def test_bad_constants(kind, bad):
-    with pytest.raises(tb.InvalidValue, match=next(iter(bad))):
+    with pytest.raises(tb.errors.InvalidValue, match=next(iter(bad))):
         kind(**bad)
 
 
 def test_hermite_refuses_constants_that_overshoot():
     """Monotone only while the slope at yield stays below 3 (1 − k)."""
-    with pytest.raises(tb.InvalidValue, match="rho"):
+    with pytest.raises(tb.errors.InvalidValue, match="rho"):
         tb.asperity.Hermite(k=0.8, rho=54)
 
 

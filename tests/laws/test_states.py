@@ -9,7 +9,7 @@ from subjects import FIRST, HEIGHTS, SIGMA_S, SUBJECTS, Subject, contact
 
 import thirdbody as tb
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 STATUS = {"found", "jump", "never p-s", "always p-s", "always s-s", "never s-s", "none"}
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 LOADS = np.geomspace(1e-7, 3e-4, 7)
@@ -38,7 +38,7 @@ def gentle(subject: Subject) -> tb.asperity.AbstractAsperityLaw:
     return subject.law.replace(**changes)
 
 
-def balanced(state: tb.Equilibrium, loads: np.ndarray) -> None:
+def balanced(state: tb.results.Equilibrium, loads: np.ndarray) -> None:
     assert set(state.status) == {"ok"}, set(state.status)
     for name, column in state.columns().items():
         if column.dtype.kind == "f":
@@ -152,14 +152,14 @@ def test_heights_with_particles(name, heights):
 def test_pull_off():
     """Only adhesive laws pull, unloading more than loading; nothing pulls harder anywhere."""
     laws = [FIRST["jkr"].law.replace(unloading=True), FIRST["jkr"].law, FIRST["dmt"].law]
-    pulls = [tb.pull_off(contact(law)) for law in laws]
+    pulls = [tb.equilibria.pull_off(contact(law)) for law in laws]
     assert pulls[0][0] > pulls[1][0] >= 0
     assert pulls[2][0] > 0
     for law, (pressure, d) in zip(laws, pulls, strict=True):
         at = tb.solve(contact(law), d=d + np.linspace(-2, 2, 41) * SIGMA_S)
         assert at.pressure.min() >= -pressure * (1 + 1e-9)
         assert_allclose(at.pressure[20], -pressure, rtol=1e-12)
-    assert tb.pull_off(contact(FIRST["gw"].law))[0] == 0
+    assert tb.equilibria.pull_off(contact(FIRST["gw"].law))[0] == 0
 
 
 @pytest.mark.parametrize("name", ["dmt", "jkr"])

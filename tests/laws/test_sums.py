@@ -141,13 +141,13 @@ def test_exact_ellipse(row):
 
 @pytest.mark.parametrize("heights", SUMS)
 def test_sums(heights):
-    assert tb.Heights.from_dict(OURS["heights"][heights]["type"]) == HEIGHTS[heights]
+    assert tb.heights.Heights.from_dict(OURS["heights"][heights]["type"]) == HEIGHTS[heights]
     wrong = []
     for row in SUMS[heights]:
         found = [quadrature(law_of(row), HEIGHTS[heights], float(row["h"]))]
         if heights not in SLOW or row["law"] in TABULATED:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", tb.RangeWarning)
+                warnings.simplefilter("ignore", tb.errors.RangeWarning)
                 one = contact(law_of(row), HEIGHTS[heights])
                 state = tb.solve(one, d=float(row["h"]) * SIGMA_S)
             found.append((state.F_star, state.A_t))
@@ -189,7 +189,9 @@ def test_adhesive_sums():
     assert_allclose(gw.A_t, dmt.A_t, rtol=1e-13)
 
 
-def drawn_together(law: tb.asperity.AbstractAsperityLaw, heights: tb.Heights, h: float) -> float:
+def drawn_together(
+    law: tb.asperity.AbstractAsperityLaw, heights: tb.heights.Heights, h: float
+) -> float:
     """F/(ηE*R²) at separation h by panels of its own, from the second implementation."""
     start = -0.75 * (math.pi**2 * W**2 * R / E_STAR**2) ** (1 / 3)
     low = (start if getattr(law, "unloading", False) else 0.0) / SIGMA_S
@@ -243,7 +245,7 @@ def test_load_and_area_fall_with_the_separation(subject):
     """All areas, and the load of a law without adhesion, over 10 σ_s."""
     d = np.linspace(-1, 9, 60) * SIGMA_S
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         state = tb.solve(contact(subject.law), d=d)
     assert np.all(np.diff(state.A_t) < 0)
     assert_allclose(state.A_t, state.A_e + state.A_ep + state.A_p, rtol=1e-13)

@@ -78,7 +78,7 @@ def test_a_run_writes_what_it_says_and_goes_on(few, tmp_path, monkeypatch):
 
 
 def test_another_preset_is_refused(tmp_path):
-    with pytest.raises(tb.InvalidValue, match="must be 'full' or 'quick'"):
+    with pytest.raises(tb.errors.InvalidValue, match="must be 'full' or 'quick'"):
         explicit.reproduce(tmp_path, preset="fast")
 
 

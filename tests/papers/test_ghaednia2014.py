@@ -60,7 +60,7 @@ def test_particles_smaller_than_the_gap_change_nothing():
 def test_rigid_particles_of_one_size_indent_the_steel_alone():
     """A = η_a π (x/2) (δ/2) with p = η_a (4/3) E₁* √(x/2) (δ/2)^1.5, E₁* of one steel half-space."""
     dusty = contact(stiffness=1e6, size=5.0).replace(
-        **{"particles.diameter": tb.Monodisperse(mean=1e-6)}
+        **{"particles.diameter": tb.distributions.Monodisperse(mean=1e-6)}
     )
     p, x, eta = 1e5, 1e-6, dusty.particles.areal_density
     steel = tb.materials["S45C"]
@@ -72,7 +72,9 @@ def test_rigid_particles_of_one_size_indent_the_steel_alone():
 
 
 def test_hertzian_particles_of_one_size_alone_have_two_thirds():
-    dusty = contact(size=5.0).replace(**{"particles.diameter": tb.Monodisperse(mean=1e-6)})
+    dusty = contact(size=5.0).replace(
+        **{"particles.diameter": tb.distributions.Monodisperse(mean=1e-6)}
+    )
     state = tb.solve(dusty, pressure=np.geomspace(1e4, 1e6, 9))
     n = np.diff(np.log(state.A_t)) / np.diff(np.log(state.pressure))
     assert_allclose(n, 2 / 3, rtol=1e-9)

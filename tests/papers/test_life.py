@@ -61,7 +61,7 @@ def test_every_printed_line_says_what_is_allowed(done):
     assert len(printed) == len(claims)
     for line, claim in zip(printed, claims, strict=True):
         assert claim.quantity in line
-        assert line.endswith(f"; allowed {claim.allowed}") == bool(claim.rule)
+        assert line.endswith(f"; allowed {claim.rule_words}") == bool(claim.rule)
     assert sum("; allowed " in line for line in printed) > 15
 
 

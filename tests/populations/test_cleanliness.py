@@ -96,14 +96,18 @@ def test_no_particles_is_the_low_end_of_zero():
 
 
 def test_more_than_the_scale():
-    dust = tb.Particles(material=STEEL, diameter=tb.Monodisperse(mean=5e-6), areal_density=3e6)
+    dust = tb.Particles(
+        material=STEEL, diameter=tb.distributions.Monodisperse(mean=5e-6), areal_density=3e6
+    )
     assert dust.iso4406(gap=1e-6) == ">28/0/0"
 
 
 def test_size_on_an_edge_counts():
     """ "From 4 µm on" includes 4 µm."""
     for size, code in ((4e-6, "17/0/0"), (6e-6, "17/17/0"), (14e-6, "17/17/17")):
-        dust = tb.Particles(material=STEEL, diameter=tb.Monodisperse(mean=size), areal_density=1e3)
+        dust = tb.Particles(
+            material=STEEL, diameter=tb.distributions.Monodisperse(mean=size), areal_density=1e3
+        )
         assert dust.iso4406(gap=1e-6) == code
 
 
@@ -139,7 +143,7 @@ def test_scale_doubles():
     ],
 )
 def test_impossible_codes(code, said):
-    with pytest.raises(tb.InvalidValue, match=said) as caught:
+    with pytest.raises(tb.errors.InvalidValue, match=said) as caught:
         from_code(code)
     assert len(caught.value.problems) == 1
 
@@ -194,7 +198,9 @@ def test_unknown_classes():
         tb.Particles.from_cleanliness_class("as4059", 6, gap=1e-6, material=STEEL)
     with refuses(Mistake.OPTION, "standard", value='"iso"'):
         tb.Particles.from_cleanliness_class("iso", "6", gap=1e-6, material=STEEL)
-    dirty = tb.Particles(material=STEEL, diameter=tb.Monodisperse(mean=8e-5), areal_density=1e3)
+    dirty = tb.Particles(
+        material=STEEL, diameter=tb.distributions.Monodisperse(mean=8e-5), areal_density=1e3
+    )
     assert dirty.cleanliness_class("as4059", gap=1e-6) == ">12"
 
 
@@ -296,7 +302,7 @@ def test_amount_of_dust():
     ],
 )
 def test_bad_dust(options, said):
-    with pytest.raises(tb.InvalidValue, match=said):
+    with pytest.raises(tb.errors.InvalidValue, match=said):
         tb.Particles.test_dust("A2", material=SILICA, **options)
     with refuses(Mistake.OPTION, "", says='"A9"'):
         tb.Particles.test_dust("A9", material=SILICA, **options)
@@ -345,7 +351,7 @@ def test_concentrations(text, amount, by):
     ],
 )
 def test_bad_concentrations(text, said):
-    with pytest.raises(tb.InvalidValue, match=said) as caught:
+    with pytest.raises(tb.errors.InvalidValue, match=said) as caught:
         cl.concentration(text)
     assert len(caught.value.problems) == 1
 
@@ -376,7 +382,7 @@ def test_concentration_against_counted_particles():
 
 def test_density_of_the_material_counts():
     heavy = SILICA.replace(density=2650.0)
-    given = dict(gap=1e-6, diameter=tb.Monodisperse(mean=1e-6))
+    given = dict(gap=1e-6, diameter=tb.distributions.Monodisperse(mean=1e-6))
     own = tb.Particles.from_concentration("1 wt%", material=heavy, **given)
     told = tb.Particles.from_concentration("1 wt%", material=SILICA, particle_density=2650, **given)
     assert own.areal_density == told.areal_density
@@ -412,7 +418,7 @@ def test_name_and_law_pass_through():
     ],
 )
 def test_bad_amounts(options, refusal):
-    sizes = tb.Monodisperse(mean=1e-6)
+    sizes = tb.distributions.Monodisperse(mean=1e-6)
     with refusal:
         tb.Particles.from_concentration(
             **({"gap": "1 um", "diameter": sizes, "material": SILICA} | options)
@@ -530,7 +536,7 @@ def test_sizes_beside_the_study_file(tmp_path):
     ids=str,
 )  # fmt: skip
 def test_study_file_mistakes(keys, said):
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         study(**keys)
     problems = [text for text in caught.value.problems if "[sweep" not in text]
     assert len(problems) == 1, problems

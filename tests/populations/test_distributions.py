@@ -17,7 +17,7 @@ mp.mp.dps = 40
 KINDS = ("gaussian", "lognormal", "weibull", "uniform", "histogram")
 
 
-def density(dist: tb.Distribution, x: mp.mpf) -> mp.mpf:
+def density(dist: tb.distributions.Distribution, x: mp.mpf) -> mp.mpf:
     """φ_a inside the support, not normalised for a truncated Gaussian."""
     match dist:
         case tb.TruncatedGaussian():
@@ -25,38 +25,38 @@ def density(dist: tb.Distribution, x: mp.mpf) -> mp.mpf:
         case tb.LogNormal():
             s = mp.log(mp.mpf(dist.gsd))
             return mp.npdf(mp.log(x / dist.median), 0, s) / x
-        case tb.Weibull():
+        case tb.distributions.Weibull():
             t, k = x / mp.mpf(dist.scale), mp.mpf(dist.shape)
             return k / dist.scale * t ** (k - 1) * mp.exp(-(t**k))
-        case tb.Uniform():
+        case tb.distributions.Uniform():
             return 1 / (mp.mpf(dist.high) - dist.low)
     raise TypeError(dist)
 
 
 @cache
-def mass(dist: tb.Distribution) -> mp.mpf:
+def mass(dist: tb.distributions.Distribution) -> mp.mpf:
     if not isinstance(dist, tb.TruncatedGaussian):
         return mp.mpf(1)
     lo, hi = dist.support
     return mp.ncdf(hi, dist.mean, dist.std) - mp.ncdf(lo, dist.mean, dist.std)
 
 
-def marks(dist: tb.Distribution) -> list[float]:
+def marks(dist: tb.distributions.Distribution) -> list[float]:
     """Places where the density has shoulders."""
     match dist:
         case tb.TruncatedGaussian():
             return [dist.mean + j * dist.std for j in range(-8, 9)]
         case tb.LogNormal():
             return [dist.median * dist.gsd**j for j in np.arange(-8, 9 + 2 * dist.s)]
-        case tb.Weibull():
+        case tb.distributions.Weibull():
             levels = (1e-16, 1e-12, 1e-9, 1e-6, 1e-4, 0.01, 0.1, 0.5, 1, 2, 4, 8, 16, 30)
             return [dist.scale * v ** (1 / dist.shape) for v in levels]
     return []
 
 
-def exact_moment(dist: tb.Distribution, n: int, a: float, b: float) -> mp.mpf:
+def exact_moment(dist: tb.distributions.Distribution, n: int, a: float, b: float) -> mp.mpf:
     """∫x^n φ_a between a and b, both cut to the support."""
-    if isinstance(dist, tb.Histogram):
+    if isinstance(dist, tb.distributions.Histogram):
         total = sum(mp.mpf(c) for c in dist.counts)
         out = mp.mpf(0)
         for lo, hi, c in zip(dist.edges, dist.edges[1:], dist.counts, strict=False):
@@ -75,7 +75,7 @@ def exact_moment(dist: tb.Distribution, n: int, a: float, b: float) -> mp.mpf:
 
 
 @st.composite
-def distributions(draw, kinds=KINDS) -> tb.Distribution:
+def distributions(draw, kinds=KINDS) -> tb.distributions.Distribution:
     kind = draw(st.sampled_from(kinds))
     size, width = draw(decades(1e-9, 1e-4)), draw(decades(1e-3, 1.0))
     if kind == "gaussian":
@@ -84,17 +84,17 @@ def distributions(draw, kinds=KINDS) -> tb.Distribution:
     if kind == "lognormal":
         return tb.LogNormal(median=size, gsd=1 + width)
     if kind == "weibull":
-        return tb.Weibull(scale=size, shape=draw(decades(0.6, 60)))
+        return tb.distributions.Weibull(scale=size, shape=draw(decades(0.6, 60)))
     if kind == "uniform":
-        return tb.Uniform(low=size, high=size * (1 + width))
+        return tb.distributions.Uniform(low=size, high=size * (1 + width))
     counts = draw(st.lists(st.integers(0, 50), min_size=1, max_size=6).filter(lambda c: sum(c) > 0))
     steps = draw(st.lists(decades(0.01, 1), min_size=len(counts), max_size=len(counts)))
     start = draw(st.sampled_from((0.0, 0.3)))
     edges = size * (start + np.cumsum([0.0, *steps]))
-    return tb.Histogram(edges=tuple(edges), counts=tuple(counts))
+    return tb.distributions.Histogram(edges=tuple(edges), counts=tuple(counts))
 
 
-def inside(dist: tb.Distribution, share: float) -> float:
+def inside(dist: tb.distributions.Distribution, share: float) -> float:
     lo, hi = dist.support
     return lo + share * (hi - lo)
 
@@ -173,8 +173,10 @@ def test_known_means():
     assert tb.LogNormal(median=1e-6, gsd=math.e).mean_diameter == pytest.approx(
         1e-6 * math.exp(0.5), rel=1e-12
     )
-    assert tb.Weibull(scale=1e-6, shape=2).moment(2) == pytest.approx(1e-12, rel=1e-12)
-    assert tb.Uniform(low=1.0, high=3.0).moment(2) == pytest.approx(13 / 3, rel=1e-13)
+    assert tb.distributions.Weibull(scale=1e-6, shape=2).moment(2) == pytest.approx(
+        1e-12, rel=1e-12
+    )
+    assert tb.distributions.Uniform(low=1.0, high=3.0).moment(2) == pytest.approx(13 / 3, rel=1e-13)
     assert tb.TruncatedGaussian(mean=1.0, std=0.1, n=8.4).moment(2) == pytest.approx(
         1.01, rel=1e-13
     )
@@ -229,9 +231,9 @@ def test_samples_follow_the_law(kind):
     dist = {
         "gaussian": tb.TruncatedGaussian(mean=3.0, std=1.0, n=2.0),
         "lognormal": tb.LogNormal(median=3.0, gsd=1.4),
-        "weibull": tb.Weibull(scale=3.0, shape=1.5),
-        "uniform": tb.Uniform(low=1.0, high=2.0),
-        "histogram": tb.Histogram(edges=(0.0, 1.0, 4.0), counts=(3, 1)),
+        "weibull": tb.distributions.Weibull(scale=3.0, shape=1.5),
+        "uniform": tb.distributions.Uniform(low=1.0, high=2.0),
+        "histogram": tb.distributions.Histogram(edges=(0.0, 1.0, 4.0), counts=(3, 1)),
     }[kind]
     x = dist.sample(np.random.default_rng(7), 200_000)
     for n in (1, 2):
@@ -256,7 +258,7 @@ def test_change_of_unit(dist, factor, n, cut):
 def test_json_round_trip(dist):
     import json
 
-    again = tb.Distribution.from_dict(json.loads(json.dumps(dist.to_dict())))
+    again = tb.distributions.Distribution.from_dict(json.loads(json.dumps(dist.to_dict())))
     assert again == dist
     assert hash(again) == hash(dist)
 
@@ -272,8 +274,8 @@ def test_a_distribution_is_frozen_and_has_replace():
 # ------------------------------------------------------------------------------- mixtures
 PARTS = (
     tb.TruncatedGaussian(mean=1e-7, std=1e-8),
-    tb.Monodisperse(mean=2.5e-7),
-    tb.Histogram(edges=(2e-7, 3e-7), counts=(1,)),
+    tb.distributions.Monodisperse(mean=2.5e-7),
+    tb.distributions.Histogram(edges=(2e-7, 3e-7), counts=(1,)),
 )
 
 
@@ -283,7 +285,7 @@ PARTS = (
     cuts=st.tuples(st.floats(0, 4e-7), st.floats(0, 4e-7)),
 )
 def test_mixture_is_the_weighted_sum(weights, n, cuts):
-    both = tb.Mixture(parts=PARTS, weights=weights)
+    both = tb.distributions.Mixture(parts=PARTS, weights=weights)
     want = sum(
         w / sum(weights) * float(part.partial_moment(n, *cuts))
         for w, part in zip(weights, PARTS, strict=True)
@@ -293,18 +295,18 @@ def test_mixture_is_the_weighted_sum(weights, n, cuts):
 
 
 def test_mixture_of_mixtures():
-    inner = tb.Mixture(parts=PARTS[:2], weights=(1, 3))
-    outer = tb.Mixture(parts=(inner, PARTS[2]), weights=(1, 1))
-    flat = tb.Mixture(parts=PARTS, weights=(1, 3, 4))
+    inner = tb.distributions.Mixture(parts=PARTS[:2], weights=(1, 3))
+    outer = tb.distributions.Mixture(parts=(inner, PARTS[2]), weights=(1, 1))
+    flat = tb.distributions.Mixture(parts=PARTS, weights=(1, 3, 4))
     for n in range(3):
         assert outer.moment(n) == pytest.approx(flat.moment(n), rel=1e-14)
     assert [w for w, _ in outer.components] == pytest.approx([1 / 8, 3 / 8, 1 / 2])
-    assert tb.Distribution.from_dict(outer.to_dict()) == outer
+    assert tb.distributions.Distribution.from_dict(outer.to_dict()) == outer
     assert outer.scaled(2).moment(2) == pytest.approx(4 * outer.moment(2), rel=1e-12)
 
 
 def test_mixture_quantiles():
-    both = tb.Mixture(parts=PARTS, weights=(1, 1, 1))
+    both = tb.distributions.Mixture(parts=PARTS, weights=(1, 1, 1))
     for q in (0.01, 0.2, 1 / 3 - 1e-6, 0.4, 0.9, 0.999):
         x = float(both.ppf(q))
         below, at = (float(both.partial_moment(0, 0, y)) for y in (x * (1 - 1e-9), x * (1 + 1e-9)))
@@ -312,7 +314,7 @@ def test_mixture_quantiles():
 
 
 def test_one_size():
-    one = tb.Monodisperse(mean=2e-7)
+    one = tb.distributions.Monodisperse(mean=2e-7)
     assert one.support == (2e-7, 2e-7)
     assert one.moment(3) == pytest.approx(8e-21)
     assert one.partial_moment(1, 0, 1.9e-7) == 0
@@ -330,7 +332,7 @@ def test_narrow_gaussian_becomes_one_size(width):
 
 
 def test_histogram_with_empty_ends_and_gaps():
-    sizes = tb.Histogram(edges=(0.0, 1.0, 2.0, 3.0, 4.0), counts=(0, 1, 0, 3))
+    sizes = tb.distributions.Histogram(edges=(0.0, 1.0, 2.0, 3.0, 4.0), counts=(0, 1, 0, 3))
     assert sizes.support[1] == 4.0
     assert sizes.partial_moment(0, 2.0, 3.0) == 0
     assert sizes.moment(1) == pytest.approx(0.25 * 1.5 + 0.75 * 3.5)
@@ -350,12 +352,12 @@ def test_supports():
     """Where each law begins and ends, and what a cut tail may hold."""
     assert tb.TruncatedGaussian(mean=3.0, std=0.5, n=2).support == pytest.approx((2, 4))
     assert tb.TruncatedGaussian(mean=1.0, std=0.5, n=4).support == pytest.approx((0, 3))
-    assert tb.Uniform(low=1.0, high=2.0).support == (1.0, 2.0)
-    assert tb.Histogram(edges=(1.0, 2.0, 4.0), counts=(1, 1)).support == (1.0, 4.0)
+    assert tb.distributions.Uniform(low=1.0, high=2.0).support == (1.0, 2.0)
+    assert tb.distributions.Histogram(edges=(1.0, 2.0, 4.0), counts=(1, 1)).support == (1.0, 4.0)
     lo, hi = tb.LogNormal(median=1.0, gsd=2.0).support
     for z in (-math.log(lo) / math.log(2), math.log(hi) / math.log(2)):
         assert 0.5 * math.erfc(z / math.sqrt(2)) < 1e-16
-    lo, hi = tb.Weibull(scale=1.0, shape=2.0).support
+    lo, hi = tb.distributions.Weibull(scale=1.0, shape=2.0).support
     assert lo == 0
     assert math.exp(-(hi**2)) < 1e-16
 
@@ -364,9 +366,12 @@ def test_supports():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: tb.Monodisperse(mean=0.0), ["Monodisperse.mean = 0.0", "> 0 [m]"]),
-        (lambda: tb.Monodisperse(mean="300 nm"), ["must be a number in SI units [m]"]),
-        (lambda: tb.Monodisperse(mean=math.nan), ["> 0 [m]"]),
+        (lambda: tb.distributions.Monodisperse(mean=0.0), ["Monodisperse.mean = 0.0", "> 0 [m]"]),
+        (
+            lambda: tb.distributions.Monodisperse(mean="300 nm"),
+            ["must be a number in SI units [m]"],
+        ),
+        (lambda: tb.distributions.Monodisperse(mean=math.nan), ["> 0 [m]"]),
         (
             lambda: tb.TruncatedGaussian(mean=-1e-7, std=1e-8),
             ["TruncatedGaussian.mean", "leave out the minus sign"],
@@ -377,25 +382,25 @@ def test_supports():
         (lambda: tb.LogNormal(median=1e-7, gsd=1.0), ["gsd = 1.0", "> 1"]),
         (lambda: tb.LogNormal(median=1e-7, gsd=50), ["gsd", "<= 20"]),
         (lambda: tb.LogNormal(median=0, gsd=2), ["median"]),
-        (lambda: tb.Weibull(scale=-1, shape=2), ["scale = -1"]),
-        (lambda: tb.Weibull(scale=1e-7, shape=0.1), ["shape = 0.1", ">= 0.5"]),
-        (lambda: tb.Uniform(low=2.0, high=1.0), ["high"]),
-        (lambda: tb.Uniform(low=-1.0, high=1.0), ["low"]),
-        (lambda: tb.Histogram(edges=(0, 1), counts=(1, 2)), ["2 edges", "2 counts"]),
-        (lambda: tb.Histogram(edges=(0, 2, 1), counts=(1, 2)), ["increase"]),
-        (lambda: tb.Histogram(edges=(-1, 2), counts=(1,)), ["at or above 0"]),
-        (lambda: tb.Histogram(edges=(0, 1), counts=(0,)), ["at least one above 0"]),
-        (lambda: tb.Histogram(edges=(0, 1), counts=(-1,)), [">= 0"]),
-        (lambda: tb.Histogram(edges=(0, math.nan), counts=(1,)), ["finite"]),
-        (lambda: tb.Histogram(edges="ab", counts=(1,)), ["sequence of numbers"]),
-        (lambda: tb.Mixture(parts=(), weights=()), ["0 parts"]),
-        (lambda: tb.Mixture(parts=PARTS, weights=(1, 2)), ["3 parts and 2 weights"]),
-        (lambda: tb.Mixture(parts=PARTS, weights=(1, 2, 0)), ["must all be > 0"]),
-        (lambda: tb.Mixture(parts=(1.0,), weights=(1,)), ["size distributions"]),
+        (lambda: tb.distributions.Weibull(scale=-1, shape=2), ["scale = -1"]),
+        (lambda: tb.distributions.Weibull(scale=1e-7, shape=0.1), ["shape = 0.1", ">= 0.5"]),
+        (lambda: tb.distributions.Uniform(low=2.0, high=1.0), ["high"]),
+        (lambda: tb.distributions.Uniform(low=-1.0, high=1.0), ["low"]),
+        (lambda: tb.distributions.Histogram(edges=(0, 1), counts=(1, 2)), ["2 edges", "2 counts"]),
+        (lambda: tb.distributions.Histogram(edges=(0, 2, 1), counts=(1, 2)), ["increase"]),
+        (lambda: tb.distributions.Histogram(edges=(-1, 2), counts=(1,)), ["at or above 0"]),
+        (lambda: tb.distributions.Histogram(edges=(0, 1), counts=(0,)), ["at least one above 0"]),
+        (lambda: tb.distributions.Histogram(edges=(0, 1), counts=(-1,)), [">= 0"]),
+        (lambda: tb.distributions.Histogram(edges=(0, math.nan), counts=(1,)), ["finite"]),
+        (lambda: tb.distributions.Histogram(edges="ab", counts=(1,)), ["sequence of numbers"]),
+        (lambda: tb.distributions.Mixture(parts=(), weights=()), ["0 parts"]),
+        (lambda: tb.distributions.Mixture(parts=PARTS, weights=(1, 2)), ["3 parts and 2 weights"]),
+        (lambda: tb.distributions.Mixture(parts=PARTS, weights=(1, 2, 0)), ["must all be > 0"]),
+        (lambda: tb.distributions.Mixture(parts=(1.0,), weights=(1,)), ["size distributions"]),
     ],
 )
 def test_mistakes_are_named(make, words):
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         make()
     for word in words:
         assert word in str(caught.value)
@@ -403,7 +408,7 @@ def test_mistakes_are_named(make, words):
 
 
 def test_all_mistakes_at_once():
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         tb.TruncatedGaussian(mean=-1, std=-1, n=-1)
     assert len(caught.value.problems) == 3
 
@@ -412,10 +417,10 @@ def test_all_mistakes_at_once():
 @pytest.mark.parametrize(
     "dist",
     [
-        tb.sizes.LogNormal(median=1e-6, gsd=1.003),
-        tb.sizes.LogNormal(median=1e-6, gsd=3.4),
-        tb.sizes.Weibull(scale=1e-6, shape=0.5),
-        tb.sizes.Weibull(scale=1e-6, shape=15.0),
+        tb.LogNormal(median=1e-6, gsd=1.003),
+        tb.LogNormal(median=1e-6, gsd=3.4),
+        tb.distributions.Weibull(scale=1e-6, shape=0.5),
+        tb.distributions.Weibull(scale=1e-6, shape=15.0),
     ],
     ids=str,
 )

@@ -29,7 +29,7 @@ ELLIPTIC = [tb.asperity.EllipticZMC, tb.asperity.EllipticCEB]
 SUMS = ("F_star", "A_t", "A_e", "A_ep", "A_p")
 D = np.array([0.0, 1.0, 2.5, 4.0]) * ROUGH.sigma
 LAW = tb.particle.Series(deep="off")
-MIXED = tb.Ellipticity(ratios=(1, 2, 5), weights=(0.5, 0.3, 0.2), radii=(1.2, 1.0, 0.7))
+MIXED = tb.surfaces.Ellipticity(ratios=(1, 2, 5), weights=(0.5, 0.3, 0.2), radii=(1.2, 1.0, 0.7))
 both_laws = pytest.mark.parametrize("law", ELLIPTIC)
 
 
@@ -46,17 +46,17 @@ def sums(contact, d=D):
 
 # ---------------------------------------------------------------- limits
 @both_laws
-@pytest.mark.parametrize("heights", [tb.GaussianHeights(), tb.ExponentialHeights()])
+@pytest.mark.parametrize("heights", [tb.heights.GaussianHeights(), tb.heights.ExponentialHeights()])
 @pytest.mark.parametrize("density", [{}, {"eta_R_sigma": 0.06}, {"eta": 1.5e11}])
 def test_one_class_is_the_law_with_that_ratio(law, heights, density):
     rough = ROUGH.replace(heights=heights, **density)
-    one = sums(contact(law(), tb.Ellipticity(ratios=(4,)), rough))
+    one = sums(contact(law(), tb.surfaces.Ellipticity(ratios=(4,)), rough))
     np.testing.assert_allclose(one, sums(contact(law(ratio=4.0), None, rough)), rtol=1e-14)
 
 
 @both_laws
 def test_the_radius_of_a_class_leaves_the_density_of_asperities(law):
-    shape = tb.Ellipticity(ratios=(4,), radii=(1.5,))
+    shape = tb.surfaces.Ellipticity(ratios=(4,), radii=(1.5,))
     larger = ROUGH.replace(R=1.5 * ROUGH.R, eta=ROUGH.density)
     expected = sums(contact(law(ratio=4.0), None, larger))
     np.testing.assert_allclose(sums(contact(law(), shape)), expected, rtol=1e-14)
@@ -70,7 +70,7 @@ def test_the_radius_of_a_class_leaves_the_density_of_asperities(law):
     ],
 )
 def test_round_classes_are_the_circular_law(law, circular):
-    found = sums(contact(law, tb.Ellipticity(ratios=(1, 1), weights=(1, 3))))
+    found = sums(contact(law, tb.surfaces.Ellipticity(ratios=(1, 1), weights=(1, 3))))
     np.testing.assert_allclose(found, sums(contact(circular, None)), rtol=1e-13)
 
 
@@ -87,7 +87,7 @@ def johnson(ratio):
 
 
 @both_laws
-@pytest.mark.parametrize("heights", [tb.GaussianHeights(), tb.ExponentialHeights()])
+@pytest.mark.parametrize("heights", [tb.heights.GaussianHeights(), tb.heights.ExponentialHeights()])
 def test_elastic_population_acts_by_its_mean_radii(law, heights):
     """H → ∞: the area is that of round tips with ⟨ρR_A⟩, the load with ⟨√(ρR_F)⟩²."""
     hard = STEEL.replace(H=1e16)
@@ -102,7 +102,7 @@ def test_elastic_population_acts_by_its_mean_radii(law, heights):
     np.testing.assert_allclose(found[0], F * (shares @ (root_R_F * np.sqrt(radii))), rtol=1e-12)
     np.testing.assert_allclose(found[1], A * (shares @ (R_A * radii)), rtol=1e-12)
     # a mean ratio in one class is not the same
-    mean = tb.Ellipticity(ratios=(shares @ [1, 2, 5],), radii=(shares @ radii,))
+    mean = tb.surfaces.Ellipticity(ratios=(shares @ [1, 2, 5],), radii=(shares @ radii,))
     assert np.all(np.abs(sums(contact(law(), mean, rough))[0] / found[0] - 1) > 1e-3)
 
 
@@ -126,11 +126,13 @@ def test_against_explicit_asperities(law, shape):
         which = rng.choice(3, count, p=(0.5, 0.3, 0.2))
         ratio, R = np.array([1, 2, 5.0])[which], ROUGH.R * np.array([1.2, 1.0, 0.7])[which]
     elif shape == "uniform":
-        population = tb.Ellipticity.from_distribution(tb.Uniform(low=1, high=9))
+        population = tb.surfaces.Ellipticity.from_distribution(
+            tb.distributions.Uniform(low=1, high=9)
+        )
         ratio = np.repeat(rng.uniform(1, 9, pools), count // pools)
         R = np.full(count, ROUGH.R)
     else:
-        population = tb.Ellipticity.combined(
+        population = tb.surfaces.Ellipticity.combined(
             first_ratio=6, R_first=5e-6, second_ratio=3, R_second=7e-6, angle="random"
         )
         first, second = tensor(6, 5e-6, 0), (tensor(3, 7e-6, t) for t in rng.uniform(0, 7, pools))
@@ -160,14 +162,17 @@ def test_against_explicit_asperities(law, shape):
 @pytest.mark.parametrize(
     "density",
     [
-        tb.Uniform(low=1, high=20),
-        tb.Histogram(edges=(1, 2, 5, 10), counts=(5, 3, 1)),
-        tb.Mixture(parts=(tb.Monodisperse(mean=3), tb.Uniform(low=2, high=4)), weights=(1, 2)),
+        tb.distributions.Uniform(low=1, high=20),
+        tb.distributions.Histogram(edges=(1, 2, 5, 10), counts=(5, 3, 1)),
+        tb.distributions.Mixture(
+            parts=(tb.distributions.Monodisperse(mean=3), tb.distributions.Uniform(low=2, high=4)),
+            weights=(1, 2),
+        ),
     ],
 )
 def test_gauss_classes_against_many(law, density):
     """The density integrated over λ with many nodes, each its own contact with one ratio."""
-    shape = tb.Ellipticity.from_distribution(density)
+    shape = tb.surfaces.Ellipticity.from_distribution(density)
     assert len(shape.ratios) <= 8
     reference = 0.0
     for weight, part in density.components:
@@ -182,7 +187,7 @@ def test_gauss_classes_against_many(law, density):
 
 def test_moments_of_the_classes_are_those_of_the_density():
     """Means of cosh ln λ and ln²λ, which the Gauss rule was not asked for."""
-    shape = tb.Ellipticity.from_distribution(tb.Uniform(low=1, high=5))
+    shape = tb.surfaces.Ellipticity.from_distribution(tb.distributions.Uniform(low=1, high=5))
     ratio = np.array(shape.ratios)
     shares = np.array([each.share for each in shape.classes])
     assert shares.sum() == pytest.approx(1, abs=1e-14)
@@ -193,13 +198,13 @@ def test_moments_of_the_classes_are_those_of_the_density():
 
 def test_ratios_below_one_are_turned():
     """λ and 1/λ are one shape: log-normal about 1 is the folded one."""
-    shape = tb.Ellipticity.from_distribution(tb.LogNormal(median=1.0, gsd=1.5))
+    shape = tb.surfaces.Ellipticity.from_distribution(tb.LogNormal(median=1.0, gsd=1.5))
     shares = np.array([each.share for each in shape.classes])
     assert min(shape.ratios) >= 1
     assert shares @ np.log(shape.ratios) ** 2 == pytest.approx(math.log(1.5) ** 2, rel=1e-12)
-    assert tb.Ellipticity.from_distribution(tb.Monodisperse(mean=0.25)).ratios == pytest.approx(
-        (4,), rel=1e-14
-    )
+    assert tb.surfaces.Ellipticity.from_distribution(
+        tb.distributions.Monodisperse(mean=0.25)
+    ).ratios == pytest.approx((4,), rel=1e-14)
 
 
 # ---------------------------------------------------------------- two faces
@@ -247,10 +252,10 @@ def test_parallel_and_crossed(first, R_first, second, R_second):
 
 
 def test_equal_faces():
-    parallel = tb.Ellipticity.combined(first_ratio=9, second_ratio=9, angle=0.0)
+    parallel = tb.surfaces.Ellipticity.combined(first_ratio=9, second_ratio=9, angle=0.0)
     assert parallel.ratios == pytest.approx((9,), rel=1e-15)
     assert parallel.radii == pytest.approx((1,), rel=1e-15)
-    crossed = tb.Ellipticity.combined(first_ratio=9, second_ratio=9, angle=math.pi / 2)
+    crossed = tb.surfaces.Ellipticity.combined(first_ratio=9, second_ratio=9, angle=math.pi / 2)
     assert crossed.ratios == pytest.approx((1,), rel=1e-15)
     # 2√λ/(1 + λ) for both radii √λ and 1/√λ
     assert crossed.radii == pytest.approx((0.6,), rel=1e-15)
@@ -258,7 +263,9 @@ def test_equal_faces():
 
 def test_a_round_face_has_no_angle():
     shapes = [
-        tb.Ellipticity.combined(first_ratio=5, R_first=3e-6, second_ratio=1, R_second=2e-6, angle=t)
+        tb.surfaces.Ellipticity.combined(
+            first_ratio=5, R_first=3e-6, second_ratio=1, R_second=2e-6, angle=t
+        )
         for t in (0.0, 0.7, "random")
     ]
     for shape in shapes:
@@ -269,10 +276,10 @@ def test_a_round_face_has_no_angle():
 @both_laws
 def test_random_angles_are_the_mean_over_angles(law):
     faces = dict(first_ratio=6, R_first=5e-6, second_ratio=3, R_second=7e-6)
-    shape = tb.Ellipticity.combined(**faces, angle="random")
+    shape = tb.surfaces.Ellipticity.combined(**faces, angle="random")
     nodes, width = np.polynomial.legendre.leggauss(24)
     each = [
-        sums(contact(law(), tb.Ellipticity.combined(**faces, angle=math.pi / 4 * (1 + x))))
+        sums(contact(law(), tb.surfaces.Ellipticity.combined(**faces, angle=math.pi / 4 * (1 + x))))
         for x in nodes
     ]
     expected = np.tensordot(0.5 * width, each, 1)
@@ -302,7 +309,7 @@ def test_solve_sweep_transitions_with_particles():
 
 
 @both_laws
-@pytest.mark.parametrize("heights", [tb.GaussianHeights(), tb.ExponentialHeights()])
+@pytest.mark.parametrize("heights", [tb.heights.GaussianHeights(), tb.heights.ExponentialHeights()])
 def test_derivatives(law, heights):
     from thirdbody.contact.asperity_sums import asperity_sum
 
@@ -343,8 +350,8 @@ def test_json_and_replace():
     ],
 )
 def test_a_wrong_population_is_refused(mistake, words):
-    with pytest.raises(tb.InvalidValue) as error:
-        tb.Ellipticity(**mistake)
+    with pytest.raises(tb.errors.InvalidValue) as error:
+        tb.surfaces.Ellipticity(**mistake)
     for word in words:
         assert word in str(error.value)
 
@@ -363,8 +370,8 @@ FACES = dict(first_ratio=4, second_ratio=2, angle=0.1)
     ],
 )
 def test_wrong_faces_are_refused(mistake, words):
-    with pytest.raises(tb.InvalidValue) as error:
-        tb.Ellipticity.combined(**(FACES | mistake))
+    with pytest.raises(tb.errors.InvalidValue) as error:
+        tb.surfaces.Ellipticity.combined(**(FACES | mistake))
     for word in words:
         assert word in str(error.value)
 
@@ -373,14 +380,17 @@ def test_wrong_faces_are_refused(mistake, words):
     ("density", "words"),
     [
         (3.0, ["must be a distribution"]),
-        (tb.Weibull(scale=2, shape=3), ["reaches down to 0"]),
-        (tb.Uniform(low=1, high=40), ["spreads from 1 to 40", "too wide for 7 classes"]),
+        (tb.distributions.Weibull(scale=2, shape=3), ["reaches down to 0"]),
+        (
+            tb.distributions.Uniform(low=1, high=40),
+            ["spreads from 1 to 40", "too wide for 7 classes"],
+        ),
     ],
 )
 def test_a_wrong_density_is_refused(density, words, monkeypatch):
     monkeypatch.setattr("thirdbody.populations.ellipticity.MOST_CLASSES", 7)
-    with pytest.raises(tb.InvalidValue) as error:
-        tb.Ellipticity.from_distribution(density)
+    with pytest.raises(tb.errors.InvalidValue) as error:
+        tb.surfaces.Ellipticity.from_distribution(density)
     for word in words:
         assert word in str(error.value)
 
@@ -396,7 +406,7 @@ def test_laws_without_a_ratio_are_refused(law):
         return
     try:
         made = law(**options)
-    except (TypeError, tb.InvalidValue):
+    except (TypeError, tb.errors.InvalidValue):
         pytest.skip("the law needs a coating")
     with refuses(Mistake.BEYOND, "Contact.asperity_law", says="elliptic-zmc") as error:
         contact(made, MIXED)
@@ -422,18 +432,18 @@ def study(shape, law="elliptic-zmc", **rough):
 @pytest.mark.parametrize(
     ("written", "expected"),
     [
-        (dict(ratios=[1, 2, 5]), tb.Ellipticity(ratios=(1, 2, 5))),
+        (dict(ratios=[1, 2, 5]), tb.surfaces.Ellipticity(ratios=(1, 2, 5))),
         (
             dict(ratios=[1, 2, 5], weights=[0.5, 0.3, 0.2], radii=["120 %", 1, 0.7]),
-            tb.Ellipticity(ratios=(1, 2, 5), weights=(0.5, 0.3, 0.2), radii=(1.2, 1, 0.7)),
+            tb.surfaces.Ellipticity(ratios=(1, 2, 5), weights=(0.5, 0.3, 0.2), radii=(1.2, 1, 0.7)),
         ),
         (
             dict(first=4, second=2, angle="90 deg"),
-            tb.Ellipticity.combined(first_ratio=4, second_ratio=2, angle=math.pi / 2),
+            tb.surfaces.Ellipticity.combined(first_ratio=4, second_ratio=2, angle=math.pi / 2),
         ),
         (
             dict(first=4, second=2, angle="random"),
-            tb.Ellipticity.combined(first_ratio=4, second_ratio=2, angle="random"),
+            tb.surfaces.Ellipticity.combined(first_ratio=4, second_ratio=2, angle="random"),
         ),
     ],
 )
@@ -453,7 +463,7 @@ def test_two_faces_give_the_radius(R):
     faces = dict(first=4, second=2, angle="30 deg", R_first="4 um", R_second="6 um")
     made = check(study(faces, R=R)).contact.roughness
     assert made.R == pytest.approx(2.4e-6 if R is None else float(R[:-3]) * 1e-6, rel=1e-15)
-    assert made.ellipticity == tb.Ellipticity.combined(
+    assert made.ellipticity == tb.surfaces.Ellipticity.combined(
         first_ratio=4, second_ratio=2, angle=math.radians(30), R_first=4e-6, R_second=6e-6
     )
 
@@ -488,7 +498,7 @@ def test_two_faces_give_the_radius(R):
     ],
 )
 def test_mistakes_in_a_study_file(shape, words):
-    with pytest.raises(tb.InvalidValue) as error:
+    with pytest.raises(tb.errors.InvalidValue) as error:
         check(study(shape))
     for word in words:
         assert word in str(error.value)
@@ -580,7 +590,7 @@ def test_classes_of_summits_carry_what_the_summits_carry():
 )
 def test_curvatures_that_are_no_summits(curvatures, R, refusal):
     with refusal:
-        tb.Ellipticity.from_curvatures(curvatures, R=R)
+        tb.surfaces.Ellipticity.from_curvatures(curvatures, R=R)
 
 
 def test_a_measured_surface_solves_with_its_own_tips():
@@ -591,5 +601,5 @@ def test_a_measured_surface_solves_with_its_own_tips():
     still = tb.solve(tb.Contact(surfaces=PAIR, roughness=plain), pressure=1e6)
     assert state.F_star == pytest.approx(still.F_star)
     assert state.d != still.d
-    with pytest.raises(tb.InvalidValue, match="measured"):
+    with pytest.raises(tb.errors.InvalidValue, match="measured"):
         from_topography("example").roughness(ellipticity="round")

@@ -277,13 +277,13 @@ def test_conversions_come_back(HV):
     ],
 )
 def test_hardness_outside_the_tables(given, words):
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         convert(*given)
     assert all(word in str(caught.value) for word in words), caught.value
 
 
 def test_unknown_table():
-    with pytest.raises(tb.InvalidValue, match="'iso18265', 'astm-e140'"):
+    with pytest.raises(tb.errors.InvalidValue, match="'iso18265', 'astm-e140'"):
         convert(500, "HV", "HRC", table="sae")
 
 
@@ -367,7 +367,7 @@ def test_own_file_from_the_environment(own, monkeypatch):
 )
 def test_mistakes_in_own_file(own, old, new, words):
     assert old in OWN
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         tb.materials.load(own(OWN.replace(old, new)))
     (problem,) = caught.value.problems
     assert "mine.toml" in problem
@@ -375,7 +375,7 @@ def test_mistakes_in_own_file(own, old, new, words):
 
 
 def test_all_mistakes_at_once(own):
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         tb.materials.load(own("[a]\nE = 1\nH = '5 m'\n[b]\nE = 0\nnu = 2\nH = 1\nsource = 's'"))
     assert len(caught.value.problems) == 5
 
@@ -408,7 +408,7 @@ def test_mistakes_in_a_study(own, tmp_path, given, words):
     own(OWN)
     file = tmp_path / "study.toml"
     file.write_text(STUDY.format(**(dict(file="mine.toml", first="our-steel", H="5 GPa") | given)))
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         load_study(file)
     (problem,) = caught.value.problems
     assert all(word in problem for word in words), problem

@@ -83,7 +83,7 @@ def test_power_law_density_belongs_to_its_counts(sizes):
 @settings(deadline=None)
 @given(sizes=power_laws())
 def test_power_law_survives_json_and_change_of_units(sizes):
-    assert tb.Distribution.from_dict(sizes.to_dict()) == sizes
+    assert tb.distributions.Distribution.from_dict(sizes.to_dict()) == sizes
     scale, shape = sizes.standardised()
     assert scale * shape.mean_diameter == pytest.approx(sizes.mean_diameter, rel=1e-12)
     assert sizes.scaled(3.0).moment(2) == pytest.approx(9 * sizes.moment(2), rel=1e-12)
@@ -92,7 +92,7 @@ def test_power_law_survives_json_and_change_of_units(sizes):
 def test_power_law_of_slope_minus_one_is_a_histogram(reference_contact):
     edges, counts = (2e-7, 3e-7, 5e-7), (3, 1)
     flat = PowerLaw(edges=edges, counts=counts, slopes=(-1, -1))
-    bins = tb.Histogram(edges=edges, counts=counts)
+    bins = tb.distributions.Histogram(edges=edges, counts=counts)
     one, other = (
         tb.solve(reference_contact.replace(**{"particles.diameter": sizes}), pressure=5e6)
         for sizes in (flat, bins)
@@ -133,7 +133,7 @@ def reference_contact():
         surfaces=tb.MaterialPair(steel, steel),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(
-            material=silica, diameter=tb.Monodisperse(mean=3e-7), areal_density=1e11
+            material=silica, diameter=tb.distributions.Monodisperse(mean=3e-7), areal_density=1e11
         ),
         particle_law=tb.particle.Series(deep="off"),
     )
@@ -142,11 +142,11 @@ def reference_contact():
 # ------------------------------------------------------------------------------ weightings
 SHAPES = {
     "gaussian": tb.TruncatedGaussian(mean=3e-6, std=0.5e-6),
-    "weibull": tb.Weibull(scale=5e-6, shape=4.5),
-    "rosin-rammler": tb.Weibull(scale=5e-6, shape=1.2),
+    "weibull": tb.distributions.Weibull(scale=5e-6, shape=4.5),
+    "rosin-rammler": tb.distributions.Weibull(scale=5e-6, shape=1.2),
     "log-normal": tb.LogNormal(median=2e-6, gsd=1.8),
-    "uniform": tb.Uniform(low=1e-6, high=4e-6),
-    "histogram": tb.Histogram(edges=(1e-6, 2e-6, 3e-6, 7e-6), counts=(2, 0, 5)),
+    "uniform": tb.distributions.Uniform(low=1e-6, high=4e-6),
+    "histogram": tb.distributions.Histogram(edges=(1e-6, 2e-6, 3e-6, 7e-6), counts=(2, 0, 5)),
     "power law": PowerLaw(edges=(1e-6, 2e-6, 7e-6), counts=(2, 5), slopes=(0.5, 3)),
 }
 
@@ -206,15 +206,17 @@ def test_weighed_particles_give_back_their_number():
     for weighting, power in WEIGHTINGS.items():
         amounts, _ = np.histogram(x, edges, weights=x**power)
         data = MeasuredSizes(
-            sizes=tb.Histogram(edges=tuple(edges), counts=tuple(amounts)), weighting=weighting
+            sizes=tb.distributions.Histogram(edges=tuple(edges), counts=tuple(amounts)),
+            weighting=weighting,
         )
         assert data.by_number().mean_diameter == pytest.approx(x.mean(), rel=2e-3)
         assert data.by_number().moment(3) == pytest.approx(np.mean(x**3), rel=1e-2)
 
 
 def test_mixture_by_volume_splits_the_volume():
-    both = tb.Mixture(
-        parts=(tb.Monodisperse(mean=1e-6), tb.LogNormal(median=3e-6, gsd=1.2)), weights=(1, 3)
+    both = tb.distributions.Mixture(
+        parts=(tb.distributions.Monodisperse(mean=1e-6), tb.LogNormal(median=3e-6, gsd=1.2)),
+        weights=(1, 3),
     )
     number = by_number(both, "volume")
     small = number.partial_moment(3, 0, 1.1e-6) / number.moment(3)
@@ -245,7 +247,7 @@ def test_one_bound_for_many(shape):
 # ------------------------------------------------------------------------------ fits
 TRUE = {
     "log-normal": tb.LogNormal(median=3e-6, gsd=1.7),
-    "rosin-rammler": tb.Weibull(scale=9e-6, shape=1.6),
+    "rosin-rammler": tb.distributions.Weibull(scale=9e-6, shape=1.6),
     "truncated-gaussian": tb.TruncatedGaussian(mean=4e-6, std=1.1e-6),
 }
 
@@ -255,7 +257,8 @@ def binned(sizes, count=25, weighting="volume"):
     edges = np.linspace(lo, hi, count + 1)
     shares = sizes.partial_moment(0, edges[:-1], edges[1:])
     return MeasuredSizes(
-        sizes=tb.Histogram(edges=tuple(edges), counts=tuple(shares)), weighting=weighting
+        sizes=tb.distributions.Histogram(edges=tuple(edges), counts=tuple(shares)),
+        weighting=weighting,
     )
 
 
@@ -309,7 +312,7 @@ def test_fit_by_number_begins_where_the_data_do():
 
 
 def test_two_bins_are_no_test():
-    data = MeasuredSizes(sizes=tb.Histogram(edges=(0, 1e-6, 2e-6), counts=(1, 1)))
+    data = MeasuredSizes(sizes=tb.distributions.Histogram(edges=(0, 1e-6, 2e-6), counts=(1, 1)))
     with refuses(Mistake.BEYOND, "", says="2 bins"):
         data.fit("log-normal")
     with refuses(Mistake.OPTION, "fit", value='"gauss"'):
@@ -384,7 +387,7 @@ def test_good_files(read, text):
     ],
 )
 def test_bad_files_get_one_sentence(read, text, said):
-    with pytest.raises(tb.InvalidValue, match=said) as caught:
+    with pytest.raises(tb.errors.InvalidValue, match=said) as caught:
         read(text)
     assert len(caught.value.problems) == 1
     assert "sizes.csv" in caught.value.problems[0]
@@ -407,6 +410,6 @@ def test_nonsense_is_refused_or_read_never_a_crash(tmp_path_factory, text):
     problems = ()
     try:
         read_sizes(path)
-    except tb.InvalidValue as error:
+    except tb.errors.InvalidValue as error:
         problems = error.problems
     assert len(problems) <= 1

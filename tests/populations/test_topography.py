@@ -140,7 +140,7 @@ def test_oblong_points_are_known():
 def test_moments_give_nayaks_asperities():
     """Identities between σ, R, η and σ_s, y_s that hold whatever the bandwidth."""
     for m0, m2, m4 in [(1e-14, 3.3e-3, 5.5e9), (4e-16, 1e-4, 1e9)]:
-        m = tb.SpectralMoments(m0=m0, m2=m2, m4=m4)
+        m = tb.surfaces.SpectralMoments(m0=m0, m2=m2, m4=m4)
         assert m.sigma_s**2 == pytest.approx(m0 - 3.717e-4 / (m.eta * m.R) ** 2, rel=1e-4)
         assert m.y_s == pytest.approx(0.045944 / (m.eta * m.R), rel=2e-5)
         assert m.eta * m.R * m.sigma == pytest.approx(
@@ -149,7 +149,7 @@ def test_moments_give_nayaks_asperities():
         rough = m.roughness()
         assert (rough.sigma_s, rough.y_s) == pytest.approx((m.sigma_s, m.y_s), rel=1e-12)
         assert (rough.density, rough.R) == (m.eta, m.R)
-        assert tb.SpectralMoments.from_dict(m.to_dict()) == m
+        assert tb.surfaces.SpectralMoments.from_dict(m.to_dict()) == m
 
 
 def test_moments_of_two_surfaces_add():
@@ -176,7 +176,7 @@ def test_a_single_wave_is_no_random_surface():
 # ---------------------------------------------------------------- synthetic surfaces
 def test_a_surface_is_made_with_given_moments():
     for alpha in (2.2, 5.0, 20.0):
-        asked = tb.SpectralMoments(m0=1e-14, m2=4e-3, m4=alpha * 16e-6 / 1e-14)
+        asked = tb.surfaces.SpectralMoments(m0=1e-14, m2=4e-3, m4=alpha * 16e-6 / 1e-14)
         made = synthetic.from_moments(asked, spacing=5e-8, points=512, seed=3)
         found = made.moments_at(0, method="spectrum")
         for name in ("m0", "m2", "m4"):
@@ -215,7 +215,7 @@ def test_self_affine_moments_tend_to_the_integral():
 @pytest.mark.check
 @pytest.mark.parametrize("alpha", [3.0, 5.0])
 def test_summits_counted_are_those_of_nayak(alpha):
-    asked = tb.SpectralMoments(m0=1e-14, m2=2e-3, m4=alpha * 4e-6 / 1e-14)
+    asked = tb.surfaces.SpectralMoments(m0=1e-14, m2=2e-3, m4=alpha * 4e-6 / 1e-14)
     # 150 points a summit; means over two surfaces
     found = [
         synthetic.from_moments(
@@ -248,12 +248,12 @@ def test_summits_counted_are_those_of_nayak(alpha):
 )
 def test_impossible_synthetic_surfaces_are_refused(changes):
     good = dict(sigma=1e-7, hurst=0.8, shortest=5e-7, longest=4e-6, spacing=1e-7, points=64)
-    with pytest.raises(tb.InvalidValue, match=next(iter(changes))):
+    with pytest.raises(tb.errors.InvalidValue, match=next(iter(changes))):
         synthetic.self_affine(**good | changes)
 
 
 def test_moments_that_no_spectrum_has_are_refused():
-    asked = tb.SpectralMoments(m0=1e-14, m2=4e-3, m4=1.6 * 16e-6 / 1e-14)
+    asked = tb.surfaces.SpectralMoments(m0=1e-14, m2=4e-3, m4=1.6 * 16e-6 / 1e-14)
     with refuses(Mistake.BEYOND, "", says="α "):
         synthetic.from_moments(asked, spacing=1e-7)
 
@@ -599,7 +599,7 @@ def test_the_tip_radius_in_a_file_is_a_limit(library):
     ],
 )
 def test_nonsense_is_refused_in_one_sentence(given, words):
-    with pytest.raises(tb.InvalidValue, match=words) as error:
+    with pytest.raises(tb.errors.InvalidValue, match=words) as error:
         from_topography(**given)
     assert len(error.value.problems) == 1
 
@@ -643,7 +643,7 @@ def test_a_file_without_unit_asks_for_it(tmp_path, library):
     path = tmp_path / "map.npy"
     h = from_topography("example", detrend="none").heights[:, :60]
     np.save(path, 1e9 * h)
-    with pytest.raises(tb.InvalidValue) as error:
+    with pytest.raises(tb.errors.InvalidValue) as error:
         from_topography(path)
     unit, sides = error.value.problems
     assert unit.code is sides.code is Mistake.UNIT
@@ -662,7 +662,7 @@ def test_huge_files_are_refused_before_they_are_read(tmp_path, library):
         from_topography(path, unit="nm", spacing=1e-7)
     with path.open("wb") as file:
         file.truncate(2_000_000_000)
-    with pytest.raises(tb.InvalidValue, match="2 GB"):
+    with pytest.raises(tb.errors.InvalidValue, match="2 GB"):
         from_topography(path)
 
 
@@ -672,7 +672,7 @@ def test_without_the_library_a_file_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
     path = tmp_path / "part.x3p"
     path.write_bytes(b"x")
-    with pytest.raises(tb.InvalidValue, match=r"thirdbody\[surfaces\]"):
+    with pytest.raises(tb.errors.InvalidValue, match=r"thirdbody\[surfaces\]"):
         from_topography(path)
     assert from_topography("example").rms_height > 0
 
@@ -688,12 +688,12 @@ def test_a_study_has_the_roughness_of_the_topography(part):
         heights="measured"
     )
     asked = part(('"example"', '"example"\nheights = { name = "weibull", shape = 2 }'))
-    assert asked.contact.roughness.heights == tb.WeibullHeights(shape=2)
+    assert asked.contact.roughness.heights == tb.heights.WeibullHeights(shape=2)
 
 
 def test_a_study_has_the_tips_of_the_topography(part):
     elliptic = ("[surfaces]", 'asperity_law = "elliptic-zmc"\n[surfaces]')
-    one, s = from_topography("example", cutoff=8e-7), tb.Ellipticity(ratios=(1, 2))
+    one, s = from_topography("example", cutoff=8e-7), tb.surfaces.Ellipticity(ratios=(1, 2))
     file = '"example"\ncutoff = "800 nm"\n'
     for heights in (None, "measured"):
         more = f'heights = "{heights}"' if heights else ""
@@ -758,7 +758,7 @@ def test_a_file_lies_beside_the_study(part, tmp_path, library):
     ],
 )
 def test_mistakes_beside_a_topography(part, text, words):
-    with pytest.raises(tb.InvalidValue) as error:
+    with pytest.raises(tb.errors.InvalidValue) as error:
         part(('"example"', text))
     (sentence,) = error.value.problems
     for word in words:

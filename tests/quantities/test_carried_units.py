@@ -138,7 +138,7 @@ def what_is_said(function, arguments):
     """The words in which arguments are refused; those that say otherwise where they are not."""
     try:
         return f"no refusal but {function(**arguments)!r}"
-    except tb.InvalidValue as refused:
+    except tb.errors.InvalidValue as refused:
         return str(refused)
     except Exception as error:
         return f"no refusal but {error!r}"
@@ -313,15 +313,15 @@ def test_fields_are_converted(kind):
     assert tb.Material(E=of(205, "GPa"), nu=of(30, "percent"), H=8e9).E == 205e9
     assert rough.replace(sigma=of(0.2, "um")).sigma == 2e-7
     assert DRY.replace(**{"roughness.sigma": of(50, "nm")}).roughness.sigma == 50e-9
-    sizes = tb.Histogram(edges=[of(1, "um"), of(2, "um"), 3e-6], counts=[1, 2])
+    sizes = tb.distributions.Histogram(edges=[of(1, "um"), of(2, "um"), 3e-6], counts=[1, 2])
     assert sizes.edges == (1e-6, 2e-6, 3e-6)
 
 
 def test_arrays_with_a_unit_are_fields_of_several_numbers():
-    sizes = tb.Histogram(edges=[1, 2, 3] * u.um, counts=[1, 2] * u.dimensionless)
+    sizes = tb.distributions.Histogram(edges=[1, 2, 3] * u.um, counts=[1, 2] * u.dimensionless)
     assert sizes.edges == (1e-6, 2e-6, 3e-6)
     with refuses(Mistake.UNIT, "Histogram.edges"):
-        tb.Histogram(edges=[1, 2, 3] * u.MPa, counts=[1, 2])
+        tb.distributions.Histogram(edges=[1, 2, 3] * u.MPa, counts=[1, 2])
 
 
 # ---------------------------------------------------------------------------- the doors by use
@@ -330,7 +330,10 @@ def test_loads_are_converted(kind):
     of = KINDS[kind]
     assert tb.solve(DRY, pressure=of(5.0, "MPa")).A_t == tb.solve(DRY, pressure=5e6).A_t
     assert tb.solve(DRY, d=of(250, "nm")).F_star == tb.solve(DRY, d=250e-9).F_star > 0
-    assert tb.roots(DRY, pressure=of(5, "MPa"))[0][0].d == tb.roots(DRY, pressure=5e6)[0][0].d
+    assert (
+        tb.equilibria.roots(DRY, pressure=of(5, "MPa"))[0][0].d
+        == tb.equilibria.roots(DRY, pressure=5e6)[0][0].d
+    )
 
 
 def test_arrays_and_lists_are_converted():
@@ -345,22 +348,23 @@ def test_arrays_and_lists_are_converted():
 
 def test_varied_inputs_have_the_units_of_their_fields():
     vary = {"roughness.sigma": [50, 100] * u.nm, "roughness.alpha": np.array([4.0, 5.0])}
-    got = tb.solve_states(DRY, pressure=2 * u.MPa, vary=vary)
+    got = tb.equilibria.solve_states(DRY, pressure=2 * u.MPa, vary=vary)
     want = {"roughness.sigma": np.array([50e-9, 1e-7]), "roughness.alpha": np.array([4.0, 5.0])}
     assert (
-        got.A_t.values.tolist() == tb.solve_states(DRY, pressure=2e6, vary=want).A_t.values.tolist()
+        got.A_t.values.tolist()
+        == tb.equilibria.solve_states(DRY, pressure=2e6, vary=want).A_t.values.tolist()
     )
     with refuses(Mistake.UNIT, "roughness.sigma"):
-        tb.solve_states(DRY, pressure=2e6, vary={"roughness.sigma": [50, 100] * u.MPa})
+        tb.equilibria.solve_states(DRY, pressure=2e6, vary={"roughness.sigma": [50, 100] * u.MPa})
 
 
 def test_another_dimension_is_told_with_its_key_what_is_needed_and_what_it_is():
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         tb.solve(DRY, pressure=250 * u.nm)
     assert str(told.value) == (
         "pressure = 250 nanometer is a length, but a pressure [Pa] is needed"
     )
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         tb.Roughness(sigma=5 * u.MPa, R=3 * u.s)
     assert told.value.problems == (
         "Roughness.sigma = 5 megapascal is a pressure, but a length [m] is needed",
@@ -369,7 +373,7 @@ def test_another_dimension_is_told_with_its_key_what_is_needed_and_what_it_is():
 
 
 def test_every_wrong_argument_is_told():
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         tb.reference.hertz_point(5 * u.m, R=2 * u.N, E_star=1e11)
     assert [each.split(" = ")[0] for each in told.value.problems] == ["force", "R"]
 

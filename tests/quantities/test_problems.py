@@ -26,17 +26,20 @@ READ_BACK |= {"partition", "rpartition", "match", "search", "sub", "fullmatch"}
     "call",
     [
         lambda: tb.sweep(CONTACT, F_star=1e-4, vary={"roughness.sigm": [1e-7]}),
-        lambda: tb.solve_states(CONTACT, F_star=1e-4, vary={"roughness.sigm": [1e-7]}),
-        lambda: tb.critical_loads(CONTACT, vary={"roughness.sigm": [1e-7]}, count=1),
+        lambda: tb.equilibria.solve_states(CONTACT, F_star=1e-4, vary={"roughness.sigm": [1e-7]}),
+        lambda: tb.equilibria.critical_loads(CONTACT, vary={"roughness.sigm": [1e-7]}, count=1),
         lambda: tb.propagate(CONTACT, F_star=1e-4, vary=MISSPELT),
         lambda: tb.design(
-            CONTACT, F_star=1e-4, vary=MISSPELT, objective=tb.Objective(of="A_t", aim="smallest")
+            CONTACT,
+            F_star=1e-4,
+            vary=MISSPELT,
+            objective=tb.objectives.Objective(of="A_t", aim="smallest"),
         ),
     ],
     ids=["sweep", "solve_states", "critical_loads", "propagate", "design"],
 )
 def test_one_mistake_has_one_sentence(call):
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         call()
     (problem,) = told.value.problems
     assert problem.place == "vary['roughness.sigm']"
@@ -44,7 +47,7 @@ def test_one_mistake_has_one_sentence(call):
 
 
 def test_sensitivity_names_its_own_argument():
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         tb.sensitivity(CONTACT, F_star=1e-4, of="A_t", to=["roughness.sigm"])
     assert told.value.problems == (NOT_AN_INPUT.format("to = 'roughness.sigm'"),)
 
@@ -61,14 +64,14 @@ def test_sensitivity_names_its_own_argument():
 )
 def test_the_input_that_was_meant(name, meant):
     try:
-        tb.solve_states(CONTACT, F_star=1e-4, vary={name: [1e-7]})
-    except tb.InvalidValue as error:
+        tb.equilibria.solve_states(CONTACT, F_star=1e-4, vary={name: [1e-7]})
+    except tb.errors.InvalidValue as error:
         hint = error.problems[0].hint
         assert hint == ("" if meant is None else f"did you mean {meant!r}?")
 
 
 def test_a_mistake_keeps_its_parts():
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         tb.Roughness(sigma=-1.0, R=2e-6)
     (problem,) = told.value.problems
     assert (problem.owner, problem.path, problem.value) == ("Roughness", "sigma", "-1.0")
@@ -76,14 +79,14 @@ def test_a_mistake_keeps_its_parts():
     for same in (pickle.loads(pickle.dumps(problem)), copy.copy(problem)):
         assert same == problem
         assert vars(same) == vars(problem)
-    assert problem.under("roughness").place == "roughness.sigma"
+    assert problem.move_under("roughness").place == "roughness.sigma"
     assert pickle.loads(pickle.dumps(told.value)).problems[0].place == "Roughness.sigma"
 
 
 def test_a_mistake_of_no_place_gets_one():
-    told = tb.InvalidValue("too many").under("particles").problems[0]
+    told = tb.errors.InvalidValue("too many").move_under("particles").problems[0]
     assert (told, told.place) == ("particles: too many", "particles")
-    assert told.under("debris") == "debris: too many"
+    assert told.move_under("debris") == "debris: too many"
 
 
 @pytest.mark.parametrize(
@@ -103,7 +106,7 @@ def test_a_mistake_of_no_place_gets_one():
 def test_a_study_says_where_each_mistake_is(changed, place, tmp_path):
     study = SRC / "data" / "studies" / "ball-screw.toml"
     data = override(tomllib.loads(study.read_text("utf-8")), [changed.replace(" = ", "=", 1)])
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         check(data, folder=tmp_path)
     assert any(each.place.startswith(place) for each in told.value.problems), told.value.problems
 
@@ -183,7 +186,7 @@ def test_every_mistake_has_a_code():
     ],
 )
 def test_the_code_of_a_mistake(make, code, place):
-    with pytest.raises(tb.InvalidValue) as told:
+    with pytest.raises(tb.errors.InvalidValue) as told:
         make()
     (problem,) = told.value.problems
     assert (problem.code, problem.place) == (code, place)
@@ -195,7 +198,7 @@ def test_a_clause_keeps_its_code_and_its_words_for_studies():
     clause = Mistake.RANGE.clause("must be > 0; " + Advice("R=1e-6", 'R = "1 um"'))
     again = pickle.loads(pickle.dumps(clause))
     assert (again, again.code, again.study) == (clause, Mistake.RANGE, 'must be > 0; R = "1 um"')
-    moved = Problem("R", clause, "0").under("roughness").worded(in_study)
+    moved = Problem("R", clause, "0").move_under("roughness").put_in_words(in_study)
     assert (moved.code, moved.rule) == (Mistake.RANGE, clause.study)
     assert Problem("R", clause, "0", code=Mistake.KIND).code is Mistake.KIND
-    assert tb.InvalidValue("my own words").problems[0].code is Mistake.UNSAID
+    assert tb.errors.InvalidValue("my own words").problems[0].code is Mistake.UNSAID

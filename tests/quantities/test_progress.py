@@ -20,7 +20,7 @@ PLANE = BARE.replace(
         diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
     ),
     particle_law=tb.particle.Series(deep="off", seat="plane"),
-    **{"roughness.heights": tb.HistogramHeights(edges=(0, 1, 2, 3), counts=(1, 3, 1))},
+    **{"roughness.heights": tb.heights.HistogramHeights(edges=(0, 1, 2, 3), counts=(1, 3, 1))},
 )
 """With heights that no engine knows."""
 
@@ -51,14 +51,14 @@ def heard(call):
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always")
         result = call()
-    return result, [each for each in found if each.category is tb.SlowWarning]
+    return result, [each for each in found if each.category is tb.errors.SlowWarning]
 
 
 def states(count, **options):
     """States that no engine solves together."""
     mean = np.linspace(280e-9, 320e-9, count)
     vary = {"particles.diameter.mean": mean, "particles.material.H": np.linspace(6e9, 9e9, count)}
-    return tb.solve_states(PLANE, pressure=1e6, vary=vary, **options)
+    return tb.equilibria.solve_states(PLANE, pressure=1e6, vary=vary, **options)
 
 
 def test_states_that_take_long_say_so_once_and_why(slow):
@@ -235,9 +235,9 @@ def test_a_work_that_fails_stops_its_heartbeat(beats):
     @progress.heartbeat("solve")
     def failing():
         beats(1)
-        raise tb.InvalidValue("no")
+        raise tb.errors.InvalidValue("no")
 
-    with pytest.raises(tb.InvalidValue):
+    with pytest.raises(tb.errors.InvalidValue):
         failing()
     assert threading.active_count() == threads
 

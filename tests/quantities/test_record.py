@@ -35,7 +35,7 @@ def states():
     surface = surface_of(CONTACT, size=128, spacing=150e-9)
     return {
         "Equilibrium": tb.solve(CONTACT, pressure=[1e6, 5e6]),
-        "MixedFilm": tb.mixed_film(CONTACT, load=20.0, speed=[0.1, 1.0], **FILM),
+        "MixedFilm": tb.films.mixed_film(CONTACT, load=20.0, speed=[0.1, 1.0], **FILM),
         "ExplicitState": tb.explicit.solve(CONTACT, surface, F_star=[1e-4, 1e-3]),
     }
 
@@ -45,7 +45,7 @@ def every():
     return states()
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 @pytest.mark.parametrize("name", ["Equilibrium", "MixedFilm", "ExplicitState"])
 def test_every_form_of_states_holds_the_same_numbers(every, name):
     state = every[name]
@@ -71,7 +71,7 @@ def test_a_record_leaves_out_what_it_says_and_no_number_that_is_not_finite():
         contact: str
         value: float
         parts: tuple
-        inner: tb.Transitions
+        inner: tb.results.Transitions
 
     critical = tb.transitions(CONTACT)
     told = Found("much", float("nan"), (np.float64(1.0), np.inf), critical).to_dict()
@@ -133,7 +133,7 @@ def test_a_record_says_by_entries_what_it_hands_out():
     assert json.dumps(Outer().to_dict()) == json.dumps(wanted)
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 @pytest.mark.parametrize("run", [run_study, run_film])
 def test_results_of_a_study_are_read_by_attribute_and_by_key(run):
     found = run(check(STUDY))
@@ -157,7 +157,7 @@ def test_results_of_a_study_are_read_by_attribute_and_by_key(run):
 def test_a_column_that_there_is_not_is_refused(every):
     for state in every.values():
         assert state.about("A_t").unit == "1"
-        with pytest.raises(tb.InvalidValue, match="A_tt"):
+        with pytest.raises(tb.errors.InvalidValue, match="A_tt"):
             state.about("A_tt")
 
 

@@ -49,7 +49,8 @@ def test_faces_add_as_squares():
     rough = found.contact.roughness
     assert rough.sigma == pytest.approx(math.hypot(ROOT * 0.2e-6, 0.05e-6), rel=1e-14)
     assert rough == tb.Roughness.from_drawing(
-        tb.Finish(Ra=0.2e-6, process="ground"), tb.Finish(Rq=0.05e-6, process="lapped")
+        tb.surfaces.Finish(Ra=0.2e-6, process="ground"),
+        tb.surfaces.Finish(Rq=0.05e-6, process="lapped"),
     )
     (note,) = found.notes  # said once, and no slip
     assert "; R = " in note.replace("); R", "; R")
@@ -63,10 +64,11 @@ def test_the_pair_has_the_moments_of_its_faces():
     for process, Rq in faces.items():
         slope = math.prod(processes()[process]["slope"]) ** 0.5
         m0, m2, alpha = Rq**2, slope**2, math.sqrt(2.2 * 8.7)
-        moments.append(tb.SpectralMoments(m0=m0, m2=m2, m4=alpha * m2**2 / m0))
+        moments.append(tb.surfaces.SpectralMoments(m0=m0, m2=m2, m4=alpha * m2**2 / m0))
     both = (moments[0] + moments[1]).roughness()
     rough = tb.Roughness.from_drawing(
-        tb.Finish(Ra=0.4e-6, process="ground"), tb.Finish(Ra=0.1e-6, process="lapped")
+        tb.surfaces.Finish(Ra=0.4e-6, process="ground"),
+        tb.surfaces.Finish(Ra=0.1e-6, process="lapped"),
     )
     for name in ("sigma", "R", "alpha", "density", "sigma_s", "y_s"):
         assert getattr(rough, name) == pytest.approx(getattr(both, name), rel=1e-12), name
@@ -74,7 +76,10 @@ def test_the_pair_has_the_moments_of_its_faces():
 
 def test_ranges_hold_every_pair_of_faces():
     rng = np.random.default_rng(3)
-    first, second = tb.Finish(Rz=1.6e-6, process="ground"), tb.Finish(Ra=0.1e-6, process="honed")
+    first, second = (
+        tb.surfaces.Finish(Rz=1.6e-6, process="ground"),
+        tb.surfaces.Finish(Ra=0.1e-6, process="honed"),
+    )
     ranges = tb.Roughness.from_drawing(first, second).ranges
     assert list(ranges) == ["sigma", "R", "alpha", "eta_R_sigma"]
     for _ in range(200):
@@ -82,7 +87,7 @@ def test_ranges_hold_every_pair_of_faces():
         for face, process in ((first, "ground"), (second, "honed")):
             Rq = rng.uniform(face.heights[0], face.heights[2])
             slope, alpha = rng.uniform(*slopes(process, Rq)), rng.uniform(2.2, 8.7)
-            one = tb.SpectralMoments(m0=Rq**2, m2=slope**2, m4=alpha * slope**4 / Rq**2)
+            one = tb.surfaces.SpectralMoments(m0=Rq**2, m2=slope**2, m4=alpha * slope**4 / Rq**2)
             total = one if total is None else total + one
         rough = total.roughness()
         product = rough.density * rough.R * rough.sigma
@@ -111,7 +116,7 @@ def test_no_process_gives_a_needle():
     """At every height that a process reaches the usual radius is that of no atomic tip."""
     for process, entry in processes().items():
         for Ra in entry["Ra"]:
-            rough = tb.Roughness.from_drawing(tb.Finish(Ra=Ra, process=process))
+            rough = tb.Roughness.from_drawing(tb.surfaces.Finish(Ra=Ra, process=process))
             assert rough.ranges["R"][0] > 1e-6
 
 
@@ -171,7 +176,7 @@ def test_mistakes(roughness, words):
 def test_set_changes_a_height():
     text = '[roughness]\nRa = "0.2 um"\nprocess = "ground"'
     found = study(text, 'roughness.Rz="1.6 um"').contact.roughness
-    assert found.finish == (tb.Finish(Rz=1.6e-6, process="ground"),)
+    assert found.finish == (tb.surfaces.Finish(Rz=1.6e-6, process="ground"),)
     again = study(FACES, "roughness.first.Ra=0.4 um").contact.roughness
     assert again.finish[0].Ra == pytest.approx(0.4e-6, rel=1e-15)
 
@@ -179,6 +184,6 @@ def test_set_changes_a_height():
 def test_every_pair_of_processes_solves():
     steel = tb.MaterialPair(tb.materials["100Cr6"], tb.materials["100Cr6"])
     for first, second in itertools.pairwise(processes()):
-        faces = (tb.Finish(Ra=2.5e-7, process=each) for each in (first, second))
+        faces = (tb.surfaces.Finish(Ra=2.5e-7, process=each) for each in (first, second))
         contact = tb.Contact(surfaces=steel, roughness=tb.Roughness.from_drawing(*faces))
         assert tb.solve(contact, pressure=5e6).status == "ok"

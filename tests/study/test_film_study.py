@@ -16,6 +16,8 @@ import thirdbody as tb
 from thirdbody.contact.contact import Contact
 from thirdbody.errors import InvalidValue
 from thirdbody.study import check, load_study, run_film, run_study
+from thirdbody.study.analyses import assess_study
+from thirdbody.study.film import note_without_oil
 from thirdbody.systems.film_conditions import Entrainment, FilmConditions
 from thirdbody.systems.mixed_film import COLUMNS, mean_gap
 from thirdbody.systems.stribeck import regime_speeds
@@ -23,7 +25,7 @@ from thirdbody.views.plot.film import bands_of
 from thirdbody.views.report import Report
 from thirdbody.views.report.tables import film_section
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 BALL = {"shape": "point", "R": "9.5 mm"}
 SPEED = {"from": "20 mm/s", "to": "20 m/s", "points": 6, "spacing": "log"}
@@ -46,7 +48,7 @@ def problems_of(data):
 @pytest.fixture(scope="module")
 def found():
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+        warnings.simplefilter("ignore", tb.errors.RangeWarning)
         return run_film(check(data_of()))
 
 
@@ -75,7 +77,7 @@ def by_hand():
 def test_the_curve_is_that_of_stribeck(found):
     contact, given = by_hand()
     speeds = np.geomspace(0.02, 20.0, 6)
-    curve = tb.stribeck(contact, speed=speeds, slide_roll=0.05, **given)
+    curve = tb.films.stribeck(contact, speed=speeds, slide_roll=0.05, **given)
     assert found["states"]["speed"] == speeds.tolist()
     for name in curve.data_vars:
         assert found["states"][name] == curve[name].values.tolist(), name
@@ -84,7 +86,7 @@ def test_the_curve_is_that_of_stribeck(found):
 
 def test_one_speed_is_that_of_mixed_film():
     contact, given = by_hand()
-    point = tb.mixed_film(contact, speed=0.5, slide_roll=0.05, **given)
+    point = tb.films.mixed_film(contact, speed=0.5, slide_roll=0.05, **given)
     study = check(data_of(speed="0.5 m/s"))
     assert study.film.at(study.contact).columns() == point.columns()
     states = run_film(study)["states"]
@@ -121,7 +123,7 @@ def test_regimes_change_where_it_says():
     contact, given = by_hand()
     ends = regime_speeds(contact, **given)
     for speed, share in zip(ends, (0.99, 0.01), strict=True):
-        at = tb.mixed_film(contact, speed=[0.99 * speed, speed, 1.01 * speed], **given)
+        at = tb.films.mixed_film(contact, speed=[0.99 * speed, speed, 1.01 * speed], **given)
         assert at.solid_share[1] == pytest.approx(share, rel=1e-9)
         assert len(set(at.regime[[0, 2]])) == 2
 
@@ -449,6 +451,24 @@ def test_the_example_shows_what_it_says():
     assert study.film.at(study.contact, speed=0.5).lambda_ratio > 1
 
 
+# ---------------------------------------------------------------- without the oil
+def test_solve_and_assess_say_that_the_oil_is_left_out(tmp_path):
+    """Before every other note, in text and in JSON."""
+    file = tmp_path / "film.toml"
+    file.write_text(EXAMPLE.read_text("utf-8"), "utf-8")
+    wet = run_command("solve", file, "--json")
+    assert wet.exit_code == 0
+    assert wet.codes[0] == "film.left_out"
+    assert json.loads(wet.stdout)["warnings"][0] == note_without_oil("states are")
+    assert "thirdbody film" in wet.notes[0]
+    bare = {key: value for key, value in data_of().items() if key not in ("particles", "outputs")}
+    assert f"{note_without_oil('This page is')}." in assess_study(check(bare)).notes
+
+    dry = {key: value for key, value in data_of().items() if key != "film"}
+    dry["load"] = {"pressure": "5 MPa"}
+    assert run_study(check(dry)).oil_notes == ()
+
+
 # ---------------------------------------------------------------- report
 def test_the_report_has_the_film_and_the_same_bytes(monkeypatch):
     # the other figures cost most of a page and know nothing of the film
@@ -475,4 +495,5 @@ def test_the_report_has_the_film_and_the_same_bytes(monkeypatch):
     assert "data:image/svg+xml" in section
     assert "[outputs.friction]" in section
     assert "below 1 sigma roughness hinders the flow" in page
+    assert note_without_oil("states are") not in page  # its parts say which leave the oil out
     assert "Johnson, Greenwood, Poon 1972" in page

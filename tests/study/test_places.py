@@ -21,7 +21,7 @@ HORNG = {"name": "horng2022"}
 def problems(study):
     with pytest.raises(InvalidValue) as error:
         check(study, folder=Path(str(STUDIES)))
-    return [each.worded(in_study) for each in error.value.problems]
+    return [each.put_in_words(in_study) for each in error.value.problems]
 
 
 def study(*populations):

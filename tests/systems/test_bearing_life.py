@@ -162,7 +162,7 @@ def test_large_greased_bearings():
     ],
 )
 def test_refusals(make, message):
-    with pytest.raises(tb.InvalidValue, match=message):
+    with pytest.raises(tb.errors.InvalidValue, match=message):
         make()
 
 

@@ -241,7 +241,7 @@ areal_density = "1e6 / m^2"
 
 
 DUST = tb.Particles(material=tb.materials["quartz"], areal_density=1e8,
-                    diameter=tb.Monodisperse(mean=2e-6))  # fmt: skip
+                    diameter=tb.distributions.Monodisperse(mean=2e-6))  # fmt: skip
 
 
 def test_contacts_with_and_without_a_particle_each_carry_the_load():

@@ -24,7 +24,7 @@ RADIUS = 2e-3
 
 def dust(number, sizes=None, material="quartz", **more):
     """So many particles in the way of one contact, on average."""
-    sizes = sizes or tb.Monodisperse(mean=10e-6)
+    sizes = sizes or tb.distributions.Monodisperse(mean=10e-6)
     return tb.Particles(
         material=tb.materials[material],
         diameter=sizes,
@@ -58,7 +58,7 @@ def test_in_series_all_must_close_and_of_parallel_spots_one(n, m):
 
 @pytest.mark.parametrize(
     "sizes",
-    [tb.Monodisperse(mean=8e-6), tb.LogNormal(median=8e-6, gsd=1.5)],
+    [tb.distributions.Monodisperse(mean=8e-6), tb.LogNormal(median=8e-6, gsd=1.5)],
     ids=["one size", "log-normal"],
 )
 def test_one_kind_of_dust_is_that_of_contact_probability(sizes):
@@ -210,7 +210,7 @@ def test_dust_that_conducts_closes_more_often_than_dust_that_does_not():
     ],
 )
 def test_what_is_no_connector(changes, words):
-    with pytest.raises(tb.InvalidValue, match=words):
+    with pytest.raises(tb.errors.InvalidValue, match=words):
         plug(dust(1.0), **changes)
 
 
@@ -219,13 +219,13 @@ def test_a_tail_that_hardly_any_particle_has_is_no_boulder():
     broad = tb.LogNormal(median=8e-6, gsd=2.0)
     assert broad.support[1] > RADIUS
     assert 0 < plug(dust(0.1, broad)).failure(0.5) < 0.1
-    with pytest.raises(tb.InvalidValue, match=r"of which 0\.\d+ % reach it"):
+    with pytest.raises(tb.errors.InvalidValue, match=r"of which 0\.\d+ % reach it"):
         plug(dust(0.1, tb.LogNormal(median=20e-6, gsd=3.0)))
 
 
 def test_particles_that_break_are_refused():
-    strong = tb.WeibullStrength.of(tb.materials["quartz"])
-    with pytest.raises(tb.InvalidValue, match="break"):
+    strong = tb.grains.WeibullStrength.of(tb.materials["quartz"])
+    with pytest.raises(tb.errors.InvalidValue, match="break"):
         plug(dust(1.0, strength=strong))
 
 
@@ -281,8 +281,8 @@ def test_what_is_certain_is_what_the_sums_say(monkeypatch, number, height):
     [
         tb.LogNormal(median=8e-6, gsd=1.3),
         tb.LogNormal(median=8e-6, gsd=1.02),
-        tb.Uniform(low=5e-6, high=12e-6),
-        tb.Monodisperse(mean=9.5e-6),
+        tb.distributions.Uniform(low=5e-6, high=12e-6),
+        tb.distributions.Monodisperse(mean=9.5e-6),
     ],
     ids=["broad", "narrow", "uniform", "one size"],
 )
@@ -314,7 +314,7 @@ def test_particles_below_a_load_are_those_that_the_law_says(height, sizes, pushe
         tb.LogNormal(median=8e-6, gsd=1.05),
         tb.LogNormal(median=3e-6, gsd=2.2),
         tb.TruncatedGaussian(mean=8e-6, std=0.4e-6),
-        tb.Weibull(scale=8e-6, shape=2.0),
+        tb.distributions.Weibull(scale=8e-6, shape=2.0),
     ],
 )
 def test_the_classes_of_size_leave_less_than_the_bounds(monkeypatch, sizes):
@@ -373,7 +373,7 @@ def test_the_masses_of_a_sum_are_those_of_exact_fractions():
 
 def test_what_would_be_no_connector_is_no_what_if():
     """Twice the dust would cover more than there is: the answer comes without that."""
-    crowded = dust(1.0, tb.Monodisperse(mean=10e-6)).replace(areal_density=9e9)
+    crowded = dust(1.0, tb.distributions.Monodisperse(mean=10e-6)).replace(areal_density=9e9)
     found = run_connector(AskedConnector(title="", connector=plug(crowded), forces=np.array([0.5])))
     assert found.failure_of_all[2] == pytest.approx(1.0, abs=1e-12)
     whats = {each.what for each in found.what_ifs}

@@ -14,7 +14,7 @@ PAIR = tb.MaterialPair(STEEL, STEEL)
 
 
 def closing(number, sizes=None, *, law=None, material="SiO2"):
-    sizes = sizes or tb.Monodisperse(mean=10e-6)
+    sizes = sizes or tb.distributions.Monodisperse(mean=10e-6)
     radius = 4e-3
     law = law or tb.particle.Series(deep="off")
     return ContactProbability(
@@ -121,13 +121,13 @@ def test_the_jump_at_the_load_of_one_particle():
 @pytest.mark.parametrize(
     "sizes",
     [
-        tb.Monodisperse(mean=8e-6),
+        tb.distributions.Monodisperse(mean=8e-6),
         tb.LogNormal(median=8e-6, gsd=1.5),
-        tb.Uniform(low=4e-6, high=12e-6)
+        tb.distributions.Uniform(low=4e-6, high=12e-6)
         if hasattr(tb, "Uniform")
-        else tb.Weibull(scale=8e-6, shape=3.0),
-        tb.Mixture(
-            parts=(tb.Monodisperse(mean=5e-6), tb.LogNormal(median=12e-6, gsd=1.2)),
+        else tb.distributions.Weibull(scale=8e-6, shape=3.0),
+        tb.distributions.Mixture(
+            parts=(tb.distributions.Monodisperse(mean=5e-6), tb.LogNormal(median=12e-6, gsd=1.2)),
             weights=(0.7, 0.3),
         ),
     ],
@@ -155,7 +155,7 @@ def test_against_drawn_particles(sizes):
 
 def test_scales():
     """Twice all lengths and the same number in the way: the same at four times the load."""
-    one, two = closing(0.8), closing(0.8, tb.Monodisperse(mean=20e-6))
+    one, two = closing(0.8), closing(0.8, tb.distributions.Monodisperse(mean=20e-6))
     loads = np.array([0.05, 0.2, 0.4])
     assert two.probability(4 * loads) == pytest.approx(one.probability(loads), rel=1e-9)
 
@@ -187,16 +187,16 @@ def test_loads_that_are_none(load):
 def test_boulders_and_broken_particles_are_refused():
     with refuses(Mistake.ORDER, "radius", value="5 µm"):
         ContactProbability(radius=5e-6, surfaces=PAIR, particles=closing(1.0).particles)
-    strong = tb.WeibullStrength.of(tb.materials["quartz"])
+    strong = tb.grains.WeibullStrength.of(tb.materials["quartz"])
     breaks = closing(1.0, material="quartz").particles.replace(strength=strong)
-    with pytest.raises(tb.InvalidValue, match="break"):
+    with pytest.raises(tb.errors.InvalidValue, match="break"):
         ContactProbability(radius=4e-3, surfaces=PAIR, particles=breaks)
 
 
 def test_angular_particles_sink_in_more_easily():
     """Faces carry less than a sphere until they are embedded: solids touch more often."""
     round_ones = closing(1.0, material="Al2O3")
-    grit = tb.Angular(roundness=0.3, angle="60 deg")
+    grit = tb.grains.Angular(roundness=0.3, angle="60 deg")
     faced = ContactProbability(
         radius=round_ones.radius,
         surfaces=PAIR,

@@ -47,7 +47,7 @@ def test_values():
 
 def test_number_of_a_dust():
     """20 % of the volume of 1 g/m³ between 5 and 10 µm, evenly over ln x."""
-    sizes = tb.PowerLaw(edges=(5e-6, 10e-6), counts=(1.0,), slopes=(3.0,))
+    sizes = tb.distributions.PowerLaw(edges=(5e-6, 10e-6), counts=(1.0,), slopes=(3.0,))
     found = tb.dust.particles_in(
         tb.dust.concentration(0.2e-3, "mass per volume"), sizes, particle_density=2650
     )
@@ -112,8 +112,8 @@ def test_dents_after_many_passes_by_random_throws():
     [
         tb.LogNormal(median=0.6e-6, gsd=1.6),
         tb.TruncatedGaussian(mean=0.55e-6, std=0.05e-6),
-        tb.Histogram(edges=(0.2e-6, 0.6e-6, 1.5e-6), counts=(3, 1)),
-        tb.Monodisperse(mean=0.8e-6),
+        tb.distributions.Histogram(edges=(0.2e-6, 0.6e-6, 1.5e-6), counts=(3, 1)),
+        tb.distributions.Monodisperse(mean=0.8e-6),
     ],
     ids=lambda each: type(each).__name__,
 )
@@ -127,7 +127,7 @@ def test_sums_over_sizes(sizes, side):
     each = co.dent_of(film.single(x), side=side - 1, particle=SILICA)
     there = each.depth > 0
     depth, width = each.depth[there], each.diameter[there]
-    if type(sizes) is tb.Monodisperse:
+    if type(sizes) is tb.distributions.Monodisperse:
         assert dents.number == pytest.approx(1e15 * film.film, rel=1e-12)
         assert dents.depth == pytest.approx(depth[0], rel=1e-12)
         return
@@ -197,7 +197,9 @@ def test_parts_of_the_index():
         2 * even.grooves_1, rel=1e-12
     )
     # fully plastic sphere between equal surfaces: S = 6(x−h)/x
-    grain = oil_particles.FilmParticles(diameter=tb.Monodisperse(mean=0.9e-6), number=1.0, **ONE)
+    grain = oil_particles.FilmParticles(
+        diameter=tb.distributions.Monodisperse(mean=0.9e-6), number=1.0, **ONE
+    )
     assert grain.severity_index().severity == pytest.approx(6 * 0.4 / 0.9, rel=1e-2)
 
 
@@ -310,7 +312,7 @@ HARD = dict(
 
 def strong(fragments="footprint", **changes):
     numbers = dict(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=0.96e-6)
-    return tb.WeibullStrength(**numbers | changes, fragments=fragments)
+    return tb.grains.WeibullStrength(**numbers | changes, fragments=fragments)
 
 
 def breaking(sizes, strength, **options):
@@ -324,7 +326,7 @@ def breaking(sizes, strength, **options):
 def test_particles_of_one_size_break_in_the_film(fragments):
     """Generation by generation: N_k S_k P_k whole pieces of κ^k x."""
     strength, x, kept = strong(fragments), 20e-6, {"gone": 0.0, "footprint": 0.5, "all": 1.0}
-    film = breaking(tb.Monodisperse(mean=x), strength)
+    film = breaking(tb.distributions.Monodisperse(mean=x), strength)
     one = tb.particle.Series(deep="off", soft="sphere").one(surfaces=film.surfaces, particle=QUARTZ)
     met = tension(one, QUARTZ.nu, "sphere")
     number, arrived, y, whole = 0.0, 1.0, x, []
@@ -410,5 +412,5 @@ FRAGMENTS = ("gone", "footprint", "all")
 def test_mistakes_in_a_strength(fields, refusal):
     with refusal:
         oil_particles.FilmParticles(
-            diameter=tb.Monodisperse(mean=5e-6), number=1.0, **(HARD | fields)
+            diameter=tb.distributions.Monodisperse(mean=5e-6), number=1.0, **(HARD | fields)
         )

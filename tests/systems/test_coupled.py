@@ -52,7 +52,7 @@ def frictions_at(contact, T, *, pressure=5e6, exponent=1.0):
     vary = {"surfaces.first.H": first.H * share, "surfaces.second.H": second.H * share}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        states = tb.solve_states(contact, pressure=pressure, vary=vary)
+        states = tb.equilibria.solve_states(contact, pressure=pressure, vary=vary)
     assert set(states["status"].values) == {"ok"}
     return states["mu"].values
 
@@ -262,7 +262,7 @@ def test_particles_in_a_film_that_thins_by_a_scan():
     def made(T):
         if T not in known:
             film = untold(
-                tb.mixed_film, softened(dusty, 1 - (T - 20) / 1480), conjunction=run.conjunction,
+                tb.films.mixed_film, softened(dusty, 1 - (T - 20) / 1480), conjunction=run.conjunction,
                 oil=oil.replace(eta=0.05 * math.exp(-beta * (T - 40.0))), load=20.0, speed=0.5,
                 slide_roll=0.5,
             )  # fmt: skip
@@ -354,7 +354,7 @@ def test_oil_that_thins():
     warm = oil.replace(eta=0.05 * math.exp(-math.log(0.05 / 0.0068) / 60 * (only.T - 40.0)))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        film = tb.mixed_film(
+        film = tb.films.mixed_film(
             RUBBING, conjunction=run.conjunction, oil=warm, load=20.0, speed=0.5, slide_roll=0.5
         )
     heat = film.mu * run.nominal_pressure(RUBBING) * 0.25

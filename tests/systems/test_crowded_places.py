@@ -11,7 +11,7 @@ from thirdbody.systems.bodies import BallInGroove, BallOnFlat, press
 from thirdbody.systems.rough_body import curve, rough_cylinder, rough_sphere
 from thirdbody.systems.waviness import elastic_wave, measured_wave, rigid_wave
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 SOFT = tb.Material(E=200e9, nu=0.3, H=1e9)
 CONTACT = tb.Contact(
     surfaces=tb.MaterialPair(SOFT, SOFT), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
@@ -100,10 +100,10 @@ def test_a_body_that_is_crowded_warns_of_its_numbers(body, method, largest):
 
 def test_a_film_that_is_crowded_says_so():
     asked = dict(conjunction=tb.films.Point(R=5e-3), oil=tb.films.Oil(eta=0.02, alpha=2e-8))
-    found = tb.mixed_film(CONTACT, load=[0.2, 6.0], speed=[1e-3, 1e-6], **asked)
+    found = tb.films.mixed_film(CONTACT, load=[0.2, 6.0], speed=[1e-3, 1e-6], **asked)
     assert found.A_t[0] < MOST_AREA < found.A_t[1]
     assert found.status[0] == "ok"
     assert found.status[1].startswith("crowded: more than 0.5")
     assert found.columns()["status"].tolist() == found.status.tolist()
-    one = tb.mixed_film(CONTACT, load=6.0, speed=1e-6, **asked)
+    one = tb.films.mixed_film(CONTACT, load=6.0, speed=1e-6, **asked)
     assert one.status == found.status[1]

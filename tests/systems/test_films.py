@@ -60,15 +60,15 @@ def test_point_blend_is_homogeneous(blend):
     rng = np.random.default_rng(3)
     limits = np.exp(rng.uniform(-3, 3, (4, 50)))
     c = 7.3
-    one = film.joined(films.Asymptotes(*limits), H_00=1.8)
-    many = film.joined(films.Asymptotes(*(c * limits)), H_00=c * 1.8)
+    one = film.join_limits(films.Asymptotes(*limits), H_00=1.8)
+    many = film.join_limits(films.Asymptotes(*(c * limits)), H_00=c * 1.8)
     np.testing.assert_allclose(many, c * one, rtol=1e-13)
 
 
 def test_line_blend_is_homogeneous():
     limits = np.exp(np.random.default_rng(4).uniform(-3, 3, (4, 50)))
-    one = films.MoesLine().joined(films.Asymptotes(*limits))
-    many = films.MoesLine().joined(films.Asymptotes(*(7.3 * limits)))
+    one = films.MoesLine().join_limits(films.Asymptotes(*limits))
+    many = films.MoesLine().join_limits(films.Asymptotes(*(7.3 * limits)))
     np.testing.assert_allclose(many, 7.3 * one, rtol=1e-13)
 
 
@@ -81,7 +81,7 @@ def test_blend_tends_to_each_limit(film, which):
     limits[which] = 1.0
     extra = {"H_00": 1e12} if film.shape == "point" else {}
     at = films.Asymptotes(*limits)
-    assert float(film.joined(at, **extra)) == pytest.approx(1, rel=1e-6)
+    assert float(film.join_limits(at, **extra)) == pytest.approx(1, rel=1e-6)
     assert str(at.regime) == films.REGIMES[which]
 
 
@@ -165,5 +165,5 @@ def test_refusals():
         films.Oil(eta=-1.0, alpha=2e-8)
     with refuses(Mistake.RANGE, "Point.R", value="0.0"):
         films.Point(R=0.0)
-    with pytest.raises(tb.InvalidValue, match="viscosity"):
+    with pytest.raises(tb.errors.InvalidValue, match="viscosity"):
         films.Oil(eta=0.04, alpha=2e-8, viscosity="honey")

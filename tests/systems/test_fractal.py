@@ -106,7 +106,7 @@ def test_largest_spot_inverts_the_load():
 
 
 def test_fraction_needs_the_nominal_area():
-    with pytest.raises(tb.InvalidValue, match="nominal_area"):
+    with pytest.raises(tb.errors.InvalidValue, match="nominal_area"):
         surface(1.5).fraction(1e6)
     s = surface(1.5, nominal_area=1e-6)
     fraction = s.fraction([1e4, 1e6, 1e12])
@@ -253,8 +253,11 @@ def test_few_particles_let_the_asperities_touch():
 def test_the_film_carries_the_load():
     steel, glass = tb.materials["S45C"], tb.materials["SiO2"]
     pair = tb.MaterialPair(steel, glass)
-    sizes = tb.Mixture(
-        parts=(tb.Monodisperse(mean=90e-9), tb.TruncatedGaussian(mean=60e-9, std=9e-9)),
+    sizes = tb.distributions.Mixture(
+        parts=(
+            tb.distributions.Monodisperse(mean=90e-9),
+            tb.TruncatedGaussian(mean=60e-9, std=9e-9),
+        ),
         weights=(1, 3),
     )
     model = GhaedniaMultiscale(
@@ -279,7 +282,7 @@ def test_constant_hardness_factor_is_a_harder_pair(second, sizes):
     """The quadrature for a size effect against the tables, with a factor that is constant."""
     diameter = {
         "narrow": tb.TruncatedGaussian(mean=80e-9, std=16e-9),
-        "single": tb.Monodisperse(mean=80e-9),
+        "single": tb.distributions.Monodisperse(mean=80e-9),
     }[sizes]
     bodies = [tb.materials["S45C"], tb.materials[second]]
 
@@ -311,7 +314,7 @@ def test_hardness_that_grows_in_small_dents_lowers_the_area():
         surfaces=pair,
         particles=tb.Particles(
             material=tb.materials["SiO2"],
-            diameter=tb.Monodisperse(mean=100e-9),
+            diameter=tb.distributions.Monodisperse(mean=100e-9),
             areal_density=3e13,
         ),
     )
@@ -342,7 +345,7 @@ def test_two_submodels_check_their_input():
         model.replace(**{"surface.H": 2.0})
     with refuses(Mistake.KIND, "GhaedniaMultiscale.surface", value="3.0"):
         model.replace(surface=3.0)
-    with pytest.raises(tb.InvalidValue, match="pressure"):
+    with pytest.raises(tb.errors.InvalidValue, match="pressure"):
         model.solve([1e-6, 0.0])
 
 

@@ -199,7 +199,7 @@ def test_mistakes():
         mean_interaction(contact, nominal_area=1e-6, pressure=1e6, d_0=0.0)
     with balances_not(Status.TOO_DEEP, says="-3 sigma_s"):
         mean_interaction(contact, nominal_area=1e-16, d_0=-10 * s)
-    with pytest.raises(tb.InvalidValue, match="particles"):
+    with pytest.raises(tb.errors.InvalidValue, match="particles"):
         local_interaction(dirty_contact(), pressure=1e6)
-    with pytest.raises(tb.InvalidValue, match="adhesive"):
+    with pytest.raises(tb.errors.InvalidValue, match="adhesive"):
         local_interaction(contact.replace(asperity_law=tb.asperity.JKR(w=0.1)), pressure=1e6)

@@ -23,34 +23,34 @@ from thirdbody.systems.life.linear_flow import (
 
 QUARTZ = tb.materials["quartz"]
 STEEL = tb.materials["100Cr6"]
-DIRT = tb.OilDirt.from_iso4406("18/16/13", material=QUARTZ)
-ONE = tb.SizeClasses(edges=(10e-6, 12e-6))
+DIRT = tb.oil.OilDirt.from_iso4406("18/16/13", material=QUARTZ)
+ONE = tb.oil.SizeClasses(edges=(10e-6, 12e-6))
 """A single class of size."""
-IN_CLASS = tb.PowerLaw(edges=ONE.edges, counts=(1.0,), slopes=(3.0,))
+IN_CLASS = tb.distributions.PowerLaw(edges=ONE.edges, counts=(1.0,), slopes=(3.0,))
 MINUTE, HOUR = 60.0, 3600.0
 
 
 def of_one_size(**changes):
     """A circuit of which all particles are in one class."""
     given = dict(volume=0.2, start=(), ingress=(), classes=ONE)
-    return tb.OilCircuit(**given | changes)
+    return tb.oil.OilCircuit(**given | changes)
 
 
 def entering(rate):
-    return tb.Ingress(material=QUARTZ, diameter=IN_CLASS, rate=rate)
+    return tb.oil.Ingress(material=QUARTZ, diameter=IN_CLASS, rate=rate)
 
 
 def even(beta, **changes):
-    return tb.Filter(sizes=(10e-6,), betas=(beta,), **dict(flow=1e-3) | changes)
+    return tb.oil.Filter(sizes=(10e-6,), betas=(beta,), **dict(flow=1e-3) | changes)
 
 
 def dirty(number):
-    return tb.OilDirt(material=QUARTZ, diameter=IN_CLASS, number=number)
+    return tb.oil.OilDirt(material=QUARTZ, diameter=IN_CLASS, number=number)
 
 
 # ------------------------------------------------------------------------------ classes
 def test_classes_of_the_usual_range():
-    classes = tb.SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
+    classes = tb.oil.SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
     assert classes.count == 32
     edges = np.array(classes.edges)
     assert np.max(edges[1:] / edges[:-1]) <= 1.25
@@ -64,7 +64,7 @@ def test_classes_of_the_usual_range():
 @pytest.mark.parametrize(("smallest", "largest"), [(4e-6, 14e-6), (4.1e-6, 13.9e-6), (3e-7, 9e-5)])
 @pytest.mark.parametrize("per_octave", [1, 3, 4, 8])
 def test_classes_hold_what_they_are_asked_to_hold(smallest, largest, per_octave):
-    classes = tb.SizeClasses.covering(smallest=smallest, largest=largest, per_octave=per_octave)
+    classes = tb.oil.SizeClasses.covering(smallest=smallest, largest=largest, per_octave=per_octave)
     edges = classes.edges
     assert edges[0] <= smallest * (1 + 1e-9) < edges[1] * (1 + 1e-9)
     assert edges[-2] < largest * (1 + 1e-9)
@@ -81,8 +81,8 @@ def test_an_oil_of_a_code_has_this_code(level):
     """Every number of a code at every level of its range: an oil begins where it is told to."""
     codes = [*CODES, "18/16/13", "22/19/14", "28/28/28", "28/0/0"]
     for code in codes:
-        dirt = tb.OilDirt.from_iso4406(code, material=QUARTZ, level=level)
-        terms = tb.OilCircuit(volume=0.2, start=dirt, ingress=()).terms()
+        dirt = tb.oil.OilDirt.from_iso4406(code, material=QUARTZ, level=level)
+        terms = tb.oil.OilCircuit(volume=0.2, start=dirt, ingress=()).terms()
         assert terms.classes.iso4406(terms.start.sum(axis=1)) == code, (code, level)
 
 
@@ -91,25 +91,25 @@ def test_an_oil_of_any_code_has_this_code():
     for a, b, c in itertools.product(range(29), repeat=3):
         if a >= b >= c:
             for level in ("low", "middle", "high"):
-                dirt = tb.OilDirt.from_iso4406(f"{a}/{b}/{c}", material=QUARTZ, level=level)
-                terms = tb.OilCircuit(volume=0.2, start=dirt, ingress=()).terms()
+                dirt = tb.oil.OilDirt.from_iso4406(f"{a}/{b}/{c}", material=QUARTZ, level=level)
+                terms = tb.oil.OilCircuit(volume=0.2, start=dirt, ingress=()).terms()
                 assert terms.classes.iso4406(terms.start.sum(axis=1)) == f"{a}/{b}/{c}", level
 
 
 def test_an_oil_of_a_steady_code_ends_at_this_code():
-    held = tb.Filter(sizes=(3e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3)
+    held = tb.oil.Filter(sizes=(3e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3)
     for code in ("18/16/13", "22/19/14", "20/14/12", "17/17/11"):
         for level in ("low", "high"):
-            dirt = tb.OilDirt.from_iso4406(code, material=QUARTZ, level=level)
-            steady = tb.Ingress(material=QUARTZ, diameter=dirt.diameter, steady=dirt.number)
-            oil = tb.OilCircuit(volume=0.2, start=(), ingress=steady, filters=held)
+            dirt = tb.oil.OilDirt.from_iso4406(code, material=QUARTZ, level=level)
+            steady = tb.oil.Ingress(material=QUARTZ, diameter=dirt.diameter, steady=dirt.number)
+            oil = tb.oil.OilCircuit(volume=0.2, start=(), ingress=steady, filters=held)
             assert oil.steady_code() == code, level
 
 
 def test_mean_powers_of_a_class_against_quadrature():
     import mpmath as mp
 
-    classes = tb.SizeClasses(edges=(2e-6, 3e-6, 7e-6))
+    classes = tb.oil.SizeClasses(edges=(2e-6, 3e-6, 7e-6))
     for k, (a, b) in enumerate([(2, 3), (3, 7)]):
         number = mp.quad(lambda x: x**-4, [a, b])
         for power in (0, 1, 2, 3, 4, 5.5):
@@ -119,12 +119,12 @@ def test_mean_powers_of_a_class_against_quadrature():
 
 
 @pytest.mark.parametrize("diameter", [
-    tb.LogNormal(median=5e-6, gsd=1.8), tb.Weibull(scale=8e-6, shape=2), tb.Uniform(low=3e-6, high=9e-6),
-    tb.Monodisperse(mean=4e-6), tb.dust.dust_sizes("A3"),
+    tb.LogNormal(median=5e-6, gsd=1.8), tb.distributions.Weibull(scale=8e-6, shape=2), tb.distributions.Uniform(low=3e-6, high=9e-6),
+    tb.distributions.Monodisperse(mean=4e-6), tb.dust.dust_sizes("A3"),
 ])  # fmt: skip
 def test_classes_keep_number_or_volume(diameter):
-    circuit = tb.OilCircuit(
-        volume=0.2, ingress=(), start=tb.OilDirt(material=QUARTZ, diameter=diameter, number=1e9)
+    circuit = tb.oil.OilCircuit(
+        volume=0.2, ingress=(), start=tb.oil.OilDirt(material=QUARTZ, diameter=diameter, number=1e9)
     )
     classes = circuit.size_classes()
     assert classes.numbers_of(1e9, diameter).sum() == pytest.approx(1e9, rel=2e-9)
@@ -133,15 +133,15 @@ def test_classes_keep_number_or_volume(diameter):
 
 
 def test_a_size_on_an_edge_counts_as_at_least_that_size():
-    diameter = tb.Monodisperse(mean=4e-6)
-    classes = tb.SizeClasses.covering(smallest=2e-6, largest=8e-6)
+    diameter = tb.distributions.Monodisperse(mean=4e-6)
+    classes = tb.oil.SizeClasses.covering(smallest=2e-6, largest=8e-6)
     assert classes.counted(classes.numbers_of(1e8, diameter))[0] == 1e8
 
 
 @pytest.mark.parametrize("code", ["18/16/13", "24/22/19", "15/13/10", "12/10/7"])
 def test_a_code_goes_into_classes_and_comes_back(code):
-    circuit = tb.OilCircuit(
-        volume=0.2, ingress=(), start=tb.OilDirt.from_iso4406(code, material=QUARTZ)
+    circuit = tb.oil.OilCircuit(
+        volume=0.2, ingress=(), start=tb.oil.OilDirt.from_iso4406(code, material=QUARTZ)
     )
     assert tb.life(oil=circuit, duration=1.0).codes[0] == code
 
@@ -294,18 +294,18 @@ def test_the_course_against_a_matrix_exponential(case):
 
 @pytest.mark.check
 def test_a_whole_circuit_against_an_integrator():
-    fine = tb.Filter(sizes=(4e-6, 10e-6), betas=(10.0, 200.0), flow=5e-4)
-    circuit = tb.OilCircuit(
+    fine = tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(10.0, 200.0), flow=5e-4)
+    circuit = tb.oil.OilCircuit(
         volume=0.05,
         start=DIRT,
-        ingress=tb.Ingress.of_dust("A3", rate="50 mg/h", material=QUARTZ),
+        ingress=tb.oil.Ingress.of_dust("A3", rate="50 mg/h", material=QUARTZ),
         filters=(fine, fine.replace(betas=(2.0, 75.0), line="kidney")),
         settling_area=0.1,
         viscosity=0.05,
         density=880.0,
         make_up=1e-7,
         leak=2e-7,
-        fresh_oil=tb.OilDirt.from_iso4406("17/15/12", material=QUARTZ),
+        fresh_oil=tb.oil.OilDirt.from_iso4406("17/15/12", material=QUARTZ),
     )
     terms = circuit.terms()
     shape = terms.start.shape
@@ -330,12 +330,16 @@ def test_a_whole_circuit_against_an_integrator():
 
 def test_classes_twice_as_fine_change_little():
     """Limit 10: the course of the counts converges with the ratio of the classes."""
-    fine = tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 200.0), flow=1e-3)
-    dust = tb.Ingress.of_dust("A3", rate="125 mg/h", material=QUARTZ)
+    fine = tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 200.0), flow=1e-3)
+    dust = tb.oil.Ingress.of_dust("A3", rate="125 mg/h", material=QUARTZ)
 
     def counts(per_octave):
-        classes = tb.SizeClasses.covering(smallest=0.25e-6, largest=128e-6, per_octave=per_octave)
-        circuit = tb.OilCircuit(volume=0.2, start=DIRT, ingress=dust, filters=fine, classes=classes)
+        classes = tb.oil.SizeClasses.covering(
+            smallest=0.25e-6, largest=128e-6, per_octave=per_octave
+        )
+        circuit = tb.oil.OilCircuit(
+            volume=0.2, start=DIRT, ingress=dust, filters=fine, classes=classes
+        )
         return tb.life(oil=circuit, duration=300.0, times=[300.0]).counts[-1]
 
     exact = counts(128)
@@ -346,10 +350,10 @@ def test_classes_twice_as_fine_change_little():
 # ------------------------------------------------------------------------------ events
 def test_a_full_filter_is_changed_and_the_next_one_lasts_as_long():
     entering_mass = 100e-6 / HOUR
-    dust = tb.Ingress.of_dust("A3", rate=entering_mass, material=QUARTZ)
-    fine = tb.Filter(sizes=(0.3e-6,), betas=(1e4,), flow=1e-3, capacity=0.01)
+    dust = tb.oil.Ingress.of_dust("A3", rate=entering_mass, material=QUARTZ)
+    fine = tb.oil.Filter(sizes=(0.3e-6,), betas=(1e4,), flow=1e-3, capacity=0.01)
     history = tb.life(
-        oil=tb.OilCircuit(volume=0.2, start=(), ingress=dust, filters=fine), duration=350 * HOUR
+        oil=tb.oil.OilCircuit(volume=0.2, start=(), ingress=dust, filters=fine), duration=350 * HOUR
     )
     times = [event.time / HOUR for event in history.events]
     assert [event.name for event in history.events] == ["filter full"] * 3
@@ -359,9 +363,9 @@ def test_a_full_filter_is_changed_and_the_next_one_lasts_as_long():
 
 
 def test_a_full_filter_that_is_bypassed_lets_the_oil_become_dirty():
-    dust = tb.Ingress.of_dust("A3", rate="100 mg/h", material=QUARTZ)
-    fine = tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3, capacity=0.01, when_full="bypass")
-    circuit = tb.OilCircuit(volume=0.2, start=(), ingress=dust, filters=fine)
+    dust = tb.oil.Ingress.of_dust("A3", rate="100 mg/h", material=QUARTZ)
+    fine = tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3, capacity=0.01, when_full="bypass")
+    circuit = tb.oil.OilCircuit(volume=0.2, start=(), ingress=dust, filters=fine)
     history = tb.life(oil=circuit, duration=400 * HOUR)
     caught = history.ledger.went["filter"]
     assert caught[-1] == pytest.approx(0.01, rel=1e-9)
@@ -371,19 +375,19 @@ def test_a_full_filter_that_is_bypassed_lets_the_oil_become_dirty():
     np.testing.assert_allclose(
         steps, circuit.terms().classes.counted(circuit.terms().ingress[:, 0])[0] / 0.2, rtol=1e-6
     )
-    stops = tb.life(oil=circuit, duration=400 * HOUR, until=tb.until.filter_full())
+    stops = tb.life(oil=circuit, duration=400 * HOUR, until=tb.oil.until.filter_full())
     assert stops.times[-1] == history.events[0].time == stops.events[-1].time
 
 
 @pytest.mark.parametrize("code", ["17/15/12", "14/12/9"])
 def test_a_code_is_reached_on_the_way_down(code):
-    circuit = tb.OilCircuit(
+    circuit = tb.oil.OilCircuit(
         volume=0.2,
         start=DIRT,
         ingress=(),
-        filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
+        filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
     )
-    history = tb.life(oil=circuit, duration=1e5, until=tb.until.iso4406(code))
+    history = tb.life(oil=circuit, duration=1e5, until=tb.oil.until.iso4406(code))
     ends = [tb.dust.iso4406_range(int(part))[1] for part in code.split("/")]
     assert np.max(history.counts[-1] / ends) == pytest.approx(1, rel=1e-9)
     assert history.codes[-1] == code
@@ -392,14 +396,14 @@ def test_a_code_is_reached_on_the_way_down(code):
 
 def test_a_code_is_reached_on_the_way_up():
     circuit = of_one_size(start=dirty(1e6), ingress=entering(1e6))
-    history = tb.life(oil=circuit, duration=1e6, until=tb.until.iso4406("-/18/0"))
+    history = tb.life(oil=circuit, duration=1e6, until=tb.oil.until.iso4406("-/18/0"))
     low = tb.dust.iso4406_range(18)[0]
     assert history.times[-1] == pytest.approx((low - 1e6) * 0.2 / 1e6, rel=1e-9)
 
 
 def test_an_oil_change_brings_the_fresh_oil():
-    fresh = tb.OilDirt.from_iso4406("16/14/11", material=QUARTZ)
-    circuit = tb.OilCircuit(
+    fresh = tb.oil.OilDirt.from_iso4406("16/14/11", material=QUARTZ)
+    circuit = tb.oil.OilCircuit(
         volume=0.2, start=DIRT, ingress=(), fresh_oil=fresh, oil_changes=(HOUR, 2 * HOUR)
     )
     history = tb.life(oil=circuit, duration=3 * HOUR)
@@ -416,27 +420,27 @@ def test_an_oil_change_brings_the_fresh_oil():
 
 # ------------------------------------------------------------------------------ codes kept
 def test_ingress_that_keeps_a_code_keeps_it():
-    fine = tb.Filter(sizes=(4e-6, 10e-6), betas=(10.0, 200.0), flow=1e-3)
-    circuit = tb.OilCircuit(
+    fine = tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(10.0, 200.0), flow=1e-3)
+    circuit = tb.oil.OilCircuit(
         volume=0.2,
         start=(),
-        ingress=tb.Ingress.keeping_iso4406("19/17/14", material=QUARTZ),
+        ingress=tb.oil.Ingress.keeping_iso4406("19/17/14", material=QUARTZ),
         filters=fine,
         make_up=1e-7,
         leak=1e-7,
-        fresh_oil=tb.OilDirt.from_iso4406("16/14/11", material=QUARTZ),
+        fresh_oil=tb.oil.OilDirt.from_iso4406("16/14/11", material=QUARTZ),
     )
     assert circuit.steady_code() == "19/17/14"
     history = tb.life(oil=circuit, duration=1e5)
     assert history.codes[-1] == "19/17/14"
-    kept = circuit.replace(start=tb.OilDirt.from_iso4406("19/17/14", material=QUARTZ))
+    kept = circuit.replace(start=tb.oil.OilDirt.from_iso4406("19/17/14", material=QUARTZ))
     counts = tb.life(oil=kept, duration=1e5).counts
     np.testing.assert_allclose(counts, np.broadcast_to(counts[0], counts.shape), rtol=1e-10)
 
 
 def test_a_code_cleaner_than_fresh_oil_cannot_be_kept():
     circuit = of_one_size(
-        ingress=tb.Ingress(material=QUARTZ, diameter=IN_CLASS, steady=1e6),
+        ingress=tb.oil.Ingress(material=QUARTZ, diameter=IN_CLASS, steady=1e6),
         make_up=1e-6,
         leak=1e-6,
         fresh_oil=dirty(1e9),
@@ -447,7 +451,7 @@ def test_a_code_cleaner_than_fresh_oil_cannot_be_kept():
 
 # ------------------------------------------------------------------------------ filters
 def test_penetration_of_a_data_sheet():
-    sheet = tb.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0))
+    sheet = tb.oil.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0))
     assert f"{float(sheet.penetration(7e-6)):.6f}" == "0.313002"
     assert float(sheet.beta(7e-6)) == pytest.approx(9.08, abs=5e-3)
     assert float(sheet.penetration(10e-6 * (1 - 1e-9))) == pytest.approx(0.0406, abs=5e-5)
@@ -460,11 +464,11 @@ def test_penetration_of_a_data_sheet():
 @pytest.mark.parametrize("betas", [(2.0, 75.0), (1.0, 40.0), (20.0, 1000.0), (3.0, 3.0)])
 def test_classes_let_pass_what_the_cumulative_ratio_says(betas, service):
     """N(>x)/β(x) of the test dust, wherever nothing is clipped."""
-    sheet = tb.Filter(sizes=(5e-6, 10e-6), betas=betas, service=service)
+    sheet = tb.oil.Filter(sizes=(5e-6, 10e-6), betas=betas, service=service)
     edges = np.array([4.9e-6, 5e-6, 5.7e-6, 7e-6, 9.1e-6, 10e-6, 20e-6])
     got = sheet.mean_penetration(edges)
     above = edges**-3.0
-    behind = above / tb.Filter(sizes=(5e-6, 10e-6), betas=betas).beta(edges) ** service
+    behind = above / tb.oil.Filter(sizes=(5e-6, 10e-6), betas=betas).beta(edges) ** service
     want = (behind[:-1] - behind[1:]) / (above[:-1] - above[1:])
     clipped = sheet.clipped_to or 0.0
     free = (edges[:-1] >= max(clipped, 5e-6)) & (edges[1:] < 10e-6 * (1 + 1e-12))
@@ -478,7 +482,7 @@ def test_classes_let_pass_what_the_cumulative_ratio_says(betas, service):
 def test_what_is_clipped_is_found_by_trying():
     for betas in ((2.0, 75.0), (1.0, 40.0), (1.1, 1.5), (20.0, 1000.0), (1.5, 1000.0, 2000.0)):
         sizes = (5e-6, 10e-6, 12e-6)[: len(betas)]
-        sheet = tb.Filter(sizes=sizes, betas=betas)
+        sheet = tb.oil.Filter(sizes=sizes, betas=betas)
         x = np.linspace(5e-6, 12e-6, 70001)[1:]
         over = x[sheet._raw_penetration(x) > 1]
         if sheet.clipped_to is None:
@@ -500,14 +504,14 @@ def drawn(index):
     def dirt():
         base = int(rng.integers(10, 25))
         code = f"{base}/{base - int(rng.integers(0, 4))}/{base - int(rng.integers(4, 8))}"
-        return tb.OilDirt.from_iso4406(code, material=materials[rng.integers(3)])
+        return tb.oil.OilDirt.from_iso4406(code, material=materials[rng.integers(3)])
 
     volume, duration = log(1e-3, 10), log(60, 1e8)
     moving = volume / duration
     ways_in = [
-        lambda: tb.Ingress.of_dust(str(rng.choice(["A1", "A2", "A3", "A4"])), rate=log(1e-13, 1e-7),
+        lambda: tb.oil.Ingress.of_dust(str(rng.choice(["A1", "A2", "A3", "A4"])), rate=log(1e-13, 1e-7),
                                    material=materials[rng.integers(2)]),
-        lambda: tb.Ingress.from_counts(sizes=[4e-6, 6e-6, 14e-6], material=materials[rng.integers(3)],
+        lambda: tb.oil.Ingress.from_counts(sizes=[4e-6, 6e-6, 14e-6], material=materials[rng.integers(3)],
                                        counts=log(1e2, 1e9) * np.array([1, 0.3, 0.02])),
     ]  # fmt: skip
     ingress = tuple(ways_in[rng.integers(2)]() for _ in range(rng.integers(0, 3)))
@@ -519,7 +523,7 @@ def drawn(index):
         first = log(2e-6, 20e-6)
         beta = 1 + log(0.01, 100)
         line = "main" if rng.random() < 0.3 else ""
-        return tb.Filter(
+        return tb.oil.Filter(
             sizes=(first, first * log(1.2, 4)), betas=(beta, beta * log(1, 200)),
             flow=3e-4 if line else log(1e-6, 1e-2), service=log(0.3, 1.2),
             capacity=log(0.03, 3) * brought if rng.random() < 0.5 else None,
@@ -527,7 +531,7 @@ def drawn(index):
             still_filtered=float(rng.random() < 0.3) * 0.5, line=line,
         )  # fmt: skip
 
-    return tb.OilCircuit(
+    return tb.oil.OilCircuit(
         volume=volume, start=start,
         ingress=ingress,
         filters=tuple(filters() for _ in range(rng.integers(0, 4))),
@@ -555,16 +559,16 @@ def test_mass_closes_in_any_circuit(index):
 def test_units_do_not_matter():
     """Lengths times 3: volumes times 27, counts per volume over 27, the same course of N."""
     factor = 3.0
-    sheet = tb.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3)
+    sheet = tb.oil.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3)
     sizes = tb.LogNormal(median=8e-6, gsd=1.3)
-    classes = tb.SizeClasses.covering(smallest=1e-6, largest=200e-6)
+    classes = tb.oil.SizeClasses.covering(smallest=1e-6, largest=200e-6)
 
     def course(f):
-        circuit = tb.OilCircuit(
-            volume=0.2 * f**3, ingress=tb.Ingress(material=QUARTZ, diameter=sizes.scaled(f), rate=1e6),
-            start=tb.OilDirt(material=QUARTZ, diameter=sizes.scaled(f), number=1e9 / f**3),
+        circuit = tb.oil.OilCircuit(
+            volume=0.2 * f**3, ingress=tb.oil.Ingress(material=QUARTZ, diameter=sizes.scaled(f), rate=1e6),
+            start=tb.oil.OilDirt(material=QUARTZ, diameter=sizes.scaled(f), number=1e9 / f**3),
             filters=sheet.replace(sizes=tuple(f * x for x in sheet.sizes), flow=1e-3 * f**3),
-            classes=tb.SizeClasses(edges=tuple(f * x for x in classes.edges)),
+            classes=tb.oil.SizeClasses(edges=tuple(f * x for x in classes.edges)),
             settling_area=0.5 * f**2, viscosity=0.03 * f, density=870.0,
         )  # fmt: skip
         history = tb.life(oil=circuit, duration=HOUR, times=[HOUR / 3])
@@ -575,11 +579,11 @@ def test_units_do_not_matter():
 
 # ------------------------------------------------------------------ found by refutation
 def test_accounts_begin_at_the_beginning_whatever_times_are_asked_for():
-    circuit = tb.OilCircuit(
+    circuit = tb.oil.OilCircuit(
         volume=0.2,
-        start=tb.OilDirt.from_iso4406("20/18/15", material=tb.materials["quartz"]),
+        start=tb.oil.OilDirt.from_iso4406("20/18/15", material=tb.materials["quartz"]),
         ingress=(),
-        filters=tb.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
+        filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
     )
     whole = tb.life(oil=circuit, duration=3600.0)
     late = tb.life(oil=circuit, duration=3600.0, times=[600.0, 3600.0])
@@ -589,15 +593,15 @@ def test_accounts_begin_at_the_beginning_whatever_times_are_asked_for():
 
 
 def test_an_absurd_duration_is_refused():
-    circuit = tb.OilCircuit(volume=0.2, start=(), ingress=())
+    circuit = tb.oil.OilCircuit(volume=0.2, start=(), ingress=())
     with refuses(Mistake.RANGE, "duration"):
         tb.life(oil=circuit, duration=3.6e33)
 
 
 def test_an_oil_alone_does_not_wait_for_wear():
-    circuit = tb.OilCircuit(volume=0.2, start=(), ingress=())
+    circuit = tb.oil.OilCircuit(volume=0.2, start=(), ingress=())
     with refuses(Mistake.IDLE, "until", value="wear depth"):
-        tb.life(oil=circuit, duration=1.0, until=tb.until.wear_depth(1e-6))
+        tb.life(oil=circuit, duration=1.0, until=tb.oil.until.wear_depth(1e-6))
 
 
 def test_a_dry_contact_does_not_wait_for_a_code():
@@ -606,4 +610,4 @@ def test_a_dry_contact_does_not_wait_for_a_code():
         surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=1e-7, R=3e-6)
     )
     with refuses(Mistake.IDLE, "until", value="code 18/16/13"):
-        tb.life(contact, duration=1.0, until=tb.until.iso4406("18/16/13"))
+        tb.life(contact, duration=1.0, until=tb.oil.until.iso4406("18/16/13"))

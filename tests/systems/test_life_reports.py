@@ -15,16 +15,16 @@ from thirdbody.systems.life.reports import approach_of_reports, oil_reports, rea
 QUARTZ = tb.materials["quartz"]
 HOUR = 3600.0
 SIZES, RATES = (4e-6, 6e-6, 14e-6), np.array([2e5, 6e4, 4e3])
-START = tb.OilDirt.from_iso4406("21/19/16", material=QUARTZ)
-FILTER = tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=2e-5)
-FINE = tb.SizeClasses.covering(smallest=4e-6, largest=90e-6, per_octave=48)
+START = tb.oil.OilDirt.from_iso4406("21/19/16", material=QUARTZ)
+FILTER = tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=2e-5)
+FINE = tb.oil.SizeClasses.covering(smallest=4e-6, largest=90e-6, per_octave=48)
 
 
 def circuit(**changes):
     """200 L that its filter turns over in three hours."""
-    dust = tb.Ingress.from_counts(sizes=SIZES, counts=RATES, material=QUARTZ)
+    dust = tb.oil.Ingress.from_counts(sizes=SIZES, counts=RATES, material=QUARTZ)
     given = dict(volume=0.2, start=START, ingress=dust, filters=FILTER, classes=FINE)
-    return tb.OilCircuit(**given | changes)
+    return tb.oil.OilCircuit(**given | changes)
 
 
 def reported(times, **changes):
@@ -60,8 +60,12 @@ def test_one_size_without_filter_is_a_difference():
 CASES = [
     dict(),
     dict(filters=()),
-    dict(make_up=2e-7, leak=1e-7, fresh_oil=tb.OilDirt.from_iso4406("17/15/12", material=QUARTZ)),
-    dict(fresh_oil=tb.OilDirt.from_iso4406("17/15/12", material=QUARTZ), oil_changes=(5 * HOUR,)),
+    dict(
+        make_up=2e-7, leak=1e-7, fresh_oil=tb.oil.OilDirt.from_iso4406("17/15/12", material=QUARTZ)
+    ),
+    dict(
+        fresh_oil=tb.oil.OilDirt.from_iso4406("17/15/12", material=QUARTZ), oil_changes=(5 * HOUR,)
+    ),
     dict(settling_area=2.0, viscosity=0.02, density=870.0),
 ]
 
@@ -112,8 +116,8 @@ def test_the_band_of_codes_holds_what_is_true():
 def test_bands_hold_what_is_true_where_a_filter_lets_nearly_all_pass(betas, monkeypatch):
     """300 oils with classes of the default width: each size is in its band nine times of ten."""
     monkeypatch.setattr("thirdbody.systems.life.reports.DRAWS", 80)
-    weak = tb.Filter(sizes=(5e-6, 10e-6), betas=betas, flow=2e-5)
-    usual = tb.SizeClasses.covering(smallest=4e-6, largest=90e-6)
+    weak = tb.oil.Filter(sizes=(5e-6, 10e-6), betas=betas, flow=2e-5)
+    usual = tb.oil.SizeClasses.covering(smallest=4e-6, largest=90e-6)
     oil = circuit(filters=weak, classes=usual)
     times = np.array([0, 24, 48, 72]) * HOUR
     exact = reported(times, filters=weak, classes=usual)
@@ -129,7 +133,7 @@ def test_bands_hold_what_is_true_where_a_filter_lets_nearly_all_pass(betas, monk
 def test_more_reports_make_the_band_narrower_where_they_differ():
     def width(count):
         times = np.linspace(0, 10, count) * HOUR
-        bare = dict(filters=(), start=tb.OilDirt.from_iso4406("21/19/16", material=QUARTZ))
+        bare = dict(filters=(), start=tb.oil.OilDirt.from_iso4406("21/19/16", material=QUARTZ))
         found = oil_reports(times, reports=reported(times, **bare), circuit=circuit(**bare))
         return np.log(found.high / found.low)[0]
 
@@ -183,7 +187,7 @@ def test_the_same_reports_give_the_same_band():
     ],
 )
 def test_mistakes(times, reports, more, words):
-    with pytest.raises(tb.InvalidValue, match=words):
+    with pytest.raises(tb.errors.InvalidValue, match=words):
         oil_reports(times, reports=reports, circuit=circuit(), **more)
 
 
@@ -220,7 +224,7 @@ def test_files_of_codes_and_of_counts(tmp_path):
 def test_files_with_mistakes(tmp_path, text, words):
     file = tmp_path / "oil.csv"
     file.write_text(text)
-    with pytest.raises(tb.InvalidValue, match=words):
+    with pytest.raises(tb.errors.InvalidValue, match=words):
         read_reports(file)
 
 
@@ -229,7 +233,7 @@ def test_every_mistake_of_a_file_is_named_with_line_and_column(tmp_path):
     file.write_text(
         "time [h],4 um [1/mL],6 um [1/mL]\n0,5000,x\n# a remark\n9,300,400\n8,-1,2\n7,1\n"
     )
-    with pytest.raises(tb.InvalidValue) as caught:
+    with pytest.raises(tb.errors.InvalidValue) as caught:
         read_reports(file)
     places = [str(each).split(": ")[0].removeprefix(f"{file}, ") for each in caught.value.problems]
     assert places == [
@@ -240,7 +244,7 @@ def test_every_mistake_of_a_file_is_named_with_line_and_column(tmp_path):
 def test_a_file_of_wrong_lines_says_how_many_more(tmp_path):
     file = tmp_path / "oil.csv"
     file.write_text("time [h],code\n" + "".join(f"{i},x\n" for i in range(30)))
-    with pytest.raises(tb.InvalidValue, match="has 10 more mistakes") as caught:
+    with pytest.raises(tb.errors.InvalidValue, match="has 10 more mistakes") as caught:
         read_reports(file)
     assert len(caught.value.problems) == 21
 
@@ -249,7 +253,7 @@ def test_one_report_is_too_few_where_two_are_needed(tmp_path):
     file = tmp_path / "oil.csv"
     file.write_text("time [h],code\n0,18/16/13\n")
     assert len(read_reports(file)[0]) == 1
-    with pytest.raises(tb.InvalidValue, match="line 2: one report; 2 or more"):
+    with pytest.raises(tb.errors.InvalidValue, match="line 2: one report; 2 or more"):
         read_reports(file, fewest=2)
 
 
@@ -270,9 +274,9 @@ def rounded(counts, seed):
 
 def test_counts_of_0_are_taken_and_their_band_holds_what_is_true():
     """4000 particles a second from 14 µm on that the filter keeps below one a millilitre."""
-    fine = tb.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3)
+    fine = tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3)
     rates = np.array([2e5, 6e4, 5e2])
-    dust = tb.Ingress.from_counts(sizes=SIZES, counts=rates, material=QUARTZ)
+    dust = tb.oil.Ingress.from_counts(sizes=SIZES, counts=rates, material=QUARTZ)
     case = dict(filters=fine, ingress=dust)
     times = np.array([0, 1, 5, 20]) * HOUR
     exact = reported(times, **case)
@@ -322,8 +326,8 @@ def test_reports_of_clean_oil_are_an_answer():
 @pytest.mark.parametrize("grade", ["A1", "A2", "A3", "A4"])
 def test_mass_of_a_known_dust(grade):
     """What is missing of the mass of a dust is what the sentences say: below 4 µm, beyond 14 µm."""
-    dust = tb.Ingress.of_dust(grade, rate="334 mg/h", material=QUARTZ)
-    wide = tb.SizeClasses.covering(smallest=5e-7, largest=2.1e-4, per_octave=24)
+    dust = tb.oil.Ingress.of_dust(grade, rate="334 mg/h", material=QUARTZ)
+    wide = tb.oil.SizeClasses.covering(smallest=5e-7, largest=2.1e-4, per_octave=24)
     case = dict(ingress=dust, filters=(), classes=wide)
     times = np.array([0, 3, 8, 20]) * HOUR
     found = oil_reports(times, reports=reported(times, **case), circuit=circuit(**case))

@@ -257,7 +257,7 @@ def test_stribeck_curve():
 # ------------------------------------------------------------------ what enters
 def test_entrained_particles_by_hand():
     x = 1e-6
-    one = tb.Monodisperse(mean=x)
+    one = tb.distributions.Monodisperse(mean=x)
     dirt = Entrainment(concentration=1e-5, entry_ratio=0.5, friction=0.2)
     n = 6e-5 / (math.pi * x**3)
     assert dirt.per_volume(one) == pytest.approx(n)
@@ -266,7 +266,7 @@ def test_entrained_particles_by_hand():
     film = dirt.replace(height="film")
     assert film.areal_density(one, h=0.3e-6, R=0.01) == pytest.approx(0.5 * n * 0.3e-6)
     # too large for the wedge
-    assert dirt.areal_density(tb.Monodisperse(mean=2e-3), h=0.3e-6, R=0.01) == 0
+    assert dirt.areal_density(tb.distributions.Monodisperse(mean=2e-3), h=0.3e-6, R=0.01) == 0
     assert dirt.passes(one, h=2e-6) == 1
 
 
@@ -314,7 +314,7 @@ def test_refusals():
         "few, most = 0.5, 0.1": {"few": 0.5, "most": 0.1},
     }.items():
         given = {"conjunction": BALL, "oil": OIL, "load": 20.0, "speed": 0.1} | changes
-        with pytest.raises(tb.InvalidValue, match=words):
+        with pytest.raises(tb.errors.InvalidValue, match=words):
             mixed_film(contact, **given)
     with pytest.raises(TypeError, match="entry_ratio"):
         Entrainment(concentration=1e-5, friction=0.1)
@@ -329,13 +329,13 @@ def test_thin_films_are_told():
 
 
 def test_other_heights_are_told():
-    rough = case().roughness.replace(heights=tb.WeibullHeights(shape=4.0))
+    rough = case().roughness.replace(heights=tb.heights.WeibullHeights(shape=4.0))
     state = run(case().replace(roughness=rough), 2.0)
     assert any("WeibullHeights" in sentence for sentence in state.warnings)
 
 
 def test_a_formula_beyond_its_regime_may_have_no_balance():
-    with pytest.raises(tb.NoEquilibrium, match="speed = 1e-12 m/s"):
+    with pytest.raises(tb.errors.NoEquilibrium, match="speed = 1e-12 m/s"):
         run(case(), [1e-12, 0.1], film=films.HamrockDowson())
 
 

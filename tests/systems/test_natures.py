@@ -19,7 +19,7 @@ from thirdbody.systems.connector import Connector
 from thirdbody.systems.natures import natures
 
 STEEL = tb.materials["S45C"]
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 def grains(material="quartz", mean=5e-6, **more):
@@ -129,10 +129,12 @@ def test_most_break_from_the_size_that_is_told():
         x = factor * found.breaks_from
         assert breaks(one, dust.material, x=x, squeeze=1.0) is broken
     assert found.breaks == "would break"
-    strong = tb.WeibullStrength.of(dust.material)
+    strong = tb.grains.WeibullStrength.of(dust.material)
     same = natures(contact.replace(particles=dust.replace(strength=strong)))[0]
     assert (same.breaks, same.breaks_from) == ("breaks", found.breaks_from)
-    small = contact.replace(particles=dust.replace(diameter=tb.Monodisperse(mean=1e-6)))
+    small = contact.replace(
+        particles=dust.replace(diameter=tb.distributions.Monodisperse(mean=1e-6))
+    )
     assert natures(small)[0].breaks == "stays whole"
     steel = contact.replace(particles=grains("S45C"))
     assert (natures(steel)[0].breaks, natures(steel)[0].breaks_from) == ("not known", None)

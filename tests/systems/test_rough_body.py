@@ -222,16 +222,16 @@ def test_mistakes():
         rough_sphere(contact, radius=5e-3, d=0.0, load=1.0)
     with refuses(Mistake.RANGE, "radius", value="-0.005"):
         rough_sphere(contact, radius=-5e-3, load=1.0)
-    with pytest.raises(tb.InvalidValue, match="load > 0"):
+    with pytest.raises(tb.errors.InvalidValue, match="load > 0"):
         rough_sphere(contact, radius=5e-3, load=-1.0)
     with refuses(Mistake.RANGE, "E_star", value="None"):
         rough_sphere(lambda u: (np.exp(-u), -np.exp(-u)), radius=0.5, d=0.0)
-    with pytest.raises(tb.InvalidValue, match="E_star"):
+    with pytest.raises(tb.errors.InvalidValue, match="E_star"):
         rough_sphere(contact, radius=5e-3, load=1.0, E_star=1e11)
     with refuses(Mistake.OPTION, "shape", value="'cone'"):
         curve(contact, radius=5e-3, loads=[1.0], shape="cone")
     sticky = steel_contact(1e-9, asperity_law=tb.asperity.JKR(w=1.0))
-    with pytest.raises(tb.InvalidValue, match="tensile"):
+    with pytest.raises(tb.errors.InvalidValue, match="tensile"):
         rough_sphere(sticky, radius=5e-3, d=1e-9)
     with balances_not(Status.TOO_LITTLE, says="1 mm"):
         rough_sphere(contact, radius=5e-3, d=1e-3)

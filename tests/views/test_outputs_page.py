@@ -116,7 +116,9 @@ def contact(*outputs, seat="rough", particles=True, second=STEEL):
 def load_of(eps):
     """Load over x² of a particle squeezed by ε, from a contact with one size on a plane."""
     x = 300e-9
-    one = contact(seat="plane").replace(**{"particles.diameter": tb.Monodisperse(mean=x)})
+    one = contact(seat="plane").replace(
+        **{"particles.diameter": tb.distributions.Monodisperse(mean=x)}
+    )
     state = tb.solve(one, d=(1 - eps) * x)
     return float(state.F_sa_star) * one.E_ss / 1e11 / x**2
 
@@ -126,7 +128,7 @@ def test_the_output_of_the_guide_counts_right(overload):
     case = contact(overload(strength=STRENGTH), seat="plane")
     critical = brentq(lambda eps: load_of(eps) - STRENGTH, 0.01, 0.6, xtol=1e-14)
     d = np.array([150e-9, 200e-9, 240e-9, 400e-9])
-    with pytest.warns(tb.RangeWarning, match=rf"^outputs\.{overload.name}: "):
+    with pytest.warns(tb.errors.RangeWarning, match=rf"^outputs\.{overload.name}: "):
         state = tb.solve(case, d=d)
     sizes = case.particles.diameter
     larger = [sizes.partial_moment(0, x, 1.0) for x in d / (1 - critical)]
@@ -135,7 +137,7 @@ def test_the_output_of_the_guide_counts_right(overload):
     np.testing.assert_allclose(state.outputs["n_crushed"], expected, rtol=1e-8, atol=1.0)
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_the_output_of_the_guide_works_everywhere(overload, tmp_path):
     assert tb.outputs.REGISTRY["overload"] is overload
     output = overload(strength=STRENGTH)
@@ -157,11 +159,11 @@ def test_the_output_of_the_guide_works_everywhere(overload, tmp_path):
     assert "## `overload`: Crushed particles" in outputs_page.outputs_page()
 
 
-@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 def test_the_output_of_the_guide_knows_its_limits(overload):
-    with pytest.raises(tb.InvalidValue, match="strength"):
+    with pytest.raises(tb.errors.InvalidValue, match="strength"):
         overload(strength=0)
-    with pytest.raises(tb.InvalidValue, match="needs particles"):
+    with pytest.raises(tb.errors.InvalidValue, match="needs particles"):
         contact(overload(strength=1e8), particles=False)
     strong = contact(overload(strength=1e15))
     assert tb.solve(strong, F_star=1e-5).outputs["n_crushed"] == 0

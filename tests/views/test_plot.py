@@ -223,7 +223,7 @@ def test_mistakes_are_named(curves):
         (lambda: plot.area(curves, quantity="A_q"), "not in the data"),
         (lambda: plot.shares(curves, basis="weight"), "must be 'load' or 'area'"),
     ):
-        with pytest.raises(tb.InvalidValue, match=words):
+        with pytest.raises(tb.errors.InvalidValue, match=words):
             call()
 
 
@@ -314,7 +314,9 @@ def test_long_labels_leave_width_to_bars_and_their_legend():
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     quartz = tb.Particles(
-        material=tb.materials["quartz"], diameter=tb.Monodisperse(mean=3e-7), areal_density=1e9
+        material=tb.materials["quartz"],
+        diameter=tb.distributions.Monodisperse(mean=3e-7),
+        areal_density=1e9,
     )
     steel = tb.materials["S45C"]
     contact = tb.Contact(

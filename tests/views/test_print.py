@@ -16,7 +16,10 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "app"))
 from browser import chromium  # noqa: E402
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
-pytestmark = [pytest.mark.check, pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")]
+pytestmark = [
+    pytest.mark.check,
+    pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning"),
+]
 LONGEST, LEAST = 8, 0.6
 """Pages of a report; how far down a page is filled before the next one begins."""
 

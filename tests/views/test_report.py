@@ -65,7 +65,7 @@ samples = 64
 [uncertainty.inputs]
 roughness.sigma = { low = "85 nm", high = "115 nm" }
 """
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
 class Page(HTMLParser):

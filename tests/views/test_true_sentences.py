@@ -347,7 +347,7 @@ def held(seed, index):
         warnings.simplefilter("ignore")
         try:
             made = Held(check(draw(seed, index)))
-        except tb.NoEquilibrium:
+        except tb.errors.NoEquilibrium:
             return False
         made.all()
         made.ranking()

@@ -13,7 +13,7 @@ import numpy as np
 import thirdbody as tb
 from thirdbody.views.comparison import figure as draw
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # gw says that it is out of its range
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # gw says that it is out of its range
 steel = tb.materials["S45C"]
 contact = tb.Contact(
     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # the smallest particles drown
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # the smallest particles drown
 
 steel = tb.materials["S45C"]
 sizes = np.geomspace(100e-9, 1.5e-6, 60)  # m

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # quartz in bronze touches on half its radius
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # quartz touches on half its radius
 
 bronze, quartz = tb.materials["CuSn8"], tb.materials["quartz"]
 clean = tb.Contact(

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # some sit deeper than their radius
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # some sit deeper than their radius
 
 steel = tb.materials["S45C"]
 contact = tb.Contact(

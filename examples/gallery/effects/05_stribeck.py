@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 
-warnings.simplefilter("ignore", tb.RangeWarning)  # the slow end is thinner than the roughness
+warnings.simplefilter("ignore", tb.errors.RangeWarning)  # the slow end is below the roughness
 
 steel = tb.materials["S45C"]
 clean = tb.Contact(

@@ -14,6 +14,7 @@ numbers cancel.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -26,7 +27,8 @@ from ..equilibrium.load import as_loads
 from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
-from ..errors import InvalidValue, Mistake, Problem
+from ..equilibrium.words import critical_name
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, place_note, tell_of_range
 from ..quantities.arguments import is_empty, need_place
 from ..quantities.carried import takes_units
 from ..quantities.notebook import Card, Row, Shown, words_of
@@ -502,7 +504,12 @@ def _of_critical(
         return np.array([value]), dict.fromkeys(
             (*(moved_input.label for moved_input in moved), load), none
         )
-    d = np.atleast_1d(solve(contact, F_star=critical.value).d)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        state = solve(contact, F_star=critical.value)
+    for note in state.warnings:  # of a load that the user did not give
+        tell_of_range(place_note(note, critical_name(name)))
+    d = np.atleast_1d(state.d)
     for _ in range(8):
         places = Places(contact, d, share, ["F_star"], peak=level is None, rule=rule)
         centre, slope = places.along_d()

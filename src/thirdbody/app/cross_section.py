@@ -103,7 +103,7 @@ def profile(sigma: float, R: float, alpha: float, width: float, seed: int) -> tu
 
 
 def section(
-    contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0, held: float = math.inf
+    contact: tb.Contact, state: tb.results.Equilibrium, *, seed: int = 0, held: float = math.inf
 ) -> Section:
     """One draw from the model at a solved state; with no more particles than one contact holds.
 
@@ -161,7 +161,7 @@ def section(
     )
 
 
-def _shares(state: tb.Equilibrium) -> list[float]:
+def _shares(state: tb.results.Equilibrium) -> list[float]:
     """Of the load, on each population."""
     if state.contact.two_body:
         return []

@@ -119,7 +119,7 @@ class Job:
                     self.report(float(said["done"]))
                 elif "problems" in said:
                     wrong = (Problem(**parts) for parts in said["problems"])
-                    raise InvalidValue(*(problem.worded(without_paths) for problem in wrong))
+                    raise InvalidValue(*(problem.put_in_words(without_paths) for problem in wrong))
                 elif "result" in said:
                     result = said["result"]
                     for name in {"warnings", "notes"} & result.keys():

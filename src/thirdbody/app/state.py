@@ -99,7 +99,7 @@ class Answer:
             return np.linspace(middle - width, middle + width, POINTS)
         return np.geomspace(middle / 100, middle * 100, POINTS)
 
-    def solve(self, values: ArrayLike, *more: AbstractOutput) -> tb.Equilibrium:
+    def solve(self, values: ArrayLike, *more: AbstractOutput) -> tb.results.Equilibrium:
         """States under these loads, with more outputs; warnings become notes."""
         contact = self.contact
         kinds = {type(output) for output in contact.outputs}
@@ -134,12 +134,12 @@ class Answer:
         return float(every * area)
 
     @cached_property
-    def curves(self) -> tb.Equilibrium:
+    def curves(self) -> tb.results.Equilibrium:
         """The states of the curves."""
         return self.solve(self.loads)
 
     @cached_property
-    def critical(self) -> tb.Transitions | None:
+    def critical(self) -> tb.results.Transitions | None:
         """Critical loads, None where the contact has none."""
         try:
             with warnings.catch_warnings():
@@ -208,7 +208,7 @@ def look(study: Tables, folder: Path, surface: Measured | None = None) -> Looked
         problems += error.problems
     except (ThirdBodyError, OSError) as error:
         problems += [Problem("", str(error))]
-    problems = [problem.worded(without_paths) for problem in dict.fromkeys(problems)]
+    problems = [problem.put_in_words(without_paths) for problem in dict.fromkeys(problems)]
     if (more := len(problems) - MOST_TOLD) > 0:
         code = problems[MOST_TOLD].code
         problems[MOST_TOLD:] = [Problem("", f"and {more} more mistakes", code=code)]
@@ -417,7 +417,7 @@ class State:
         except Died:
             raise  # which says nothing of the study: it is read when it is asked for again
         except InvalidValue as error:
-            looked = None, [problem.worded(without_paths) for problem in error.problems], None
+            looked = None, [problem.put_in_words(without_paths) for problem in error.problems], None
         self._take(study, looked)
 
     def _take(self, study: Tables, looked: Looked) -> None:
@@ -512,7 +512,7 @@ class State:
         self.wanted = at
         self.announce_change()
 
-    def point(self) -> tb.Equilibrium:
+    def point(self) -> tb.results.Equilibrium:
         """The state under the operating load."""
         assert self.answer is not None
         return self.answer.solve(self.operating_load)

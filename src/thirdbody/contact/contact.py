@@ -200,7 +200,7 @@ def _of_population(problem: Problem, place: str, particles: Particles) -> Proble
             return text
         return Advice(text, text.study.replace("particle_law.", f"{place}.law."))
 
-    return problem.changed(owner=place).worded(advice)
+    return problem.changed(owner=place).put_in_words(advice)
 
 
 def _shape_problems(law: AbstractAsperityLaw) -> list[str]:

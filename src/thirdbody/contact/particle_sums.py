@@ -58,7 +58,7 @@ def _over_sizes_and_seats(
     of_shape = law.of_shape(particles.shape)
     one = of_shape.one(surfaces=surfaces, particle=particles.material)
     if (coverage := one.breadth * particles.coverage) >= 1:
-        raise InvalidValue(law.jammed(coverage), code=Mistake.FULL)
+        raise InvalidValue(law.describe_jam(coverage), code=Mistake.FULL)
     parts = []
     for weight, sizes in particles.diameter.components:
         scale, shape = sizes.standardised()

@@ -13,7 +13,7 @@ from ..laws.particle.deep import TABLE_BEGINS, DeepSide
 from ..laws.particle.tension import tension
 from ..numerics.roots import bracketed_root
 from ..populations.strength import WeibullStrength
-from ..quantities.say import percent
+from ..quantities.say import percent, value_of
 from .interface import interface
 from .particle_sums import SeatedParticles
 
@@ -123,9 +123,10 @@ def about_pressed(contact: Contact, d: Array) -> list[str]:
         out.append(Note(what, code="buried"))
     if broken > TOLD:
         what = (
-            f"{percent(broken, digits=2)} of the particles' load is on brittle particles pressed "
-            "beyond the strength of most grains of their size: they would break, but they count as "
-            'whole here; give the particles a strength ("material" takes the library\'s)'
+            f"{percent(broken, digits=2)} of the particles' load at the separation h = "
+            f"{value_of(lowest[0] + interface(contact).mean_plane, 'm')} is on brittle particles "
+            "pressed beyond the strength of most grains of their size: they would break, but they "
+            'count as whole here; give the particles a strength ("material" takes the library\'s)'
         )
         out.append(Note(what, code="brittle"))
     return out

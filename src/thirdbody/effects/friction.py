@@ -525,7 +525,11 @@ class Friction(AbstractOutput):
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         shapes = (spots.shape for spots in state.particles)
-        steep = [shape.angle for shape in shapes if shape and shape.faced and shape.angle > CUTS]
+        steep = [
+            shape.angle
+            for shape in shapes
+            if shape and shape.has_touching_faces and shape.angle > CUTS
+        ]
         if not steep:
             return []
         what = (

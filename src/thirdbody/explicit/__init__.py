@@ -1,9 +1,18 @@
 """The interface point by point: one height map, and every particle at its place.
 
-`solve` presses one surface, measured or synthetic; `ensemble` many, against the statistical
-model. What they do without, against the statistical model: asperities that are paraboloids with
+Of what the statistical model assumes these do without: asperities that are paraboloids with
 heights of one distribution, particles at independent places, a surface that is flat for each
 contact, contacts that do not feel each other.
+
+- `solve`: one surface, measured or made, pressed with its particles; it gives an `ExplicitState`
+- `ensemble`: many surfaces against the statistical model; it gives an `Ensemble`
+- `surface_of`: a surface with the roughness of a contact
+- `RandomSeats`: particles anywhere
+- `SettledSeats`, `HighestSeats`: on the lowest, or the highest, of some random spots
+- `DownhillSeats`, `ValleySeats`: down the slope from a random place
+- `SummitSeats`: on summits
+- `SphereSeats`: at a random place, as a sphere rests on all heights under it
+- `GivenSeats`: at places of your own
 """
 
 from .ensemble import Ensemble, ensemble, surface_of
@@ -35,3 +44,7 @@ __all__ = [
     "solve",
     "surface_of",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

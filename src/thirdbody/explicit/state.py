@@ -36,8 +36,8 @@ def _as_equilibrium(name: str) -> Any:
 class ExplicitState(StateRecord):
     """A height map pressed with every particle at its place: floats for one load, else arrays.
 
-    Columns have the names and the meaning that they have in `thirdbody.Equilibrium`. Made by
-    `solve`.
+    Columns have the names and the meaning that they have in `thirdbody.results.Equilibrium`. Made
+    by `solve`.
 
     Attributes
     ----------

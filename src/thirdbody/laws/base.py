@@ -520,7 +520,7 @@ class AbstractParticleLaw(Law):
         one = self.one(surfaces=surfaces, particle=particle)
         return one.spots(ones, eps[:, None], share=None, number=ones)
 
-    def jammed(self, coverage: float) -> str:
+    def describe_jam(self, coverage: float) -> str:
         """Note on particles that would cover this part of the area, 1 or more."""
         return (
             f"particles of the law {self.name} would cover {coverage:.3g} of the nominal area and "

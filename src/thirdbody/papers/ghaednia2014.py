@@ -217,7 +217,7 @@ def conductance_ratio(
     0.95
     """
     if conducting and law != "elastic":
-        raise tb.InvalidValue(f"law = {law!r} must be 'elastic' for conducting particles")
+        raise tb.errors.InvalidValue(f"law = {law!r} must be 'elastic' for conducting particles")
     dusty = contact(law, **factors)
     bare = dusty.replace(particles=None)
     with_particles = np.atleast_1d(tb.solve(dusty, pressure=pressures).d)

@@ -66,7 +66,7 @@ class Verdict:
     --------
     >>> from thirdbody.papers.horng2022 import Verdict
     >>> from thirdbody.papers.ledger import Measurement
-    >>> Verdict(Measurement.from_values(0.9), "pass", "0.9; allowed < 1").passed
+    >>> Verdict(Measurement.from_values(0.9), "pass", "0.9; allowed < 1").is_pass
     True
     """
 
@@ -77,7 +77,7 @@ class Verdict:
     why: str
 
     @property
-    def passed(self) -> bool:
+    def is_pass(self) -> bool:
         """Whether the word is "pass"."""
         return self.word == "pass"
 
@@ -128,7 +128,7 @@ class Claim:
     """How well the statement is known: "read", `SEEN`, `REPORTED`, `NO_SOURCE`, or `OWN`."""
 
     @property
-    def allowed(self) -> str:
+    def rule_words(self) -> str:
         """The rule in words; "" without one."""
         if not self.rule:
             return ""
@@ -176,7 +176,7 @@ class Claim:
             return Verdict(measured, word or "not reproduced", measured.note or "no such quantity")
         low, high = self.interval()
         good = all(low <= value <= high for value in measured.values)
-        why = f"{measured.text}; allowed {self.allowed}" if self.rule else measured.text
+        why = f"{measured.text}; allowed {self.rule_words}" if self.rule else measured.text
         if measured.note:
             why += f" ({measured.note})"
         return Verdict(measured, word or ("pass" if good else "fail"), why)

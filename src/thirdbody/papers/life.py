@@ -57,16 +57,16 @@ class Summary(page.Summary):
 # ------------------------------------------------------------------------------ a diesel engine
 def _one_class(
     rate: float, flow: float = 1e-4, volume: float = 5e-3, start: float = 0.0
-) -> tb.OilCircuit:
+) -> tb.oil.OilCircuit:
     """An oil with particles of one class and a filter."""
-    sizes = tb.PowerLaw(edges=(10e-6, 12e-6), counts=(1.0,), slopes=(3.0,))
-    dirt = tb.OilDirt(material=QUARTZ, diameter=sizes, number=start)
-    return tb.OilCircuit(
+    sizes = tb.distributions.PowerLaw(edges=(10e-6, 12e-6), counts=(1.0,), slopes=(3.0,))
+    dirt = tb.oil.OilDirt(material=QUARTZ, diameter=sizes, number=start)
+    return tb.oil.OilCircuit(
         volume=volume,
         start=(dirt,),
-        ingress=(tb.Ingress(material=QUARTZ, diameter=sizes, rate=rate),),
-        filters=(tb.Filter(sizes=(10e-6,), betas=(4.0,), flow=flow),),
-        classes=tb.SizeClasses(edges=sizes.edges),
+        ingress=(tb.oil.Ingress(material=QUARTZ, diameter=sizes, rate=rate),),
+        filters=(tb.oil.Filter(sizes=(10e-6,), betas=(4.0,), flow=flow),),
+        classes=tb.oil.SizeClasses(edges=sizes.edges),
     )
 
 
@@ -127,14 +127,14 @@ def _convolution() -> Band:
 
 # ------------------------------------------------------------------------------ order of sizes
 def _order() -> Band:
-    sheet = tb.Filter(sizes=(10e-6, 40e-6), betas=(2.0, 75.0), flow=10e-3 / MINUTE)
+    sheet = tb.oil.Filter(sizes=(10e-6, 40e-6), betas=(2.0, 75.0), flow=10e-3 / MINUTE)
     constants = []
     for size in (20e-6, 5e-6):
         edges = (size, size * 2 ** (1 / 3))
-        sizes = tb.PowerLaw(edges=edges, counts=(1.0,), slopes=(3.0,))
-        circuit = tb.OilCircuit(
+        sizes = tb.distributions.PowerLaw(edges=edges, counts=(1.0,), slopes=(3.0,))
+        circuit = tb.oil.OilCircuit(
             volume=0.02,
-            start=(tb.OilDirt(material=QUARTZ, diameter=sizes, number=1.0),),
+            start=(tb.oil.OilDirt(material=QUARTZ, diameter=sizes, number=1.0),),
             ingress=(),
             filters=(sheet,),
             viscosity=0.03,
@@ -164,11 +164,11 @@ def dirt_behind(size: float, turnover: float, *, beta: float = 75.0) -> float:
     >>> dirt_behind(30e-6, turnover=1200.0) > dirt_behind(3e-6, turnover=1200.0)
     True
     """
-    circuit = tb.OilCircuit(
+    circuit = tb.oil.OilCircuit(
         volume=VOLUME,
         start=(),
-        ingress=(tb.Ingress.of_dust("A3-lot", rate=RATE, material=QUARTZ),),
-        filters=(tb.Filter(sizes=(size,), betas=(beta,), flow=VOLUME / turnover),),
+        ingress=(tb.oil.Ingress.of_dust("A3-lot", rate=RATE, material=QUARTZ),),
+        filters=(tb.oil.Filter(sizes=(size,), betas=(beta,), flow=VOLUME / turnover),),
     )
     times = np.linspace(0.0, 500 * HOUR, 21)
     history = run_oil_history(circuit, duration=500 * HOUR, times=times)
@@ -228,7 +228,7 @@ def _sliding(
 
 def _with_grains(contact: tb.Contact, size: float, density: float) -> tb.Contact:
     grains = tb.Particles(
-        material=QUARTZ, diameter=tb.Monodisperse(mean=size), areal_density=density
+        material=QUARTZ, diameter=tb.distributions.Monodisperse(mean=size), areal_density=density
     )
     return contact.replace(particles=grains)
 
@@ -252,17 +252,17 @@ def _rolling() -> Band:
 @cache
 def _dust_in_film() -> tuple[tuple[dict[float, float], dict[float, float]], ...]:
     """Wear rate [m/s] and friction of the solids in a thin film, by entry ratio; 0 is clean."""
-    dirt = tb.OilDirt.from_iso4406("18/16/13", material=QUARTZ, largest=30e-6)
+    dirt = tb.oil.OilDirt.from_iso4406("18/16/13", material=QUARTZ, largest=30e-6)
     out = []
     for K in (1e-8, 1e-6):
         wear: dict[float, float] = {}
         friction: dict[float, float] = {}
         for entry in (0.0, 0.01, 0.1, 1.0):
-            circuit = tb.OilCircuit(
+            circuit = tb.oil.OilCircuit(
                 volume=0.01,
                 start=(dirt,) if entry else (),
                 ingress=(),
-                classes=tb.SizeClasses.covering(smallest=4e-6, largest=32e-6),
+                classes=tb.oil.SizeClasses.covering(smallest=4e-6, largest=32e-6),
             )
             history = tb.life(
                 _sliding(K=K),
@@ -312,7 +312,7 @@ def _run_in(sigma: float, end: float, until: float, pressure: float) -> float:
         pressure=pressure,
         duration=1e7,
         until=roughness_below(until),
-        debris=Debris(diameter=tb.Monodisperse(mean=0.4e-6)),
+        debris=Debris(diameter=tb.distributions.Monodisperse(mean=0.4e-6)),
         running_in=RunningIn(sigma_end=end),
         **DRY,
     )  # fmt: skip
@@ -334,7 +334,7 @@ def _equilibrium() -> Band:
     for sigma in (80e-9, 160e-9):
         history = tb.life(
             _sliding(K=1e-4, sigma=sigma), pressure=5e6, duration=1e8, times=[0.0, 1e8],
-            debris=Debris(diameter=tb.Monodisperse(mean=0.4e-6)),
+            debris=Debris(diameter=tb.distributions.Monodisperse(mean=0.4e-6)),
             running_in=RunningIn(sigma_end=60e-9), **DRY,
         )  # fmt: skip
         ends.append(float(history.more["sigma"][1][-1]))
@@ -347,9 +347,9 @@ def _steady_courses() -> tuple[tuple[float, float], ...]:
     """Wear flow over source in the steady state, and the last change of the wear rate."""
     out = []
     for loss in (0.1, 0.3, 1.0):
-        arrivals = tb.Ingress(
+        arrivals = tb.oil.Ingress(
             material=QUARTZ,
-            diameter=tb.PowerLaw(edges=(1e-6, 4e-6), counts=(1.0,), slopes=(3.0,)),
+            diameter=tb.distributions.PowerLaw(edges=(1e-6, 4e-6), counts=(1.0,), slopes=(3.0,)),
             rate=1e4,
         )
         history = tb.life(

@@ -163,7 +163,7 @@ class Summary(engine.Summary):
                     "source": claim.place,
                     "quantity": claim.quantity,
                     "inputs": claim.inputs,
-                    "allowed": claim.allowed,
+                    "allowed": claim.rule_words,
                     "rule": claim.rule,
                     "remark": claim.remark,
                     "results": {name: self.ledger[name][claim.id].as_json() for name in readings},
@@ -219,7 +219,7 @@ class Summary(engine.Summary):
                 f"{note}</td>"
             )
         remark = f"<br><span class=soft>{symbols(claim.remark)}</span>" if claim.remark else ""
-        allowed = f"<br><span class=soft>{escape(claim.allowed)}</span>" if claim.rule else ""
+        allowed = f"<br><span class=soft>{escape(claim.rule_words)}</span>" if claim.rule else ""
         return [
             f"<td id='{claim.id}'><b>{claim.id}</b></td>",
             f"{symbols(claim.statement)}.{remark}",

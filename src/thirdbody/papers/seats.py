@@ -118,7 +118,7 @@ def contact(diameter: float, seat: Seat = "rough", h_0: float = 0.0) -> tb.Conta
         ),
         particles=tb.Particles(
             material=body,
-            diameter=tb.Monodisperse(mean=diameter),
+            diameter=tb.distributions.Monodisperse(mean=diameter),
             areal_density=parameters["areal_density"],
         ),
         particle_law=tb.particle.Series(deep="off", seat=seat, h_0=h_0),

@@ -311,7 +311,7 @@ class MaterialLibrary(Mapping[str, Material]):
             if all(word in _text(name, entry) for word in words)
         ]
 
-    def near(self, name: str) -> str | None:
+    def nearest_name(self, name: str) -> str | None:
         """Name of the entry that was probably meant: an alias, or the most similar name."""
         names = {name.casefold(): name for name in self}
         for entry_name, entry in self.entries().items():
@@ -325,7 +325,7 @@ class MaterialLibrary(Mapping[str, Material]):
     def __getitem__(self, name: str) -> Material:
         entries = self.entries()
         if name not in entries:
-            meant = self.near(name)
+            meant = self.nearest_name(name)
             hint = f"did you mean {meant!r}?" if meant else "materials.search('steel') finds names"
             raise UnknownMaterial(
                 Problem(

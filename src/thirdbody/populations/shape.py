@@ -130,14 +130,14 @@ class Angular(Shape):
         return self.tip_radius * math.tan(self.angle)
 
     @property
-    def faced(self) -> bool:
+    def has_touching_faces(self) -> bool:
         """The faces touch before the contact ends at πD²/4."""
         return self.edge < 0.5 * self.flatness * (1 - 1e-12)
 
     @property
     def round(self) -> bool:
         """The contact is that of a sphere up to its end."""
-        return self.roundness == 1 and not self.faced
+        return self.roundness == 1 and not self.has_touching_faces
 
     @property
     def breadth(self) -> float:

@@ -100,7 +100,7 @@ class WeibullStrength(Value):
                                   gt=0, usual=1.0)  # fmt: skip
 
     def _problems(self) -> list[str]:
-        low, high = self.tested
+        low, high = self.tested_sizes
         if low <= high:
             return []
         return [
@@ -195,7 +195,7 @@ class WeibullStrength(Value):
         return self.ratio if kept is None else kept
 
     @property
-    def tested(self) -> tuple[float, float]:
+    def tested_sizes(self) -> tuple[float, float]:
         """Sizes between which strength was measured [m]."""
         return (
             self.x_0 if self.x_from is None else self.x_from,

@@ -20,6 +20,7 @@ from typing import Any, Literal, TypeVar, get_origin
 import numpy as np
 
 from ..errors import InvalidValue, Mistake, Problem, WrongKind
+from .nearest import guess
 
 __all__ = [
     "FAILURES",
@@ -224,12 +225,25 @@ def misfits(
     ['load = None must be a number', 'places = 3 must be a list of texts']
     >>> misfits(pressed, (1,), {"places": ["A_t"]})
     []
+    >>> misfits(pressed, (1,), {"plces": ["A_t"]})
+    ['plces = a list is no argument; did you mean places?']
     """
+    signature = inspect.signature(function)
     try:
-        signature = inspect.signature(function)
         arguments = signature.bind_partial(*args, **named).arguments
-    except TypeError:
-        return []  # Python's own sentence names what is missing or too much
+    except TypeError:  # Python's own sentence says which is missing, or that there are too many
+        names = [name for name in signature.parameters if name not in ("self", "cls")]
+        return [
+            Problem(
+                name,
+                "is no argument",
+                _short_text(value),
+                hint=guess(name, names, otherwise="it takes "),
+                code=Mistake.UNKNOWN,
+            )
+            for name, value in named.items()
+            if name not in signature.parameters
+        ]
     problems = []
     for name, value in arguments.items():
         parameter = signature.parameters[name]

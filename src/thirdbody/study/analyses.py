@@ -20,6 +20,7 @@ from ..numerics.sampling import Span
 from ..quantities.progress import stages
 from ..quantities.say import value_of
 from ..systems.bodies import press
+from .film import note_without_oil
 from .reader import is_span
 from .vocabulary import LOADS
 
@@ -30,10 +31,6 @@ if TYPE_CHECKING:
 __all__ = ["assess_study", "design_study"]
 
 
-WITHOUT_OIL = (
-    "This page is for the solids alone: the oil of [film] carries nothing here. What the film "
-    "carries: thirdbody film."
-)
 MOST_ASSESSED = 7
 """Loads that are assessed; of more, some evenly spread: each takes a second or several."""
 
@@ -163,7 +160,7 @@ def _assess(
             value["samples"], taken = MOST_COSTLY, (TAKEN.format(asked=uncertainty.samples),)
     pages = assess_each(study.contact, name, loads, **value, title=study.title, progress=report)
     if study.film is not None:
-        taken = (WITHOUT_OIL, *taken)
+        taken = (f"{note_without_oil('This page is')}.", *taken)
     return [
         replace(page, notes=(*taken, *page.notes)) if isinstance(page, Assessment) else page
         for page in pages

@@ -175,7 +175,7 @@ def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry:
     try:
         return kind(**values)
     except InvalidValue as error:
-        raise error.under(where) from None
+        raise error.move_under(where) from None
 
 
 def _unit(of: str) -> str:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, Note, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
@@ -17,7 +18,7 @@ from ..systems.oil_filter import Filter
 from .reader import NOTHING, Key, Reader, Table, amounts, get, keys_of, table_of, variants, wrong
 from .surfaces import law_key
 
-__all__ = ["FILM", "SHAPES", "SPEED", "filter_of", "on_body"]
+__all__ = ["FILM", "SHAPES", "SPEED", "filter_of", "note_without_oil", "on_body"]
 
 SHAPES: dict[str, type[Point] | type[Line]] = {"point": Point, "line": Line}
 TAKEN = ("conjunction", "load", "speed")
@@ -40,6 +41,13 @@ def _read_filter(reader: Reader, path: str, value: object) -> Filter:
         first = error.problems[0]
         bare = first.changed(owner="") if first.owner == "Filter" else first
         raise wrong(path, f": {bare}", value, code=first.code) from None
+
+
+def note_without_oil(subject: str) -> Note:
+    """The note of an answer that leaves the oil of a table [film] out; such as "This page is"."""
+    what = f"{subject} for the solids alone: the oil of [film] carries nothing here"
+    action = "thirdbody film says what the film carries"
+    return Note(what, code="film.left_out", effect=math.inf, action=action)
 
 
 def filter_of(whole: Mapping[str, object]) -> Filter | None:

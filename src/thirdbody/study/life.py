@@ -189,7 +189,7 @@ def _filter(reader: Reader, path: str, data: object, *, with_flow: bool = True) 
             return Filter(sizes=sizes, betas=betas, **values)
         except InvalidValue as error:
             named = (problem.changed(path=_in_beta(problem.path)) for problem in error.problems)
-            raise InvalidValue(*named).under(path) from None
+            raise InvalidValue(*named).move_under(path) from None
 
     return reader.table(path, data, keys, build)
 
@@ -322,7 +322,7 @@ def _with_reports(
             times, reports=reports, sizes=sizes, circuit=circuit, material=material
         )
     except InvalidValue as error:
-        raise error.under(path) from None
+        raise error.move_under(path) from None
     low, high = (3.6e9 * rate for rate in (reported.mass_low, reported.mass_high))
     first, last = (value_of(float(reported.sizes[i]), "m") for i in (0, -1))
     reader.assumed.append(

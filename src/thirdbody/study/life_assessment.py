@@ -43,7 +43,10 @@ class LifeAssessment(QuestionResult):
     in_dict = question_entries(
         ("inputs", lambda life: {n: repr(one) for n, one in life.asked.uncertainty.items()}),
         ("", "bands"),
-        ("missed", lambda life: {name: life.bands.missed(name) for name in life.bands.reached}),
+        (
+            "missed",
+            lambda life: {name: life.bands.count_missed(name) for name in life.bands.reached},
+        ),
     )
     asked: AskedLife | AskedDry
     bands: LifeBands

@@ -147,7 +147,7 @@ class LifeBands(Record):
     wear: Array
     R0: Array
 
-    def missed(self, name: str) -> int:
+    def count_missed(self, name: str) -> int:
         """Sets in which an event did not come.
 
         Parameters

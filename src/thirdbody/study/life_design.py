@@ -131,7 +131,7 @@ def _circuit(
         changed = with_numbers(circuit, numbers)
         changed.terms()
     except InvalidValue as error:
-        raise error.under(path) from None
+        raise error.move_under(path) from None
     return changed
 
 

@@ -132,7 +132,7 @@ def _reports(reader: Reader, path: str, value: object) -> tuple[object, ...]:
     try:
         return read_reports(beside if beside.exists() else Path(value), fewest=2)
     except InvalidValue as error:
-        raise error.under(path) from None
+        raise error.move_under(path) from None
 
 
 def _table_of_ingress(sources: tuple[str, ...]) -> ReadDirts:
@@ -251,7 +251,7 @@ def dirts_of(
         try:
             out.append((_ingress_from if ingress else _dirt_from)(values, kind))
         except InvalidValue as error:
-            raise error.under(path) from None
+            raise error.move_under(path) from None
         except TypeError:
             raise InvalidValue(Problem(path, _misfit(entry), code=Mistake.CLASH)) from None
     return tuple(out)

@@ -126,7 +126,7 @@ def in_file(
         if not said and all(isinstance(one, (str, float, int)) for one in items):
             value = say(entry)
         owner = path if problem.owner == kind.__name__ else problem.owner
-        out.append(problem.changed(owner=owner, value=value).worded(in_study))
+        out.append(problem.changed(owner=owner, value=value).put_in_words(in_study))
     return InvalidValue(*out)
 
 

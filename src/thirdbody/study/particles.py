@@ -162,7 +162,7 @@ def with_strength(particles: Particles, path: str, changes: object) -> Particles
     try:
         strength = WeibullStrength.of(particles.material, **changes)
     except InvalidValue as error:
-        raise error.under(path) from None
+        raise error.move_under(path) from None
     return particles.replace(strength=strength)
 
 
@@ -414,7 +414,7 @@ def _particles_of_sizes(
             amount.amount, by=amount.by, gap=gap, diameter=diameter, **values
         )
     except InvalidValue as error:
-        raise error.under(path) from None
+        raise error.move_under(path) from None
 
 
 def _counted_particles(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Particles:
@@ -446,7 +446,7 @@ def _counted_particles(reader: Reader, path: str, kind: str, values: dict[str, A
             return Particles.test_dust(count, **options, **values)
         return Particles.from_cleanliness_class(kind, count, gap=gap, **options, **values)
     except InvalidValue as error:
-        raise error.under(path) from None
+        raise error.move_under(path) from None
 
 
 def _settled_particles(

@@ -23,6 +23,7 @@ from ..systems.film_formulas import full_range
 from ..systems.mixed_film import COLUMNS
 from ..systems.natures import Nature, natures
 from ..systems.stribeck import RegimeSpeeds
+from .film import note_without_oil
 from .load import force_sentences
 from .what_ifs import WhatIf, what_ifs_of_states
 from .whole import Study
@@ -124,6 +125,16 @@ class StudyResult(_Result):
     states: Any
     transitions: Transitions
     forces: tuple[Pressed, ...] = ()
+
+    @property
+    def oil_notes(self) -> tuple[str, ...]:
+        """A note that the oil is left out, where the study has one."""
+        return () if self.study.film is None else (note_without_oil("states are"),)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Notes of reading and of solving the study, one sentence each."""
+        return tuple(dict.fromkeys((*self.study.notes, *self.oil_notes, *self.run_warnings)))
 
     @cached_property
     def solved_states(self) -> list[int]:

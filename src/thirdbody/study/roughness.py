@@ -256,7 +256,7 @@ def _topography(reader: Reader, path: str, data: dict[str, object]) -> object:
             return both.replace(ellipticity=shapes["ellipticity"])
         except InvalidValue as error:
             raise InvalidValue(
-                *(p.under(path if p.path else f"{path}.topography") for p in error.problems)
+                *(p.move_under(path if p.path else f"{path}.topography") for p in error.problems)
             ) from None
 
     return reader.table(path, data, dict.fromkeys(keys_of(Roughness), TWICE) | BESIDE, build)

@@ -112,7 +112,7 @@ def life_of_asked(request: AskedLife | AskedDry, **arguments: Any) -> LifeHistor
         except InvalidValue as error:
             raise InvalidValue(
                 *(
-                    problem.under("life") if problem.place == "duration" else problem
+                    problem.move_under("life") if problem.place == "duration" else problem
                     for problem in error.problems
                 )
             ) from None

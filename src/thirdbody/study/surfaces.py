@@ -48,7 +48,7 @@ def _from_library(reader: Reader, path: str, value: object) -> Material:
     if isinstance(value, str):
         with suppress(KeyError):
             return library[value]
-    near = library.near(str(value))
+    near = library.nearest_name(str(value))
     some = ", ".join(list(library)[:3])
     rule = (
         f"is not a material of the library ({some} and {len(library) - 3} more: thirdbody "

@@ -1,4 +1,24 @@
-"""Systems around a contact: films, oil, bodies, waves, bearings."""
+"""Systems around a contact: films, oil, bodies, waves, bearings; one module for each.
+
+- `mixed_film`: a film, asperities and particles that carry one load together
+- `film_conditions`: a film under its operating conditions, and what it drags in
+- `oil_filter`: what a filter lets through
+- `oil_particles`: dents that the particles of an oil leave in a film
+- `life`: an oil and a contact in it over time
+- `bearing_life`: contamination factor and life factor of ISO 281
+- `bearing_sizes`: what a designation of a ball bearing stands for
+- `load_sharing`: how rolling bodies share a radial load
+- `rough_body`: rough spheres and cylinders
+- `waviness`: waviness under the roughness
+- `fractal`: surfaces without a single scale
+- `interaction`: asperities that feel each other
+- `coupled`: states that agree with the friction and heat that they make
+- `feedback`: what friction and heat change, for `coupled`
+- `plate_over_particle`: a plate pressed on a flat with one particle under it
+- `chuck`: a plate on a chuck with dust under it
+- `connector`: how often contacts fail to close because of dust
+- `contact_probability`: whether metal touches metal where dust lies
+"""
 
 from typing import TYPE_CHECKING, Any
 

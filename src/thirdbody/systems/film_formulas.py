@@ -436,7 +436,7 @@ class NijenbanningVennerMoes(_Joined):
             1.48 * g ** (-7 / 20) * D ** (-1 / 24) * M ** (-1 / 12) * L ** (3 / 4),
         )
 
-    def joined(self, at: Asymptotes, *, H_00: float) -> Number:
+    def join_limits(self, at: Asymptotes, *, H_00: float) -> Number:
         """H between the limits [1]."""
         ratio = at.EI / (at.RI if self.blend == "EI/RI" else at.EP)
         s = 1.5 * (1 + np.exp(-1.2 * ratio))
@@ -450,7 +450,7 @@ class NijenbanningVennerMoes(_Joined):
         return self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
 
     def _central(self, to: Groups) -> Number:
-        return self.joined(self._limits(to), H_00=1.8 / to.ratio) * to.R * (2 * to.U) ** 0.5
+        return self.join_limits(self._limits(to), H_00=1.8 / to.ratio) * to.R * (2 * to.U) ** 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -498,7 +498,7 @@ class MoesLine(_Joined):
         """The four limits for Moes' load M and lubricant number L [1]."""
         return Asymptotes(3 / M, 2.621 * M**-0.2, 1.287 * L ** (2 / 3), 1.311 * M**-0.125 * L**0.75)
 
-    def joined(self, at: Asymptotes) -> Number:
+    def join_limits(self, at: Asymptotes) -> Number:
         """H between the limits [1]."""
         s = (7 + 8 * np.exp(-2 * at.EI / at.RI)) / 5
         iso = (at.RI ** (7 / 3) + at.EI ** (7 / 3)) ** (3 / 7)
@@ -510,7 +510,7 @@ class MoesLine(_Joined):
         return self.limits_of(M=to.W * (2 * to.U) ** -0.5, L=to.G * (2 * to.U) ** 0.25)
 
     def _central(self, to: Groups) -> Number:
-        return self.joined(self._limits(to)) * to.R * (2 * to.U) ** 0.5
+        return self.join_limits(self._limits(to)) * to.R * (2 * to.U) ** 0.5
 
 
 FORMULAS = AbstractFilm.registry

@@ -250,7 +250,7 @@ def words_of_bands(bands: LifeBands) -> list[str]:
         first, last = (_time_or_censored(float(t), bands) for t in (times[0], times[-1]))
         came = percent(bands.reached[name])
         said = f"{name[0].upper()}{name[1:]}: after {first} to {last}; it comes in {came}"
-        if missed := bands.missed(name):
+        if missed := bands.count_missed(name):
             said += f", and in {missed} of {bands.samples} histories not by {end}"
         out.append(f"{said}.")
     most_of = bands.swings[0]

@@ -26,8 +26,8 @@ def contact(first=STEEL, second=STEEL, *, sigma=100e-9, R=2.8e-6, **wear):
 def oil(**changes):
     given = dict(
         volume=0.2,
-        start=tb.OilDirt.from_iso4406("18/16/13", material=QUARTZ, largest=16e-6),
-        ingress=tb.Ingress.from_counts(
+        start=tb.oil.OilDirt.from_iso4406("18/16/13", material=QUARTZ, largest=16e-6),
+        ingress=tb.oil.Ingress.from_counts(
             sizes=[4e-6, 6e-6, 14e-6], counts=[1e6, 3e5, 1e4], material=QUARTZ, largest=16e-6
         ),
         filters=Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=1e-3, capacity=0.15),
@@ -36,7 +36,7 @@ def oil(**changes):
         settling_area=0.5,
         classes=CLASSES,
     )
-    return tb.OilCircuit(**(given | changes))
+    return tb.oil.OilCircuit(**(given | changes))
 
 
 FILM = dict(
@@ -56,9 +56,9 @@ DRY = dict(
     area=1e-4,
     loss=0.3,
     moving=1,
-    arrivals=tb.Ingress(
+    arrivals=tb.oil.Ingress(
         material=QUARTZ,
-        diameter=tb.PowerLaw(edges=(1e-6, 4e-6), counts=(1,), slopes=(3,)),
+        diameter=tb.distributions.PowerLaw(edges=(1e-6, 4e-6), counts=(1,), slopes=(3,)),
         rate=1e4,
     ),
     worn_area=(1e-3, 1e-4),

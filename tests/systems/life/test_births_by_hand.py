@@ -74,13 +74,15 @@ class ByHand:
             particles = tuple(
                 tb.Particles(
                     material=each,
-                    diameter=tb.PowerLaw(edges=EDGES, counts=tuple(row), slopes=(3.0,) * 4),
+                    diameter=tb.distributions.PowerLaw(
+                        edges=EDGES, counts=tuple(row), slopes=(3.0,) * 4
+                    ),
                     areal_density=row.sum(),
                 )
                 for each, row in zip((QUARTZ, self.debris, self.debris), eta, strict=False)
                 if row.sum() > 0
             )
-            found = tb.mixed_film(
+            found = tb.films.mixed_film(
                 contact().replace(particles=particles or None), conjunction=FILM["conjunction"],
                 oil=FILM["lubricant"], load=20.0, speed=SPEED, slide_roll=0.05,
             )  # fmt: skip
@@ -125,13 +127,13 @@ def quiet():
 @pytest.mark.usefixtures("quiet")
 def test_births_are_those_of_a_brute_force():
     """Debris in an oil and depth of wear, by steps of Runge and Kutta over whole contacts."""
-    dirt = tb.Ingress(
+    dirt = tb.oil.Ingress(
         material=QUARTZ, rate=RATE.sum(),
-        diameter=tb.PowerLaw(edges=EDGES, counts=tuple(RATE), slopes=(3.0,) * 4),
+        diameter=tb.distributions.PowerLaw(edges=EDGES, counts=tuple(RATE), slopes=(3.0,) * 4),
     )  # fmt: skip
-    held = tb.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=FLOW)
-    oil = tb.OilCircuit(
-        volume=VOLUME, start=(), ingress=dirt, filters=held, classes=tb.SizeClasses(edges=EDGES)
+    held = tb.oil.Filter(sizes=(5e-6, 10e-6), betas=(2.0, 75.0), flow=FLOW)
+    oil = tb.oil.OilCircuit(
+        volume=VOLUME, start=(), ingress=dirt, filters=held, classes=tb.oil.SizeClasses(edges=EDGES)
     )
     own = FILM | dict(entry_ratio=ENTRY, worn_area=(WORN, WORN))
     found = tb.life(contact(), oil=oil, duration=DURATION, debris=DEBRIS, **own)
@@ -151,7 +153,7 @@ def test_sizes_of_a_class_come_with_its_mean_layer(low, high):
     for slope in (3.0, 2.0):  # numbers ∝ x⁻⁴, and the same times x
         dust = tb.Particles(
             material=QUARTZ, areal_density=1e8,
-            diameter=tb.PowerLaw(edges=(low, high), counts=(1.0,), slopes=(slope,)),
+            diameter=tb.distributions.PowerLaw(edges=(low, high), counts=(1.0,), slopes=(slope,)),
         )  # fmt: skip
         state = tb.solve(contact(K_ss=0.0).replace(particles=dust), d=np.array([2e-7]))
         worn.append(float(state.outputs["wear_1"][0]))

@@ -19,12 +19,12 @@ def oil(**changes):
     """One filter that takes all from 4 µm on alike; A3 dust enters."""
     given = {
         "volume": 0.2,
-        "start": tb.OilDirt.from_iso4406("22/20/17", material=QUARTZ),
-        "ingress": tb.Ingress.of_dust("A3-lot", rate="100 mg/h", material=QUARTZ),
-        "filters": tb.Filter(sizes=(3.9e-6,), betas=(1e9,), flow=1e-3),
+        "start": tb.oil.OilDirt.from_iso4406("22/20/17", material=QUARTZ),
+        "ingress": tb.oil.Ingress.of_dust("A3-lot", rate="100 mg/h", material=QUARTZ),
+        "filters": tb.oil.Filter(sizes=(3.9e-6,), betas=(1e9,), flow=1e-3),
         "viscosity": 0.03, "density": 870.0,
     }  # fmt: skip
-    return tb.OilCircuit(**(given | changes))
+    return tb.oil.OilCircuit(**(given | changes))
 
 
 def history_of(circuit, duration=3.6e6):
@@ -102,7 +102,9 @@ def test_sizes_that_go_on_and_why(changes, taken_by, words):
 
 def test_a_filter_that_holds_all_leaves_nothing_slow():
     assert (
-        history_of(oil(filters=tb.Filter(sizes=(0.1e-6,), betas=(100.0,), flow=1e-3))).slow_sizes
+        history_of(
+            oil(filters=tb.oil.Filter(sizes=(0.1e-6,), betas=(100.0,), flow=1e-3))
+        ).slow_sizes
         is None
     )
 
@@ -113,7 +115,7 @@ def test_the_code_stays_while_dirt_rises():
     assert f"The code stays at {history.codes[-1]}" in told
     dirt = 1e3 * history.mass_per_volume.sum(axis=1)[-1]
     assert f"to {dirt:.3g} mg/L" in told
-    all_held = tb.Filter(sizes=(0.1e-6,), betas=(100.0,), flow=1e-3)
+    all_held = tb.oil.Filter(sizes=(0.1e-6,), betas=(100.0,), flow=1e-3)
     assert hidden_words(history_of(oil(filters=all_held))) == []
 
 
@@ -159,7 +161,7 @@ def test_a_contact_says_why_it_is_0(changes, debris, words):
         surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         outputs=(tb.outputs.Friction(tau_ss=1e8, tau_sa=1e8), tb.outputs.Wear(**wear)),
     )  # fmt: skip
-    coarse = tb.SizeClasses.covering(smallest=0.5e-6, largest=260e-6, per_octave=2)
+    coarse = tb.oil.SizeClasses.covering(smallest=0.5e-6, largest=260e-6, per_octave=2)
     circuit = oil(settling_area=0.1, classes=coarse)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -167,7 +169,7 @@ def test_a_contact_says_why_it_is_0(changes, debris, words):
             contact, oil=circuit, conjunction=tb.films.Point(R=9.5e-3),
             lubricant=tb.films.Oil(eta=0.03, alpha=2e-8), load=50.0, speed=1.0,
             slide_roll=changes.get("slide_roll", 0.05), entry_ratio=0.1,
-            debris=tb.Debris.boundary_lubricated(**debris), duration=600.0,
+            debris=tb.oil.Debris.boundary_lubricated(**debris), duration=600.0,
         )  # fmt: skip
     assert found.R0 == 0
     assert words in found.reproduction
@@ -178,8 +180,10 @@ def test_a_contact_says_why_it_is_0(changes, debris, words):
 
 # ------------------------------------------------------------------------------ the ingress
 def test_an_ingress_that_fills_filters_within_a_day_is_doubted():
-    sheet = tb.Filter(sizes=(3.9e-6,), betas=(1e9,), flow=1e-3, capacity=0.05)
-    much = oil(filters=sheet, ingress=tb.Ingress.of_dust("A3-lot", rate="30 g/h", material=QUARTZ))
+    sheet = tb.oil.Filter(sizes=(3.9e-6,), betas=(1e9,), flow=1e-3, capacity=0.05)
+    much = oil(
+        filters=sheet, ingress=tb.oil.Ingress.of_dust("A3-lot", rate="30 g/h", material=QUARTZ)
+    )
     (note,) = (each for each in much.notes() if each.code == "life.ingress")
     assert "50 g" in note
     assert " 1." in note
@@ -188,7 +192,7 @@ def test_an_ingress_that_fills_filters_within_a_day_is_doubted():
 
 
 def test_a_word_in_the_place_of_events_is_named_whole():
-    with pytest.raises(tb.InvalidValue, match="18/16/13"):
+    with pytest.raises(tb.errors.InvalidValue, match="18/16/13"):
         tb.life(oil=oil(), duration=60.0, until="18/16/13")
-    with pytest.raises(tb.InvalidValue, match="until"):
+    with pytest.raises(tb.errors.InvalidValue, match="until"):
         tb.life(oil=oil(), duration=60.0, until=7)

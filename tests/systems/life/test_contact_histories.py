@@ -108,7 +108,7 @@ def test_mass_closes_with_everything_on():
     changed = oil(oil_changes=(3e5,), fresh_oil=oil().start, make_up=1e-9, leak=2e-9)
     found = run(contact(), oil=changed, duration=6e5, debris=DEBRIS, stays=0.5,
                 running_in=RunningIn(sigma_end=80e-9, length=1e-6),
-                strengths={QUARTZ: tb.WeibullStrength.of(QUARTZ)}, **FILM)  # fmt: skip
+                strengths={QUARTZ: tb.grains.WeibullStrength.of(QUARTZ)}, **FILM)  # fmt: skip
     assert found.ledger.residual < 1e-9
     assert found.ledger.went["finer than the classes"][-1] > 0
     assert {event.name for event in found.events} >= {"oil change", "filter full"}
@@ -321,7 +321,7 @@ def hard():
 def test_one_name_gives_the_steady_states_of_both_kinds(filmed, hard):
     """With a contact its debris counts: more particles than the same oil has alone."""
     (oil,) = filmed.steady()
-    alone = tb.LifeHistory.steady(filmed)[0]
+    alone = tb.results.LifeHistory.steady(filmed)[0]
     assert oil.numbers.sum() >= alone.numbers[:, : oil.numbers.shape[1]].sum() * (1 - 1e-9)
     assert filmed.to_dict()["steady"][0]["code"] == oil.code
     (rubbed,) = hard.steady()
@@ -339,12 +339,12 @@ def test_the_gain_of_dirt_is_that_of_the_linear_balance(hard):
 
 
 def test_names_of_the_life_are_at_the_top():
-    assert tb.Debris is Debris
-    assert tb.RunningIn is RunningIn
-    assert tb.until.wear_depth(5e-6) == wear_depth(5e-6)
-    dents = tb.entry_ratio_from_dents
+    assert tb.oil.Debris is Debris
+    assert tb.oil.RunningIn is RunningIn
+    assert tb.oil.until.wear_depth(5e-6) == wear_depth(5e-6)
+    dents = tb.oil.entry_ratio_from_dents
     assert dents.__module__ == "thirdbody.systems.life.entry"
-    assert tb.oil_reports.__module__ == "thirdbody.systems.life.reports"
+    assert tb.oil.oil_reports.__module__ == "thirdbody.systems.life.reports"
 
 
 def test_records_are_handed_out(filmed, dry):

@@ -39,7 +39,7 @@ def test_a_life_may_end_inside_the_history():
 
 
 def test_bad_histories_are_refused():
-    with pytest.raises(tb.InvalidValue, match="increase"):
+    with pytest.raises(tb.errors.InvalidValue, match="increase"):
         miner_pair([0.0, 0.0], codes=["-/13/10"] * 2, end=1.0, **BEARING)
-    with pytest.raises(tb.InvalidValue, match="dirtier"):
+    with pytest.raises(tb.errors.InvalidValue, match="dirtier"):
         miner_pair([0.0], codes=["-/25/22"], end=1.0, **BEARING)

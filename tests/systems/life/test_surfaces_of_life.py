@@ -154,9 +154,9 @@ def test_running_in_shares_the_roughness_of_two_surfaces():
 
 
 def test_bad_numbers_are_refused():
-    with pytest.raises(tb.InvalidValue, match="coverage"):
+    with pytest.raises(tb.errors.InvalidValue, match="coverage"):
         dent_roughness(1e-6, coverage=-0.1)
-    with pytest.raises(tb.InvalidValue, match="one shape"):
+    with pytest.raises(tb.errors.InvalidValue, match="one shape"):
         variance_slope(np.zeros(3), removal=np.zeros(2))
-    with pytest.raises(tb.InvalidValue, match="sigma_end"):
+    with pytest.raises(tb.errors.InvalidValue, match="sigma_end"):
         RunningIn(sigma_end=-1e-9)

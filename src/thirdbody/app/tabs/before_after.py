@@ -138,7 +138,7 @@ def _row(name: str, facts: list[dict[str, str]], change: str = "") -> dict[str, 
     return {"name": name, "before": old, "after": new, "change": change}
 
 
-def _change(points: tuple[tb.Equilibrium, tb.Equilibrium], column: str) -> str:
+def _change(points: tuple[tb.results.Equilibrium, tb.results.Equilibrium], column: str) -> str:
     if not column:
         return ""
     old, new = (float(getattr(point, column)) for point in points)
@@ -151,7 +151,7 @@ def _change(points: tuple[tb.Equilibrium, tb.Equilibrium], column: str) -> str:
     )
 
 
-def _sentence(points: tuple[tb.Equilibrium, tb.Equilibrium]) -> str:
+def _sentence(points: tuple[tb.results.Equilibrium, tb.results.Equilibrium]) -> str:
     """The answer: what particles carry before and after."""
     if any(point.contact.two_body for point in points):
         old, new = (percent(float(point.A_t)) for point in points)

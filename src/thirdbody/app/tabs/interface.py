@@ -60,7 +60,7 @@ MET = (
 )
 
 
-def headline(point: tb.Equilibrium, held: float = math.inf) -> str:
+def headline(point: tb.results.Equilibrium, held: float = math.inf) -> str:
     """The answer as a sentence, of the clauses of the command line."""
     load = load_of(_one(point.pressure), _one(point.F_star))
     if not _one(point.A_t):
@@ -76,7 +76,7 @@ def headline(point: tb.Equilibrium, held: float = math.inf) -> str:
     return f"{share[0].upper()}{share[1:]} at {load}; {mode_of(mode)}."
 
 
-def facts_of(point: tb.Equilibrium, held: float = math.inf) -> list[tuple[str, str]]:
+def facts_of(point: tb.results.Equilibrium, held: float = math.inf) -> list[tuple[str, str]]:
     """The state under the operating load, in the words of the command line."""
     at = [
         ("load", load_of(_one(point.pressure), _one(point.F_star))),

@@ -90,7 +90,7 @@ def command(options: Options) -> None:
     files.need(force=options.force)
     with heartbeat("solve"):
         result = run_study(study)
-    warn_of(result.run_warnings)
+    warn_of((*result.oil_notes, *result.run_warnings))
     if not result.solved_states:  # no file without a number
         files = TableFiles(json=STDOUT if options.json == STDOUT else None)
     files.write(

@@ -122,7 +122,7 @@ def about_strength(particles: Grains, surfaces: MaterialPair) -> list[str]:
         out.append(Note(what, code=f"strength.smallest.{name}"))
     low, high = particles.diameter.support
     low = max(low, strength.least(material), 1e-3 * high)
-    p, q = strength.tested
+    p, q = strength.tested_sizes
     if high >= low and (low < p or high > q):
         tested = value_of(p, "m", 3) if p == q else span(p, q, "m")
         factor = max((p / low) ** strength.b, (high / q) ** strength.b)

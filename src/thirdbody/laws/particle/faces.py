@@ -85,6 +85,6 @@ class Faces:
 
     def side(self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float) -> Side:
         """Contact of this side; that of its tip if the faces lie beyond the end of the contact."""
-        if self.shape.faced:
+        if self.shape.has_touching_faces:
             return FacedSide(law, E_star, H, nu, self.shape)
         return Side(law, E_star, H, nu, R, breadth=self.shape.breadth)

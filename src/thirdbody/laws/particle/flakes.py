@@ -86,7 +86,7 @@ class Flakes(Series):
         """R_p/τ = (D/τ)²/2."""
         return 0.5 * self.aspect**2
 
-    def jammed(self, coverage: float) -> str:
+    def describe_jam(self, coverage: float) -> str:
         return (
             f"flakes of aspect {self.aspect:g} would cover {coverage:.3g} of the nominal area "
             "and it must stay below 1; the size distribution is that of their thickness"

@@ -63,7 +63,7 @@ def _contact(
     density: float = 1e11,
     alpha: float = 5.0,
     H: tuple[float, float] | None = None,
-    sizes: tb.Distribution | None = None,
+    sizes: tb.distributions.Distribution | None = None,
     law: object = None,
     harder: float = 4.0,
 ) -> tb.Contact:

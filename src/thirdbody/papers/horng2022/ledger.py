@@ -38,7 +38,7 @@ def score(curves: Curves, progress: Callable[[], None] = lambda: None) -> dict[s
     It takes seconds: every curve of the paper is computed::
 
         verdicts = score(Curves(READINGS["published"]))
-        sum(verdict.passed for verdict in verdicts.values())  # 66 of 84
+        sum(verdict.is_pass for verdict in verdicts.values())  # 66 of 84
     """
     verdicts: dict[str, Verdict] = {}
     for claim in claims():
@@ -60,7 +60,7 @@ def all_of(
     limit: float = math.inf,
 ) -> Measurement:
     """How many of several claims hold, and of one more measurement at or below a limit."""
-    failed = [name for name in claims if not verdicts[name].passed]
+    failed = [name for name in claims if not verdicts[name].is_pass]
     held = len(claims) - len(failed)
     if measure is not None:
         extra = MEASURES[measure](curves, **(inputs or {}))

@@ -103,7 +103,7 @@ def _ledger(ledger: Ledger) -> str:
                 "</span>",
                 _statement(claim, ledger),
                 f"{symbols(claim.quantity)}",
-                f"{symbols(claim.paper)}<br><span class=soft>{symbols(claim.allowed)}</span>",
+                f"{symbols(claim.paper)}<br><span class=soft>{symbols(claim.rule_words)}</span>",
                 *cells,
             ]
         )

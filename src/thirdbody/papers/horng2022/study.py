@@ -104,7 +104,7 @@ class Summary(engine.Summary):
                     "quantity": claim.quantity,
                     "inputs": claim.inputs,
                     "paper": claim.paper,
-                    "allowed": claim.allowed,
+                    "allowed": claim.rule_words,
                     "rule": claim.rule,
                     "remark": claim.remark,
                     "conflicts_with": list(claim.conflicts),

@@ -67,7 +67,7 @@ class Summary(engine.Summary):
             for one in row.statements:
                 verdict = verdicts[one.claim.id]
                 value = verdict.band.text if verdict.band else "–"
-                limits = f"; allowed {one.claim.allowed}" if one.claim.rule else ""
+                limits = f"; allowed {one.claim.rule_words}" if one.claim.rule else ""
                 out.append(f"    {verdict.word:<16}{one.claim.quantity}: {value}{limits}")
         return out
 
@@ -165,7 +165,7 @@ def _as_json(summary: Summary) -> dict[str, object]:
                         "measured": one.claim.statement,
                         "standing": one.claim.standing,
                         "quantity": one.claim.quantity,
-                        "allowed": one.claim.allowed,
+                        "allowed": one.claim.rule_words,
                         "remark": one.claim.remark,
                         **verdict_entries(summary.ledger[row.name][one.claim.id]),
                     }

@@ -120,10 +120,10 @@ class Statement:
             return Verdict("undecided", self.undecided or "no prediction", band)
         low, high = self.claim.interval()
         if low <= band.low and band.high <= high:
-            return Verdict("met", f"allowed {self.claim.allowed}", band)
+            return Verdict("met", f"allowed {self.claim.rule_words}", band)
         if band.high < low or band.low > high:
-            return Verdict("lost", f"allowed {self.claim.allowed}", band)
-        why = f"allowed {self.claim.allowed}: the inputs that are not known decide"
+            return Verdict("lost", f"allowed {self.claim.rule_words}", band)
+        why = f"allowed {self.claim.rule_words}: the inputs that are not known decide"
         return Verdict("undecided", why, band)
 
 

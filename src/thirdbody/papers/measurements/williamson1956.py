@@ -49,7 +49,7 @@ def closing(number: float, spread: float = 1.0, deep: Deep = "table") -> Contact
     1.0
     """
     sizes = (
-        tb.Monodisperse(mean=SIZE)
+        tb.distributions.Monodisperse(mean=SIZE)
         if spread == 1
         else tb.LogNormal(median=SIZE * float(np.exp(-0.5 * np.log(spread) ** 2)), gsd=spread)
     )
@@ -112,11 +112,13 @@ def share(level: float, ratio: Array, laws: tuple[Deep, str] = ("table", "zmc"))
         roughness=tb.Roughness(sigma=sigma, R=3e-6, alpha=5.0, eta_R_sigma=0.045),
         particles=tb.Particles(
             material=tb.materials["Al2O3"],
-            diameter=tb.Monodisperse(mean=sigma),
+            diameter=tb.distributions.Monodisperse(mean=sigma),
             areal_density=1e11,
         ),
     )
-    states = tb.solve_states(contact, F_star=level, vary={"particles.diameter.mean": sigma * ratio})
+    states = tb.equilibria.solve_states(
+        contact, F_star=level, vary={"particles.diameter.mean": sigma * ratio}
+    )
     return np.asarray(states.particle_load_share, dtype=float)
 
 

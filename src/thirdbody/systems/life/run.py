@@ -151,7 +151,7 @@ def life(
     several = isinstance(until, Iterable) and not isinstance(until, Until | str)
     waits: tuple[Until, ...] = tuple(until) if several else (until,)  # type: ignore[assignment,arg-type]
     if wrong := [goal for goal in waits if not isinstance(goal, Until)]:
-        rule = 'must hold what a history waits for, e.g. tb.until.iso4406("21/19/16")'
+        rule = 'must hold what a history waits for, e.g. tb.oil.until.iso4406("21/19/16")'
         raise InvalidValue(Problem("until", rule, repr(wrong[0]), code=Mistake.KIND))
     if oil is None and contact is None:
         raise InvalidValue(

@@ -176,7 +176,8 @@ def _warnings(report: Found) -> list[str]:
     others = [
         result for result in (report.connector, report.plate, report.film) if result is not None
     ]
-    texts = [*(text for result in others for text in result.run_warnings), *report.result.warnings]
+    texts = [text for result in others for text in result.run_warnings]
+    texts += [*report.study.notes, *report.result.run_warnings]  # parts say what leaves oil out
     texts = [*dict.fromkeys(texts), *unsolved_sentences(report.result.states.status)]
     if not texts:
         return []
