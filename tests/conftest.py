@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 import typer.testing
 from hypothesis import HealthCheck, Phase, settings
+from hypothesis.internal.conjecture import providers
 
 from thirdbody.equilibrium.compiled.cached import Cached
 
@@ -41,6 +42,10 @@ os.unsetenv("COLUMNS")  # readline sets it past Python's record of the environme
 
 # the tree of commands is built once, not again by every test that runs one of them
 typer.testing._get_command = functools.cache(typer.testing._get_command)
+
+# numbers that stand in modules are not drawn: which are loaded differs from one worker to the next
+if hasattr(providers, "_get_local_constants"):
+    providers._get_local_constants = lambda: providers._local_constants
 
 # CI: the same examples every time, and the first counterexample as it is; a contact costs up to
 # a second to bind, so shrinking is left to HYPOTHESIS_PROFILE=search, which also looks elsewhere

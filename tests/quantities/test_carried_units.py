@@ -209,7 +209,7 @@ REFUSED = {
     r"explicit\.\w+\.(draw|room)\(.*": HOOK,
     r"asperity\.(\w+\.pressure|\w+\.reduced)\([uy]\)": HOOK,
     r"particle\.OneParticle\.\w+\((depth|delta|number)\)": HOOK,
-    r"films\.\w+\.(limits_of|joined|warnings)\(.*": HOOK,
+    r"films\.\w+\.(limits_of|join_limits|warnings)\(.*": HOOK,
     r"films\.\w+\.(central|minimum|asymptotes)\((load|eta|alpha)\)": EITHER,
     r".*\(concentration\)|dust\.concentration\(value\)": EITHER,
     r"quantities\.hardness\.\w+\(value\)": EITHER,
