@@ -577,7 +577,7 @@ class LiftedSum(FieldSum):
         self.plain, self.ground = field, ground
         self._ends(ground.lowest)
         if ground.cut:
-            self.ends = "below which particles cover too much of the area for the law field"
+            self.ends = "below which particles press their ground down too far for the law field"
         from scipy.interpolate import make_interp_spline
 
         lift = make_interp_spline(ground.h, ground.w, k=5)
