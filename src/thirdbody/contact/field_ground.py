@@ -54,9 +54,9 @@ __all__ = ["Ground", "GroundedPart", "LiftedSum", "put_on_ground"]
 
 STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
-ROUNDS, CLOSE, MEMORY, OTHERS = 60, 1e-9, 4, (6, 8)
+ROUNDS, CLOSE, MEMORY, MEMORIES = 60, 1e-9, 4, (6, 4, 8)
 """Of the iteration: the most, the last change of u/σ and w, how many steps it remembers, and how
-many where that does not settle."""
+many, one after another, where a separation is solved by itself."""
 BEFORE = np.array([5.0, -10.0, 10.0, -5.0, 1.0])
 """Parts of the rows above one that is solved by itself, of which the iteration begins."""
 FINE, MORE = 1e-12, 6
@@ -76,7 +76,7 @@ LEVEL, LEVELS = 3.5, 1.0
 that of half as much more. Beyond, terms of twelve moments are large and cancel."""
 FLAT = 1.0
 """Mean slope of u over ζ from which on particles leave nothing of the surface."""
-LIFTS, LEAP, CREEPS, KINK = 12, 0.1, (8, 32), 4.0
+LIFTS, LEAP, CREEPS, KINK = 12, 0.1, (4, 32), 4.0
 """Chords by which the lift of asperities is found, at most; second difference of it from which on
 it may belong to another ground [σ]; steps between two separations that show whether it does, as
 differences of a kink are so many times less in them."""
@@ -331,7 +331,7 @@ class Ground:
     def _solve_from_above(self, row: int, u: Array, w: Array, kept: Array) -> bool:
         """Solve one separation from what those above say of it; whether that goes on smoothly."""
         here = slice(row, row + 1)
-        for memory in (MEMORY, *OTHERS):
+        for memory in MEMORIES:
             for known in (kept, w):
                 near = known[row + 1 : row + 1 + len(BEFORE)]
                 known[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
@@ -341,16 +341,24 @@ class Ground:
 
     def _creep_down(self, row: int, u: Array, w: Array, kept: Array) -> bool:
         """Solve one separation by small steps from the one above; whether they go on smoothly."""
+        above, below = row + 2, row + 1
         for steps in CREEPS:
-            path = [kept[row + 1]] * 2, [w[row + 1]] * 2
-            for h in np.linspace(self.h[row + 1], self.h[row], steps + 1)[1:]:
-                state, lift = (2 * past[-1:] - past[-2:-1] for past in map(np.array, path))
-                ground = np.zeros((1, MOMENTS + 1))
-                if len(self._iterate_states(np.array([h]), ground, lift, state, OTHERS[0])):
+            # as if the step before had come from the separation above
+            slope = [(known[below] - known[above]) / steps for known in (kept, w)]
+            path = [
+                [known[below] - s, known[below]] for known, s in zip((kept, w), slope, strict=True)
+            ]
+            for h in np.linspace(self.h[below], self.h[row], steps + 1)[1:]:
+                for memory in MEMORIES:
+                    state, lift = (2 * past[-1:] - past[-2:-1] for past in map(np.array, path))
+                    ground = np.zeros((1, MOMENTS + 1))
+                    if not len(self._iterate_states(np.array([h]), ground, lift, state, memory)):
+                        break
+                else:
                     break
                 path[0].append(state[0])
                 path[1].append(lift[0])
-                if len(path[1]) > 4 and _leaps(np.array(path[1][-3:]) * KINK):
+                if _leaps(np.array(path[1][-3:]) * KINK):
                     break
             else:
                 u[row], w[row], kept[row] = ground[0], lift[0], state[0]
