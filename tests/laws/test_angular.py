@@ -266,6 +266,7 @@ def test_flatness_bounds_the_area():
 
 
 # ---------------------------------------------------------------------------- populations
+@pytest.mark.check
 def test_one_contact_by_both_engines():
     case = contact(angular())
     loads = np.geomspace(1e5, 3e7, 40)

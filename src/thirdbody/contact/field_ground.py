@@ -332,9 +332,9 @@ class Ground:
         """Solve one separation from what those above say of it; whether that goes on smoothly."""
         here = slice(row, row + 1)
         for memory in MEMORIES:
-            for known in (kept, w):
-                near = known[row + 1 : row + 1 + len(BEFORE)]
-                known[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
+            for values in (kept, w):
+                near = values[row + 1 : row + 1 + len(BEFORE)]
+                values[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
             if not len(self._iterate_states(self.h[here], u[here], w[here], kept[here], memory)):
                 return not _leaps(w[row : row + 3])
         return False
@@ -344,9 +344,9 @@ class Ground:
         above, below = row + 2, row + 1
         for steps in CREEPS:
             # as if the step before had come from the separation above
-            slope = [(known[below] - known[above]) / steps for known in (kept, w)]
             path = [
-                [known[below] - s, known[below]] for known, s in zip((kept, w), slope, strict=True)
+                [values[below] - (values[below] - values[above]) / steps, values[below]]
+                for values in (kept, w)
             ]
             for h in np.linspace(self.h[below], self.h[row], steps + 1)[1:]:
                 for memory in MEMORIES:
