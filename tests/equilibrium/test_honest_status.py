@@ -106,6 +106,22 @@ def sides(contact: tb.Contact, d: float) -> tuple[float, float]:
 class TestJump:
     """Where the load jumps, a load in between is not carried."""
 
+    def test_a_load_beside_what_has_no_number_is_no_jump(self):
+        """Where one side of a bracket has no load, no sentence names a jump to it."""
+        contact_interface = interface(dusty())
+        scan, load = load_scan(contact_interface), contact_interface.load
+        target = np.array([1e-5 * contact_interface.contact.E_ss])
+        root = scan.solve(target, "loading")[0][0]
+
+        def known_above(d):
+            return np.where(np.atleast_1d(d)[:, None] < root * (1 + 1e-7), np.nan, load(d))
+
+        with mock.patch.object(type(contact_interface), "load", lambda _, d: known_above(d)):
+            d, _, status = scan.solve(target, "loading")
+        assert np.isnan(d[0])
+        assert status.codes[0] == Status.UNSOLVED
+        assert "nan" not in status.words[0]
+
     @pytest.fixture(params=[ONE_SIZE, MIXED], ids=["one size", "mixture"])
     def printed(self, request) -> tb.Contact:
         return dusty(tb.particle.Horng2022(), request.param)

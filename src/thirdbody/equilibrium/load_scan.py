@@ -183,8 +183,8 @@ class LoadScan:
     # ------------------------------------------------------------------ roots
     def polish(
         self, target: Array, cells: Index, *, falling: bool = True
-    ) -> tuple[Array, Index, dict[int, str]]:
-        """Roots inside their cells, to rounding; evaluations; and where the load jumps, how.
+    ) -> tuple[Array, Index, dict[int, tuple[Status, str]]]:
+        """Roots inside their cells, to rounding; evaluations; and where there is none, why not.
 
         At a jump the separation is the next one that carries the load and more.
         """
@@ -205,16 +205,19 @@ class LoadScan:
         d, residual, iterations = halley_root(imbalance, low, high, start, falling=falling)
         # beside what is steep for floats, or jumps
         rest = np.flatnonzero(~(np.abs(residual) <= 0.5 * RESIDUAL))
-        jumps = {}
+        passed = {}
         if len(rest):
-            d[rest], texts = self._beside(target[rest], low[rest], high[rest], falling)
-            jumps = {int(rest[i]): text for i, text in texts.items()}
-        return d, iterations, jumps
+            d[rest], causes = self._beside(target[rest], low[rest], high[rest], falling)
+            passed = {int(rest[i]): cause for i, cause in causes.items()}
+        return d, iterations, passed
 
     def _beside(
         self, target: Array, low: Array, high: Array, falling: bool
-    ) -> tuple[Array, dict[int, str]]:
-        """Float whose load is next to each load in its bracket, and whether that is at a jump."""
+    ) -> tuple[Array, dict[int, tuple[Status, str]]]:
+        """Float whose load is next to each load in its bracket, and why none carries it.
+
+        The load jumps there, or one side of the bracket has no load.
+        """
         low, high = low.copy(), high.copy()
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
@@ -226,14 +229,18 @@ class LoadScan:
         other = is_carried(F_less, slope_less, target, self.ulp)
         closer = other & (~good | (np.abs(F_less - target) < np.abs(F - target)))
         E = self.interface.contact.E_ss
-        jumps = {
-            int(i): f"jump: the load {value_of(target[i], 'Pa')} (F* = {target[i] / E:.3g}) "
-            f"lies in a jump of the load from F* = {F_less[i] / E:.3g} to {F[i] / E:.3g} at d = "
-            f"{carries[i]:.6g} "
-            "m, and no separation there carries it"
+        passed = {
+            int(i): (
+                Status.JUMP,
+                f"jump: the load {value_of(target[i], 'Pa')} (F* = {target[i] / E:.3g}) "
+                f"lies in a jump of the load from F* = {F_less[i] / E:.3g} to {F[i] / E:.3g} "
+                f"at d = {carries[i]:.6g} m, and no separation there carries it",
+            )
+            if np.isfinite(F[i]) and np.isfinite(F_less[i])
+            else (Status.UNSOLVED, Status.UNSOLVED.sentence)
             for i in np.flatnonzero(~good & ~other)
         }
-        return np.where(closer, less, carries), jumps
+        return np.where(closer, less, carries), passed
 
     def solve(self, target: Array, branch: str) -> tuple[Array, Index, Statuses]:
         """Separation, number of evaluations and status of every load."""
@@ -250,9 +257,9 @@ class LoadScan:
         carried = np.flatnonzero(cells >= 0)
         for start in range(0, len(carried), CHUNK):
             rows = carried[start : start + CHUNK]
-            d[rows], iterations[rows], jumps = self.polish(target[rows], cells[rows])
-            for place, sentence in jumps.items():
-                status.set(rows[place], Status.JUMP, sentence)
+            d[rows], iterations[rows], passed = self.polish(target[rows], cells[rows])
+            for place, why in passed.items():
+                status.set(rows[place], *why)
         for i in np.flatnonzero(cells < 0):
             status.set(i, *self.why_not(float(target[i])))
         return d, iterations, status

@@ -349,15 +349,19 @@ def roots(
         status, why = scan.why_not(float(values[0]))
         raise NoEquilibrium(why, status)
     target = np.full(len(cells), values[0])
-    solutions, passed = [], []  # type: list[tuple[float, int, bool]], list[str]
+    solutions: list[tuple[float, int, bool]] = []
+    passed: list[tuple[Status, str]] = []
     for direction in (True, False):
         which = np.flatnonzero(falling == direction)
         if len(which):
-            d, iterations, jumps = scan.polish(target[which], cells[which], falling=direction)
-            passed += jumps.values()
-            solutions += [(d[i], iterations[i], direction) for i in range(len(d)) if i not in jumps]
+            d, iterations, causes = scan.polish(target[which], cells[which], falling=direction)
+            passed += causes.values()
+            solutions += [
+                (d[i], iterations[i], direction) for i in range(len(d)) if i not in causes
+            ]
     if not solutions:
-        raise NoEquilibrium(passed[0], Status.JUMP)
+        status, why = passed[0]
+        raise NoEquilibrium(why, status)
     solutions.sort(key=lambda item: -item[0])
     one, ok = _Loads(values[:1], None, True), Statuses.ok(1)
     return [
