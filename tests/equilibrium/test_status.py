@@ -63,6 +63,31 @@ def test_the_engine_has_these_codes():
         assert getattr(balance, name) == Status[name]
 
 
+class TestBelowOneField:
+    """Separations under the table of one field of heights: said as such, by each engine."""
+
+    @staticmethod
+    def dusty_field() -> tb.Contact:
+        dust = dusty()
+        return dust.replace(
+            roughness=tb.Roughness(sigma=1e-7, R=2.8e-6, alpha=10.0),
+            asperity_law=tb.asperity.Field(),
+        )
+
+    @pytest.mark.parametrize("count", [2, 30])
+    def test_the_table_ends(self, count):
+        alphas = np.linspace(25, 30, count)
+        found = state_columns(self.dusty_field(), d=-1e-5, vary={"roughness.alpha": alphas})
+        assert set(found["status_code"]) == {Status.TOO_DEEP}
+        assert {"table of the law field" in sentence for sentence in found["status"]} == {True}
+
+    def test_an_unknown_bandwidth_is_refused_however_deep(self):
+        alphas = np.linspace(25, 31, 30)
+        for d in (-1e-5, 3e-7):
+            with pytest.raises(tb.errors.InvalidValue, match=r"bandwidths alpha from 2\.5 to 30"):
+                state_columns(self.dusty_field(), d=d, vary={"roughness.alpha": alphas})
+
+
 class TestEveryDoor:
     """The same code for the same load from `solve`, `solve_states` and `sweep`, by each engine."""
 

@@ -264,7 +264,9 @@ def _result(
         places = _Separations(
             np.where(deep, np.nan, values),
             np.where(deep, 0, 1),
-            Statuses.from_codes(np.where(deep, Status.TOO_DEEP, Status.OK)),
+            Statuses.from_codes(
+                np.where(deep, Status.TOO_DEEP, Status.OK), one_field=contact_interface.one_field
+            ),
             path="numpy: the separations are given",
         )
     else:

@@ -26,7 +26,7 @@ from .crowding import is_crowded
 from .engine.columns import Numbers
 from .engine.run import DOUBTS, own_columns
 from .solve import SOLVER, given_load, solve_untold
-from .status import SENTENCES, TABLE_ENDS, Status
+from .status import Status, Statuses
 
 if TYPE_CHECKING:
     import xarray
@@ -533,9 +533,7 @@ def _with_words(contact: Contact, columns: Columns) -> Columns:
     code[(code == Status.OK) & is_crowded(contact, columns["A_t"])] = Status.CROWDED
     code[doubt != ""] = Status.UNSOLVED
     path = np.where(doubt, doubt, "compiled")
-    words = SENTENCES[code]
-    if contact.asperity_law.of_surface:
-        words[code == Status.TOO_MUCH] = TABLE_ENDS
+    words = Statuses.from_codes(code, one_field=contact.asperity_law.of_surface).words
     return columns | {"status": words, CODE: code, "engine": path}
 
 

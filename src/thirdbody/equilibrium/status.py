@@ -13,7 +13,15 @@ from ..contact.asperity_sums import SEARCHED, ReducedSum
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "TABLE_ENDS", "WORDS", "Status", "Statuses"]
+__all__ = [
+    "DEEPEST",
+    "FIELD_SENTENCES",
+    "MOST_AREA",
+    "SENTENCES",
+    "WORDS",
+    "Status",
+    "Statuses",
+]
 
 DEEPEST = SEARCHED
 """Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
@@ -86,11 +94,14 @@ SENTENCES = np.array(
     dtype=object,
 )
 """Of each status, the sentence where no more is known."""
-TABLE_ENDS = (
+FIELD_SENTENCES = SENTENCES.copy()
+FIELD_SENTENCES[[Status.TOO_MUCH, Status.TOO_DEEP]] = [
     "no equilibrium: the load is beyond the most this model carries down to the separation where "
-    "the table of the law field ends; check the unit of the load, or let an oil film carry it"
-)
-"""The same of a load that is too much for one field of heights."""
+    "the table of the law field ends; check the unit of the load, or let an oil film carry it",
+    "not solved: the separation d is lower than where the table of the law field ends; check its "
+    "sign and its unit",
+]
+"""The same of one field of heights."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,10 +112,10 @@ class Statuses:
     words: NDArray[np.object_]
 
     @staticmethod
-    def from_codes(codes: ArrayLike) -> Statuses:
+    def from_codes(codes: ArrayLike, *, one_field: bool = False) -> Statuses:
         """Statuses of these codes, with the sentence that all states of a code share."""
         code_array = np.array(codes, dtype=np.int8, ndmin=1)
-        return Statuses(code_array, SENTENCES[code_array])
+        return Statuses(code_array, (FIELD_SENTENCES if one_field else SENTENCES)[code_array])
 
     @staticmethod
     def ok(count: int) -> Statuses:

@@ -75,7 +75,7 @@ def own_columns(
     given = np.full(count, np.nan) if target is not None else (loads - origin) / unit
     h, evaluations, fate, error, rows = solve(numbers, target, given, threads)
     if target is None:
-        deep = given < numbers.deepest
+        deep = (given < numbers.deepest) & ~numbers.outside
         fate[deep], evaluations[deep] = Status.TOO_DEEP, 0
     if is_rough():
         fate[(fate == f.NOT_RESOLVED) & (error <= ROUGH)] = f.OK
