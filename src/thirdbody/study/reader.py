@@ -153,10 +153,6 @@ class Table:
     required: Callable[[Mapping[str, object]], bool] | None = None
     role: str = "contact"
 
-    def is_required(self, whole: Mapping[str, object]) -> bool:
-        """Whether a file must hold it."""
-        return self.key.required if self.required is None else self.required(whole)
-
 
 def rivals(path: str, key: str) -> tuple[str, ...]:
     """Keys of a table that cannot stand beside this one."""
