@@ -162,7 +162,7 @@ STRENGTH = Key(
 )
 
 
-def with_strength(particles: Particles, path: str, changes: Mapping[str, Any]) -> Particles:
+def with_strength(particles: Particles, path: str, changes: Mapping[str, float]) -> Particles:
     """The particles with the strength of their material, but for these numbers of it."""
     try:
         strength = WeibullStrength.of(particles.material, **changes)

@@ -243,7 +243,7 @@ def read_tables(
 
 def _study(reader: Reader, values: dict[str, Any]) -> Study:
     """The study, from the objects that its tables stand for."""
-    parts: dict[str, Any] = {
+    parts = {
         table.name: values[table.name]
         for table in TABLES
         if table.role == "contact" and table.name in values
@@ -256,10 +256,10 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     if "particle_law" in parts and all(population.law is not None for population in several):
         what = "[particle_law] has no effect: all particles have laws of their own"
         reader.notes.append(Note(what, code="idle.particle_law"))
-    sweep: Any = values.get("sweep")
+    sweep = values.get("sweep")
     film: Any = values.get("film")
     contact = reader.make(Contact, "", parts)
-    loaded: Any = values.get("load") or ends(sweep or {})
+    loaded = values.get("load") or ends(sweep or {})
     bodies: Any = values.get("body")
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
     if contact.outputs:
