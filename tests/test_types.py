@@ -21,9 +21,9 @@ MOST = {
     "laws": 17,
     "numerics": 2,
     "papers": 28,
-    "populations": 34,
+    "populations": 33,
     "quantities": 51,
-    "study": 125,
+    "study": 124,
     "systems": 65,
     "views": 24,
 }

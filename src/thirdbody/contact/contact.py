@@ -114,8 +114,8 @@ class Contact(Value):
         laws: list[AbstractParticleLaw] = []
         out: list[str] = []
         places = self.places
-        covered = sum(population.coverage for population in places.values())
-        if covered >= 1:
+        several = len(places) > 1  # one alone has refused to cover all
+        if several and (covered := sum(one.coverage for one in places.values())) >= 1:
             out.append(
                 Problem(
                     "particles",
@@ -147,7 +147,7 @@ class Contact(Value):
                         Problem("strength", rule, hint=hint, code=Mistake.BEYOND), place, population
                     )
                 )
-        if not out and len({law.centre for law in laws}) > 1:
+        if not out and several and len({law.centre for law in laws}) > 1:
             out.append(
                 Problem(
                     "particles",

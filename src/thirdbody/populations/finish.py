@@ -266,19 +266,6 @@ def _range_text(values: tuple[float, float, float], unit: str) -> str:
     )
 
 
-def check_faces(faces: object) -> list[str]:
-    """Mistakes in what should be one face or two."""
-    if not (isinstance(faces, tuple) and len(faces) <= 2):
-        rule = "must be a tuple of one or two Finish"
-        return [Problem("finish", rule, repr(faces), owner="Roughness", code=Mistake.KIND)]
-    rule = 'must be a Finish, e.g. Finish(Ra=0.2e-6, process="ground")'
-    return [
-        Problem(f"finish[{i}]", rule, repr(face), owner="Roughness", code=Mistake.KIND)
-        for i, face in enumerate(faces)
-        if not isinstance(face, Finish)
-    ]
-
-
 def given_or_drawn(faces: Sequence[Finish], stated: dict[str, float | None]) -> dict[str, Any]:
     """σ, R, α and ηRσ or η: what is given, and the usual values of the process for the rest."""
     numbers = drawing(faces)

@@ -335,7 +335,9 @@ class MaterialLibrary(Mapping[str, Material]):
                     code=Mistake.UNKNOWN,
                 )
             )
-        return _material(name, entries[name])
+        entry = entries[name]
+        numbers = {key: entry[key] for key in NUMBERS if key in entry}
+        return Material(**numbers, name=name, source=entry["source"])
 
     def _ipython_key_completions_(self) -> list[str]:
         """Names that a notebook offers after ``materials["``."""
@@ -346,11 +348,6 @@ class MaterialLibrary(Mapping[str, Material]):
 
     def __len__(self) -> int:
         return len(self.entries())
-
-
-def _material(name: str, entry: dict[str, Any]) -> Material:
-    numbers = {key: entry[key] for key in NUMBERS if key in entry}
-    return Material(**numbers, name=name, source=entry["source"])
 
 
 def _text(name: str, entry: dict[str, Any]) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.value import Value, quantity
 from .ellipticity import Ellipticity
-from .finish import Finish, check_faces, drawing, given_or_drawn
+from .finish import Finish, drawing, given_or_drawn
 from .heights import GaussianHeights, Heights
 
 __all__ = ["ETA_R_SIGMA", "Roughness"]
@@ -128,7 +128,7 @@ class Roughness(Value):
         [2, 76]
         """
         faces = (first,) if second is None else (first, second)
-        if problems := check_faces(faces):
+        if problems := _problems_of_faces(faces):
             raise InvalidValue(*problems)
         values = {"R": R, "alpha": alpha, "eta_R_sigma": eta_R_sigma, "eta": eta}
         return cls(**given_or_drawn(faces, values), **others, finish=faces)
@@ -172,7 +172,7 @@ class Roughness(Value):
                     code=Mistake.KIND,
                 )
             ]
-        return check_faces(self.finish)
+        return _problems_of_faces(self.finish)
 
     @property
     def density(self) -> float:
@@ -206,3 +206,16 @@ class Roughness(Value):
     def y_s(self) -> float:
         """Height of the mean asperity plane above the mean surface plane y_s [m]."""
         return 4 * self.sigma / (math.pi * self.alpha) ** 0.5
+
+
+def _problems_of_faces(faces: object) -> list[str]:
+    """Mistakes in what should be one face or two."""
+    if not (isinstance(faces, tuple) and len(faces) <= 2):
+        rule = "must be a tuple of one or two Finish"
+        return [Problem("finish", rule, repr(faces), owner="Roughness", code=Mistake.KIND)]
+    rule = 'must be a Finish, e.g. Finish(Ra=0.2e-6, process="ground")'
+    return [
+        Problem(f"finish[{i}]", rule, repr(face), owner="Roughness", code=Mistake.KIND)
+        for i, face in enumerate(faces)
+        if not isinstance(face, Finish)
+    ]

@@ -148,20 +148,20 @@ def to_si(value: object, unit: str) -> float:
             return _one(value, unit)
         return _refuse(f"{say(value)} must be {_need_text(unit)}", Mistake.KIND)
     text = value.strip()
-    shown = say(value)
     number = _NUMBER.match(text)
     if number is None:
         return _refuse(
-            f"{shown} has no number in front; it must be {_need_text(unit)}", Mistake.KIND
+            f"{say(value)} has no number in front; it must be {_need_text(unit)}", Mistake.KIND
         )
     rest = text[number.end() :].strip()
-    if re.match(r",\d", rest):
-        return _refuse(_about_comma(text, shown), Mistake.FORM)
     if not rest:
         return float(number.group())
     power = _POWERS.get(unit, {}).get(rest)
     if power is not None and math.isfinite(float(number.group())):
         return _shift(number.group(), power)
+    shown = say(value)
+    if re.match(r",\d", rest):
+        return _refuse(_about_comma(text, shown), Mistake.FORM)
     body = one_spelling(rest)
     if body is None:
         return _refuse(f"{shown} cannot be read; it must be {_need_text(unit)}")

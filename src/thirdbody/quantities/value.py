@@ -343,14 +343,14 @@ class Value(Shown):
                 problems.append(Problem(name, why, shown, owner=owner))
         if not problems:
             try:
-                problems = [_problem_of_class(owner, problem) for problem in self._problems()]
+                problems = list(self._problems())
             except FAILURES as error:
                 kind = type(self)
                 held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]
                 refuse_misfits(error, kind, (), held, where=kind.__name__)
                 raise
         if problems:
-            raise InvalidValue(*problems)
+            raise InvalidValue(*(_problem_of_class(owner, problem) for problem in problems))
 
     def _problems(self) -> list[str]:
         """Mistakes that concern several fields at once; subclasses override.

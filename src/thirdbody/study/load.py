@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from ..contact.contact import Contact
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
-from .reader import NOTHING, Key, Reader, Table, amounts, get, variants
+from .reader import NOTHING, Key, Reader, Table, amounts, variants
 from .vocabulary import LOADS
 
 __all__ = ["BODY", "FORCE", "LOAD", "force_sentences", "loads_of", "press_forces", "told_forces"]
@@ -40,6 +41,13 @@ def _load(reader: Reader, path: str, data: object) -> object:
     return reader.table(path, data, KEYS, build)
 
 
+def _is_needed(whole: Mapping[str, object]) -> bool:
+    """Whether no other table of a file says what presses the surfaces together."""
+    sweep = whole.get("sweep")
+    is_swept = isinstance(sweep, dict) and any(sweep.get(name) is not None for name in LOADS)
+    return not is_swept and not {"film", "connector", "plate"} & whole.keys()
+
+
 LOAD = Table(
     name="load",
     key=Key(
@@ -47,10 +55,7 @@ LOAD = Table(
         schema=NOTHING,
         table=_load,
     ),
-    required=lambda whole: (
-        not {"film", "connector", "plate"} & whole.keys()
-        and all(get(whole.get("sweep"), name) is None for name in LOADS)
-    ),
+    required=_is_needed,
     role="study",
 )
 BODY = Table(

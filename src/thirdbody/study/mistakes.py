@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ..errors import InvalidValue, Mistake, Problem, in_study
@@ -30,16 +31,23 @@ class Unknown(NamedTuple):
     value: object
 
 
+@dataclass
 class Known:
-    """The keys that a file may hold, table by table, and the sentences about others."""
+    """The keys that a file may hold, table by table, and the sentences about others.
 
-    def __init__(self) -> None:
-        self.keys: dict[str, dict[str, str]] = {}
-        """Known keys of every table met, and what they are."""
-        self.variants: dict[str, tuple[str, Mapping[str, type]]] = {}
-        """Tables whose keys depend on a word: that word's key, and the class of each variant."""
-        self.refused: dict[str, Mapping[str, str]] = {}
-        """Keys of a table that are known elsewhere and have no sense there: why not."""
+    Parameters
+    ----------
+    keys : dict
+        Known keys of every table met, and what they are.
+    variants : dict
+        Tables whose keys depend on a word: that word's key, and the class of each variant.
+    refused : dict
+        Keys of a table that are known elsewhere and have no sense there: why not.
+    """
+
+    keys: dict[str, dict[str, str]] = field(default_factory=dict)
+    variants: dict[str, tuple[str, Mapping[str, type]]] = field(default_factory=dict)
+    refused: dict[str, Mapping[str, str]] = field(default_factory=dict)
 
     def problems(self, mistakes: Iterable[Problem | Missing | Unknown]) -> list[Problem]:
         """The mistakes with their sentences; what a misspelt key means is not missing."""
@@ -86,7 +94,7 @@ class Known:
         homes = [
             say(name)
             for name, kind in variants.items()
-            if key in (field.name for field in declarations(kind))
+            if key in (item.name for item in declarations(kind))
         ]
         if homes:
             return not_known(f" here: it goes with {tag} = {' or '.join(homes)}"), None

@@ -65,6 +65,13 @@ CODES = ("iso4406", "as4059", "nas1638")
 """Those that count particles per volume, whose concentration they give."""
 SETTLED = "iso14644"
 """Dust that settles from air: the class and the time say how many particles there are."""
+LEADING = {
+    **dict.fromkeys(("distribution", "sizes"), ("gap", "film", "oil_density", "particle_density")),
+    "test_dust": ("gap", "film", "oil_density"),
+    **dict.fromkeys(CODES, ("gap", "film")),
+    SETTLED: (),
+}
+"""Keys that lead from a concentration to an areal density, by the key that gives the sizes."""
 WORDS = {
     "level": cleanliness.LEVELS,
     "limit": cleanliness.LIMITS,
@@ -155,10 +162,8 @@ STRENGTH = Key(
 )
 
 
-def with_strength(particles: Particles, path: str, changes: object) -> Particles:
-    """The particles, with the strength of their material where the file says so."""
-    if not isinstance(changes, dict):
-        return particles
+def with_strength(particles: Particles, path: str, changes: Mapping[str, float]) -> Particles:
+    """The particles with the strength of their material, but for these numbers of it."""
     try:
         strength = WeibullStrength.of(particles.material, **changes)
     except InvalidValue as error:
@@ -243,9 +248,8 @@ def _population(reader: Reader, path: str, data: object) -> object:
     def build(values: dict[str, Any]) -> Particles:
         if refused:
             raise InvalidValue
-        strength = values.get("strength")
-        if isinstance(strength, dict):
-            del values["strength"]
+        of_material = isinstance(values.get("strength"), dict)
+        changes = values.pop("strength") if of_material else {}
         if kind == "distribution":
             of_particles = {key: values.pop(key) for key in keys if key in values}
             if OF_SIZES in of_particles:
@@ -254,7 +258,7 @@ def _population(reader: Reader, path: str, data: object) -> object:
             particles = _particles_of_sizes(reader, path, of_particles, diameter)
         else:
             particles = _counted_particles(reader, path, kind, values)
-        return with_strength(particles, f"{path}.strength", strength)
+        return with_strength(particles, f"{path}.strength", changes) if of_material else particles
 
     if kind == "distribution":
         return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, keys)
@@ -290,23 +294,13 @@ def _keys_of_population(table: Mapping[str, object], kind: str, by_volume: bool)
     )
     if kind not in (*CODES, SETTLED):
         keys["concentration"] = Key(_concentration, False, 'e.g. "0.1 wt%"')
-    keys |= {name: KEYS_OF_AMOUNT[name] for name in _names_of_amount(kind)}
+    keys |= {name: KEYS_OF_AMOUNT[name] for name in LEADING[kind]}
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
 
 def _unread(reader: Reader, path: str, value: object) -> object:
     """Value of a source of sizes that is not read, since another source is."""
     return value
-
-
-def _names_of_amount(kind: str) -> tuple[str, ...]:
-    """The keys that lead from a concentration to an areal density."""
-    if kind == SETTLED:
-        return ()
-    if kind in CODES:
-        return "gap", "film"
-    fluid = ("oil_density",) if kind == "test_dust" else ("oil_density", "particle_density")
-    return ("gap", "film", *fluid)
 
 
 def _problems_of_amount(
@@ -330,7 +324,7 @@ def _problems_of_amount(
                 f"{path}.gap", rule, hint=f"{what} counts them per volume", code=Mistake.MISSING
             )
         )
-    idle = [] if by_volume else [name for name in _names_of_amount(kind) if name in table]
+    idle = [] if by_volume else [name for name in LEADING[kind] if name in table]
     if idle:
         rule = f"has no effect without {path}.concentration"
         out.append(Problem(f"{path}.{idle[0]}", rule, say(table[idle[0]]), code=Mistake.IDLE))

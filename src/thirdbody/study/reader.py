@@ -153,10 +153,6 @@ class Table:
     required: Callable[[Mapping[str, object]], bool] | None = None
     role: str = "contact"
 
-    def is_required(self, whole: Mapping[str, object]) -> bool:
-        """Whether a file must hold it."""
-        return self.key.required if self.required is None else self.required(whole)
-
 
 def rivals(path: str, key: str) -> tuple[str, ...]:
     """Keys of a table that cannot stand beside this one."""
@@ -255,11 +251,6 @@ class Reader:
             raise InvalidValue(*problems)
         return tuple(out)
 
-    def value(self, path: str, data: object, kind: type[Made]) -> Made:
-        """A table that stands for a value class: its fields are the keys."""
-        keys = keys_of(kind)  # type: ignore[arg-type]  # a class is hashable
-        return self.table(path, data, keys, partial(self.make, kind, path))
-
     def variant(
         self,
         path: str,
@@ -352,10 +343,10 @@ def tag_key(options: tuple[str, ...]) -> Key:
 
 
 def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
-    """The key of a table that stands for a value class."""
+    """The key of a table that stands for a value class: its fields are the keys."""
 
     def read(reader: Reader, path: str, data: object) -> object:
-        return reader.value(path, data, kind)
+        return reader.table(path, data, keys_of(kind), partial(reader.make, kind, path))
 
     return Key(None, required, about, NOTHING, read)
 
@@ -478,7 +469,7 @@ def amounts(name: str, about: Quantity, *, sampled: bool = False) -> Key:
     """The key of one value, a list of values, or a range; one to sample has no ``points``."""
     one = number(about).schema
     schema = {"anyOf": [one, {"type": "array", "items": one}]}
-    table = partial(_range, about, sampled)
+    table = partial(_range, about, _keys_of_range(about, sampled))
     return Key(partial(_amounts, about), False, about_of(name, about), schema, table)
 
 
@@ -492,18 +483,30 @@ def _amounts(about: Quantity, reader: Reader, path: str, value: object) -> np.nd
     return np.array(read_numbers(about, reader, path, value))
 
 
-def _range(about: Quantity, sampled: bool, reader: Reader, path: str, data: object) -> object:
-    spacings = ("linear", "log") if about["gt"] is None else ("log", "linear")
+def _spacings(about: Quantity) -> tuple[str, str]:
+    """How the values of a range may lie, that of a range without the word first."""
+    return ("linear", "log") if about["gt"] is None else ("log", "linear")
+
+
+def _keys_of_range(about: Quantity, sampled: bool) -> dict[str, Key]:
+    spacings = _spacings(about)
     example = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
-    end, points = number(about)._replace(required=True), count(f"how many values, {example}")
-    keys = {
+    end = number(about)._replace(required=True)
+    return {
         "from": end._replace(about=f"the lowest value, {example}"),
         "to": end._replace(about=f"the highest value, {example}"),
-        "points": points._replace(required=not (sampled or reader.every_way)),
+        "points": count(f"how many values, {example}")._replace(required=not sampled),
         "spacing": word(spacings),
     }
 
-    log = get(data, "spacing") in ((None, "log") if spacings[0] == "log" else ("log",))
+
+def _range(
+    about: Quantity, keys: Mapping[str, Key], reader: Reader, path: str, data: object
+) -> object:
+    if reader.every_way:
+        keys = {**keys, "points": keys["points"]._replace(required=False)}
+    spacing = get(data, "spacing")
+    log = (_spacings(about)[0] if spacing is None else spacing) == "log"
     problems = _problems_of_ends(about, path, data, log)
     reader.mistakes += problems
 

@@ -102,7 +102,7 @@ def load_circuit(path: str | os.PathLike[str], overrides: Iterable[str] = ()) ->
     life_table = data.get("life")
     if isinstance(life_table, dict) and isinstance(life_table.get("oil"), dict):
         life_table["oil"]["ingress"] = CLEAN
-    return read_tables(data, Path(path).parent, oil_of, lambda t: t.name in NEEDED)
+    return read_tables(data, Path(path).parent, oil_of, NEEDED)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from functools import partial
 
 from ..errors import InvalidValue, Mistake, Problem
 from ..laws import asperity, particle
@@ -12,7 +11,6 @@ from ..populations.materials import Material, MaterialPair, materials
 from ..quantities.units import say
 from .reader import (
     FIELDS,
-    NOTHING,
     Key,
     Reader,
     Table,
@@ -21,6 +19,7 @@ from .reader import (
     read_word,
     table_of,
     text,
+    variants,
     wrong,
 )
 
@@ -58,14 +57,7 @@ def _from_library(reader: Reader, path: str, value: object) -> Material:
 
 
 NAMES = {"anyOf": [{"enum": list(materials)}, {"type": "string"}]}  # and those of a file
-MATERIAL = table_of(Material)._replace(read=_from_library, schema=NAMES)
-FIELDS["Material"] = MATERIAL
-SIDES = {side: MATERIAL._replace(required=True, about=ONE) for side in ("first", "second")}
-
-
-def _surfaces(reader: Reader, path: str, data: object) -> object:
-    """The two bodies."""
-    return reader.table(path, data, SIDES, partial(reader.make, MaterialPair, path))
+FIELDS["Material"] = MATERIAL = table_of(Material, ONE)._replace(read=_from_library, schema=NAMES)
 
 
 def _own_materials(reader: Reader, path: str, value: object) -> object:
@@ -90,13 +82,10 @@ def law_key(registry: Mapping[str, type], about: str = "") -> Key:
 
     def read(reader: Reader, path: str, data: object) -> object:
         if not isinstance(data, str):
-            return table(reader, path, data)
+            return reader.variant(path, data, "name", registry)
         return reader.make(registry[read_word(registry, reader, path, data)], path, {})
 
-    def table(reader: Reader, path: str, data: object) -> object:
-        return reader.variant(path, data, "name", registry)
-
-    return Key(read, False, about, {"enum": registry}, table)
+    return variants("name", registry, about)._replace(read=read, schema={"enum": registry})
 
 
 def class_of(data: object, registry: Mapping[str, type]) -> type | None:
@@ -111,4 +100,4 @@ OWN = 'a file of your own materials, "mine.toml"'
 OWN_MATERIALS = Table(
     name="materials", key=text._replace(read=_own_materials, about=OWN), role="study"
 )
-SURFACES = Table(name="surfaces", key=Key(None, True, BOTH, NOTHING, _surfaces))
+SURFACES = Table(name="surfaces", key=table_of(MaterialPair, BOTH, required=True))

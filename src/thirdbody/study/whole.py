@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Collection, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -31,7 +32,7 @@ from .outputs import on_area
 from .own_code import load_installed
 from .particles import gaps_of
 from .plate import AskedPlate, plate_of
-from .reader import Reader, Table
+from .reader import Reader
 from .schema import Describer
 from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
@@ -199,7 +200,12 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
 
 def check(data: dict[str, object], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
-    return read_tables(data, folder, _study, lambda table: table.is_required(data))
+    needed = [
+        table.name
+        for table in TABLES
+        if (table.key.required if table.required is None else table.required(data))
+    ]
+    return read_tables(data, folder, _study, needed)
 
 
 def load_tables(
@@ -210,24 +216,24 @@ def load_tables(
 ) -> Asked:
     """Object that some tables of a file describe; of them these are needed, and no others."""
     data = override(read(Path(path)), list(overrides))
-    return read_tables(data, Path(path).parent, build, lambda table: table.name in needed)
+    return read_tables(data, Path(path).parent, build, needed)
 
 
 def read_tables(
     data: dict[str, object],
     folder: Path,
     build: Callable[[Reader, dict[str, object]], Asked],
-    needs: Callable[[Table], bool],
+    needed: Collection[str],
 ) -> Asked:
-    """Object that a parsed file in ``folder`` describes, built from its tables."""
+    """Object that a parsed file in ``folder`` describes; the tables of these names must stand."""
     load_installed()
     if "sweep" in data:
         data = with_nested_names(data)
     reader = Reader(folder, data)
-    keys = {table.name: table.key._replace(required=needs(table)) for table in TABLES}
+    keys = {table.name: table.key._replace(required=table.name in needed) for table in TABLES}
     with slips_are_told():
         try:
-            return reader.table("", data, keys, lambda values: build(reader, values))
+            return reader.table("", data, keys, partial(build, reader))
         except InvalidValue as error:
             # to say where a misplaced key belongs, every table must be known
             all_keys = Describer(folder, data).known_of(TABLES)
@@ -235,13 +241,13 @@ def read_tables(
             raise InvalidValue(*all_keys.problems([*reader.mistakes, *error.problems])) from None
 
 
-def _study(reader: Reader, values: dict[str, object]) -> Study:
+def _study(reader: Reader, values: dict[str, Any]) -> Study:
     """The study, from the objects that its tables stand for."""
-
-    def tables_of(role: str) -> dict[str, Any]:
-        return {t.name: values[t.name] for t in TABLES if t.role == role and t.name in values}
-
-    parts, of_study = tables_of("contact"), tables_of("study")
+    parts = {
+        table.name: values[table.name]
+        for table in TABLES
+        if table.role == "contact" and table.name in values
+    }
     if "particles" not in parts and parts.pop("particle_law", None) is not None:
         what = "[particle_law] has no effect, because there is no [particles] table"
         reader.notes.append(Note(what, code="idle.particle_law"))
@@ -250,20 +256,20 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
     if "particle_law" in parts and all(population.law is not None for population in several):
         what = "[particle_law] has no effect: all particles have laws of their own"
         reader.notes.append(Note(what, code="idle.particle_law"))
-    sweep: Any = of_study.get("sweep")
-    film: Any = of_study.get("film")
+    sweep = values.get("sweep")
+    film: Any = values.get("film")
     contact = reader.make(Contact, "", parts)
-    loaded = of_study.get("load") or ends(sweep or {})
-    bodies: Any = of_study.get("body")
+    loaded = values.get("load") or ends(sweep or {})
+    bodies: Any = values.get("body")
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
     if contact.outputs:
         contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
         reader.notes += notes
     if film is not None:
         film = on_body(reader, film, bodies, given_forces, contact.E_ss)
-    connector = connector_of(reader, values) if "connector" in of_study else None
-    plate = plate_of(reader, values) if "plate" in of_study else None
-    life = life_of(reader, values) if "life" in of_study else None
+    connector = connector_of(reader, values) if "connector" in values else None
+    plate = plate_of(reader, values) if "plate" in values else None
+    life = life_of(reader, values) if "life" in values else None
     load, loads = loaded or ("pressure", np.array([_own_pressure(film, connector, plate, contact)]))
     forces = None
     if load == "force":
@@ -285,23 +291,23 @@ def _study(reader: Reader, values: dict[str, object]) -> Study:
         )
     states = None if sweep is None else plan(reader, contact, load, loads, sweep)
     return Study(
-        title=of_study.get("title", ""),
+        title=values.get("title", ""),
         contact=contact,
         load=load,
         values=loads,
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
         gaps=gaps_of(reader.whole),
-        filter=filter_of(reader.whole),
+        filter=None if film is None else filter_of(reader.whole),
         stated=reader.stated_keys,
         sweep=states,
-        uncertainty=of_study.get("uncertainty"),
-        design=of_study.get("design"),
+        uncertainty=values.get("uncertainty"),
+        design=values.get("design"),
         film=film,
         connector=connector,
         plate=plate,
         life=life,
-        explicit=of_study.get("explicit"),
+        explicit=values.get("explicit"),
         faces=tuple(reader.faces),
         own_load=loaded is not None,
         body=bodies if forces is not None else None,

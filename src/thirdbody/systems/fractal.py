@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -17,7 +17,8 @@ from scipy import special
 from ..contact.particle_averages import size_average
 from ..contact.particle_sums import Part
 from ..errors import InvalidValue, Mistake, Problem
-from ..laws.asperity import JG, AbstractAsperityLaw, Hermite
+from ..laws.asperity import JG, AbstractAsperityLaw
+from ..laws.asperity.hermite import SMOOTH
 from ..laws.base import HERMITE
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
 from ..numerics.quadrature import panel_rule
@@ -453,7 +454,7 @@ class GhaedniaMultiscale(Value):
     surface: Stack | MajumdarBhushan
     surfaces: MaterialPair
     particles: Particles
-    law: AbstractAsperityLaw = field(default_factory=Hermite)
+    law: AbstractAsperityLaw = SMOOTH
     size_effect: Callable[[ArrayLike], Array] | None = None
 
     def _problems(self) -> list[str]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
@@ -24,7 +24,7 @@ from ..effects.single.dent import Debris, Dent, dent_of, dents_after, flattened_
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
 from ..errors import InvalidValue, Mistake, Note, Problem, tell_of_range
-from ..laws.asperity.hermite import Hermite
+from ..laws.asperity.hermite import SMOOTH
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
@@ -197,7 +197,7 @@ class FilmParticles(Value):
     fragment: float | None = quantity("x_f", "m", "size of fragments", default=None, gt=0)
     slip: float = quantity("s", "m", "sliding distance under a passing particle", default=0, ge=0)
     f_ab: float | None = quantity("f_ab", "1", "removed part of a groove", default=None, ge=0, le=1)
-    law: AbstractAsperityLaw = field(default_factory=Hermite)
+    law: AbstractAsperityLaw = SMOOTH
     deep: Deep = choice("particles beyond small indentations", default="table")
     friction_factor: float = quantity(
         "m_f", "1", "shear factor on the faces of particles", default=0.2, gt=0, le=1

@@ -64,7 +64,7 @@ class LifeShown(NamedTuple):
 @cache
 def _start() -> AskedLife:
     """The oil where the study has none."""
-    return read_tables({"life": START}, Path(), oil_of, lambda t: t.name in NEEDED)
+    return read_tables({"life": START}, Path(), oil_of, NEEDED)
 
 
 def _scale_oil(request: AskedLife, flow: float, service: float, ingress: float) -> AskedLife:

@@ -9,7 +9,7 @@ from ...errors import Mistake, Problem
 from ..base import Jump
 from .zmc import ZMC
 
-__all__ = ["Hermite"]
+__all__ = ["SMOOTH", "Hermite"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,3 +73,7 @@ class Hermite(ZMC):
         p = k * (u * u * (2 * u - 3) + 1) + m0 * u * (1 - u) ** 2 + u * u * (3 - 2 * u)
         dp = (1 - k) * 6 * u * (1 - u) + m0 * (1 - u) * (1 - 3 * u)
         return p, dp
+
+
+SMOOTH = Hermite()
+"""The law of one contact that particles follow where no other is chosen."""

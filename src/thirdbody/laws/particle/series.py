@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Literal
 
 from ...errors import Mistake, Note, Problem
 from ...populations.shape import Angular
 from ...quantities.value import choice, quantity
-from ..asperity.hermite import Hermite
+from ..asperity.hermite import SMOOTH
 from ..base import HERMITE, AbstractAsperityLaw, AbstractParticleLaw, OneParticle, SeatedLaw
 from .deep import DeepSqueeze
 from .faces import FacedSide, Faces
@@ -147,7 +147,7 @@ class Series(SeatedLaw, _OfTips):
     valid_range = "x/2 ≪ R, A_t < 0.2"
     breakable = True
 
-    law: AbstractAsperityLaw = field(default_factory=Hermite)
+    law: AbstractAsperityLaw = SMOOTH
     soft: Literal["squashed", "sphere"] = choice(
         "particles softer than a surface", default="squashed"
     )
