@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parent))
 import naive
+from cases import HIGH, LOW, contact, inputs, loads
 
 import thirdbody as tb
 from thirdbody.contact import asperity_sums as asperities
@@ -34,8 +35,6 @@ from thirdbody.errors import NotCompiled
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).parent
-LOW, HIGH = 1e-8, 3e-4
-"""Loads F* [1]: from particles alone to a real area of 3 %."""
 DIRECT = {"plane": (1.2e6, 2.4e6), "rough": (3e5, None), "two-body": (None, None)}
 TABLES, OTHERS, ERROR, FIRST, LATER, OUTPUTS = 3e6, 2e5, 1e-10, 5.0, 1.0, 3.0
 """Targets: states a second on one and two threads, relative error, seconds, a ratio of times."""
@@ -56,43 +55,6 @@ class Row:
     @property
     def rate(self) -> float:
         return self.cpu or self.wall or 0.0
-
-
-# ------------------------------------------------------------------------------ contacts
-def contact(seat: str, x_a: float = naive.X_A) -> tb.Contact:
-    """The contact of `naive`; without particles for the seat "two-body"."""
-    steel = tb.Material(E=naive.E, nu=naive.NU, H=naive.H)
-    silica = tb.Material(E=naive.E_A, nu=naive.NU_A, H=7.7e9)
-    sizes = tb.TruncatedGaussian(mean=x_a, std=x_a * naive.S_A / naive.X_A, n=naive.CUT)
-    bare = tb.Contact(
-        surfaces=tb.MaterialPair(steel, steel),
-        roughness=tb.Roughness(sigma=naive.SIGMA, R=naive.R),
-    )
-    if seat == "two-body":
-        return bare
-    return bare.replace(
-        particles=tb.Particles(material=silica, diameter=sizes, areal_density=naive.ETA_A),
-        particle_law=tb.particle.Series(deep="off", seat=seat),
-    )
-
-
-def loads(count: int) -> Array:
-    """F* in random order."""
-    return np.random.default_rng(1).permutation(np.geomspace(LOW, HIGH, count))
-
-
-def inputs(seat: str, count: int) -> dict[str, Array]:
-    """σ, R, η_a and x_a of states, each within ±20 %."""
-    rng = np.random.default_rng(2)
-    sigma, R, density, size = rng.uniform(0.8, 1.2, (4, count))
-    vary = {"roughness.sigma": naive.SIGMA * sigma, "roughness.R": naive.R * R}
-    if seat != "two-body":
-        vary |= {
-            "particles.areal_density": naive.ETA_A * density,
-            "particles.diameter.mean": naive.X_A * size,
-            "particles.diameter.std": naive.S_A * size,
-        }
-    return vary
 
 
 # ----------------------------------------------------------------------------- measuring
@@ -272,8 +234,8 @@ imported = perf_counter()
 import numpy, sys, warnings
 warnings.simplefilter("ignore")
 sys.path.insert(0, sys.argv[1])
-import run
-bound = run.contact("rough")
+import cases
+bound = cases.contact("rough")
 call = perf_counter()
 {call}
 done = perf_counter()
@@ -285,8 +247,9 @@ except OSError:
     pass
 print(imported - start, done - call, peak)
 """
-SOLVE = "thirdbody.solve(bound, F_star=run.loads({count}))"
-STATES = "run.state_columns(bound, F_star=run.loads({count}), vary=run.inputs('rough', {count}))"
+SOLVE = "thirdbody.solve(bound, F_star=cases.loads({count}))"
+STATES = """from thirdbody.equilibrium.states import state_columns
+state_columns(bound, F_star=cases.loads({count}), vary=cases.inputs("rough", {count}))"""
 
 
 def alone(call: str, **variables: object) -> tuple[float, float, float]:
