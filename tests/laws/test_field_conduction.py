@@ -46,17 +46,33 @@ def test_more_trial_forces_and_more_terms_change_nothing():
     assert few == pytest.approx(many, rel=1e-3)
 
 
+def solved_directly(surface, h, terms: int):
+    """κ at separations by the columns of the table there, without a table of κ."""
+    columns = surface.columns(h)
+    series, tau = surface.spectrum.series(terms), np.clip(columns[:, TAU], 0, 1)
+    return patch_stiffness(series, h + columns[:, EDGE], tau)
+
+
 @pytest.mark.parametrize("chi", [0.1, 0.41, 50.0])
 def test_table_of_stiffness(chi):
-    """Between its separations and beyond them as solved there."""
+    """Between its separations as solved there."""
     surface = field_of(chi, 5.0)
-    h = np.array([0.33, 1.27, 3.1, 4.99, 5.01, 7.0])
-    columns = surface.columns(h)
-    direct = patch_stiffness(
-        surface.spectrum.series(400), h + columns[:, EDGE], np.clip(columns[:, TAU], 0, 1)
-    )
-    assert surface.stiffness(h) == pytest.approx(direct, rel=5e-4)
+    h = np.array([0.33, 1.27, 3.1, 4.99])
+    assert surface.stiffness(h) == pytest.approx(solved_directly(surface, h, 400), rel=5e-4)
     assert np.isnan(surface.stiffness(np.array([surface.lowest - 0.1]))[0])
+
+
+@pytest.mark.parametrize(("alpha", "error"), [(2.5, 3e-3), (5.0, 8e-3), (30.0, 0.025)])
+@pytest.mark.parametrize("chi", [0.05, 1.0, 20.0])
+def test_stiffness_beyond_the_table(alpha, chi, error):
+    """It goes on to lone round patches, and where there are none to 0."""
+    surface = field_of(chi, alpha)
+    h = np.array([5.01, 5.5, 6.0, 7.0, 8.0, 10.0])
+    assert surface.stiffness(h) == pytest.approx(solved_directly(surface, h, 3000), rel=error)
+    far = surface.stiffness(np.array([20.0, 37.0, 38.0, 45.0, 1e4]))
+    assert np.all(np.diff(far) <= 0)
+    assert far[0] > 0
+    assert np.all(far[3:] == 0)
 
 
 def test_lone_patches_of_high_levels():

@@ -25,6 +25,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import ndtr
 
 from ...numerics.quadrature import gauss_legendre
 
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["patch_remainder", "patch_stiffness"]
+__all__ = ["lone_stiffness", "patch_remainder", "patch_stiffness"]
 
 TERMS, MODES, NODES = 400, 4, 120
 """Of the sum over n, of f in θ, of integrals over θ."""
@@ -69,6 +70,18 @@ def patch_stiffness(series: FilteredSeries, low: Array, tau: Array) -> Array:
     stiff *= 2 * math.sqrt(2) * series.spectrum.steeper
     force = np.linalg.solve(stiff, gain[..., None])[..., 0]
     return np.einsum("ij,ij->i", force, gain)
+
+
+def lone_stiffness(low: Array) -> Array:
+    r"""Stiffness κ of the patches s > low far up, where each is round and alone: (N,).
+
+    .. math:: \kappa = \frac{2\sigma}{g} n \langle a \rangle
+              \to \frac{s_0 Q(s_0)}{2\sqrt\pi},
+
+    with :math:`n = g^2 s_0 \varphi(s_0)/(4\pi\sigma^2)` patches per area (Nayak 1971,
+    doi:10.1115/1.3451608), whose heights above :math:`s_0`, and so areas, are exponential.
+    """
+    return np.asarray(low * ndtr(-low) / (2 * math.sqrt(math.pi)))
 
 
 def patch_remainder(alpha: float) -> float:

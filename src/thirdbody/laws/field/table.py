@@ -16,7 +16,7 @@ import numpy as np
 from scipy.special import erfcx, ndtr
 
 from ...errors import InvalidValue, Mistake
-from .conduction import TERMS, patch_stiffness
+from .conduction import TERMS, lone_stiffness, patch_stiffness
 from .programme import MOMENTS
 from .reduced import mean_pressure
 from .spectrum import Spectrum, rolled_off
@@ -54,6 +54,11 @@ COLUMNS = FIRST + MOMENTS
 def bearing(h: Array) -> Array:
     """Q(h), the part of a Gaussian surface above h: (N,)."""
     return ndtr(-h)
+
+
+def normal(h: Array) -> Array:
+    """φ(h), the density of heights: (N,)."""
+    return np.exp(-0.5 * h * h) / math.sqrt(2 * math.pi)
 
 
 def plastic_energy(h: Array, chi: float) -> Array:
@@ -189,18 +194,31 @@ class FieldSurface:
         stiff = self._patches(self.rows)
         return make_interp_spline(self.h, np.log(stiff / ndtr(-self.h)), k=5)
 
-    def _patches(self, columns: Array, h: Array | None = None) -> Array:
-        h = self.h if h is None else h
+    def _patches(self, columns: Array) -> Array:
         return patch_stiffness(
-            self.spectrum.series(TERMS), h + columns[:, EDGE], np.clip(columns[:, TAU], 0.0, 1.0)
+            self.spectrum.series(TERMS),
+            self.h + columns[:, EDGE],
+            np.clip(columns[:, TAU], 0.0, 1.0),
         )
 
+    def _stiffness_beyond(self, h: Array) -> Array:
+        """κ beyond the table: what ln κ is above that of lone round patches falls like 1/h²."""
+        last = self.h[-1:]
+        above = np.exp(self._stiffness(last)) * ndtr(-last) / self._lone(last)
+        return np.asarray(self._lone(h) * above ** (last / h) ** 2)
+
+    def _lone(self, h: Array) -> Array:
+        return lone_stiffness(h + self.columns(h)[:, EDGE])
+
     def stiffness(self, h: Array) -> Array:
-        """κ = Kσ/(E*g), the stiffness of the patches that touch, not less: (N,)."""
+        """κ = Kσ/(E*g), the stiffness of the patches that touch, not less: (N,).
+
+        Beyond the table, where they cover less than 3e-7 of the area, to 2.5 %.
+        """
         inside = np.clip(h, self.lowest, self.h[-1])
         out = np.exp(self._stiffness(inside)) * ndtr(-inside)
         if np.any(beyond := h > self.h[-1]):
-            out[beyond] = self._patches(self.columns(h[beyond]), h[beyond])
+            out[beyond] = self._stiffness_beyond(h[beyond])
         out[h < self.lowest] = np.nan
         return out
 
