@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import Note, code_of
 from ..quantities.say import number
-from .output import AbstractOutput
+from .output import AbstractOutput, changes
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -236,7 +236,16 @@ def _splits(
         spots = law.probe(eps, surfaces=surfaces, particle=particle)
         return replace(spots, material=particle)
 
-    return tuple(float(eps) for eps in output.splits(probe))
+    def impression_kinds(spots: ParticleSpots) -> NDArray[np.intp]:
+        return 8 * spots.impression_kind(0) + spots.impression_kind(1)
+
+    splits = [float(eps) for eps in output.splits(probe)]
+    if output.follows_sinks:
+        splits += changes(
+            probe, lambda spots: 8 * spots.impression_kind(0) + spots.impression_kind(1)
+        )
+        splits += law.one(surfaces=surfaces, particle=particle).sink_bends
+    return tuple(splits)
 
 
 def _laid_out_together(d: Array, contact_interface: Interface) -> Iterator[NDArray[np.intp]]:

@@ -31,7 +31,50 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Probe = Callable[[Array], ParticleSpots]
 
-__all__ = ["AbstractOutput", "Column"]
+__all__ = ["AbstractOutput", "Column", "changes"]
+
+SQUEEZES = np.geomspace(1e-6, 2.0, 300)
+"""Where changes of a particle's kind are looked for: δ/x."""
+ROUNDS, FINER = 5, 100
+"""A change is narrowed down so many times, each time so many times finer."""
+
+
+def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> list[float]:
+    """Squeezes over diameter ε at which particles become of another kind.
+
+    Parameters
+    ----------
+    probe : callable
+        ``probe(ε)`` gives particles of unit size, one a row; see `AbstractOutput.splits`.
+    kind : callable
+        A whole number for each particle of such a group: (M, n).
+
+    Returns
+    -------
+    list of float
+        Every ε between 1e-6 and 2 [1] at which that number changes, to 1e-10 of the spacing of the
+        300 first looked at; two changes between neighbours of these are not seen.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> found = changes(lambda eps: SimpleNamespace(x=eps[:, None]), lambda it: (it.x > 0.1) * 1)
+    >>> [round(eps, 9) for eps in found]
+    [0.1]
+    """
+
+    def kinds_at(eps: Array) -> NDArray[np.intp]:
+        return kind(probe(eps.ravel())).reshape(eps.shape)
+
+    jumps = np.flatnonzero(np.diff(kinds_at(SQUEEZES)))
+    low, high = SQUEEZES[jumps], SQUEEZES[jumps + 1]
+    steps, row = np.linspace(0.0, 1.0, FINER + 1), np.arange(len(jumps))
+    for _ in range(ROUNDS if len(jumps) else 0):
+        eps = low[:, None] + (high - low)[:, None] * steps
+        kinds = kinds_at(eps)
+        first = np.argmax(kinds != kinds[:, :1], axis=1)
+        low, high = eps[row, first - 1], eps[row, first]
+    return [float(eps) for eps in high]
 
 
 class AbstractOutput(Law):
@@ -58,6 +101,9 @@ class AbstractOutput(Law):
     """Whether it says itself where an area A_n holds less than one contact on average."""
     by_population: ClassVar[bool] = False
     """Whether it is given for each of several populations of particles too."""
+    follows_sinks: ClassVar[bool] = False
+    """Whether it depends on how deep particles sink into the surfaces, which bends where their law
+    says (`OneParticle.sink_bends`)."""
 
     @abstractmethod
     def of(self, state: Any) -> dict[str, Array]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.field_sums import FieldSpots
-from ..contact.output import AbstractOutput, Column, missing
+from ..contact.output import AbstractOutput, Column, changes, missing
 from ..errors import Mistake, Note
 from ..populations.conduction import conducts
 from ..populations.materials import Material
@@ -21,6 +21,7 @@ from .single.heat import (
     Spreading,
     absolute_slope,
     cooper_mikic_yovanovich,
+    particle_resistance,
     sphere_resistance,
     spot_resistance,
     spreading,
@@ -28,12 +29,11 @@ from .single.heat import (
 from .single_contacts import single_contacts
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from numpy.typing import NDArray
 
     from ..contact.contact import Contact
     from ..contact.evaluation import Solved
+    from ..contact.output import Probe
     from ..contact.spots import AsperitySpots
     from ..laws.spots import ParticleSpots
     from ..populations.particles import Particles
@@ -107,7 +107,7 @@ def _through_particles(
         touches = (spots.areas[0] > 0) & (spots.areas[1] > 0)
         b_1, b_2 = (np.sqrt(np.where(touches, area, 1.0) / np.pi) for area in spots.areas)
         radius = np.where(touches, spots.x / 2, 1.0)
-        R = sphere_resistance(b_1, a_2=b_2, r=radius, k=1 / rho_particle)
+        R = particle_resistance(b_1, a_2=b_2, r=radius, height=spots.height, k=1 / rho_particle)
         # its own constrictions are part of that; the other body, film and Γ come on top
         for b, material in ((b_1, pair.first), (b_2, pair.second)):
             spot = spot_resistance(
@@ -229,10 +229,24 @@ def about_wide(name: str, share: float) -> Note:
     """Note on particles that touch on more than half their radius: how sure their resistance is."""
     what = (
         f"outputs.{name}: particles with {percent(share, digits=2)} of the particle load touch on "
-        "more than half their radius, where their resistance is overestimated by 7 % and more"
+        "more than half their radius, where their resistance is overestimated: by up to 11 % where "
+        "they are squashed, by 7 % and more where they sink in"
     )
-    action = "under less load, or with harder particles, it is known better"
-    return Note(what, code=f"{name}.wide", effect=0.07 * share, action=action)
+    action = "under less load it is known better"
+    return Note(what, code=f"{name}.wide", effect=0.11 * share, action=action)
+
+
+def resistance_bends(probe: Probe) -> list[float]:
+    """Squeezes ε at which the resistance of a particle changes its formula."""
+
+    def by_cones(spots: ParticleSpots) -> NDArray[np.intp]:
+        a_1, a_2 = (np.sqrt(area / np.pi) for area in spots.areas)
+        r = spots.x / 2
+        sphere = sphere_resistance(a_1, a_2=a_2, r=r, k=1.0)
+        whole = particle_resistance(a_1, a_2=a_2, r=r, height=spots.height, k=1.0)
+        return np.asarray(sphere != whole, dtype=np.intp)
+
+    return changes(probe, by_cones)
 
 
 def wide_share(state: Solved) -> float:
@@ -264,8 +278,8 @@ class ThermalConductance(AbstractOutput):
               h_{sa} = \sum_{sa}\frac{n}{R}, \qquad h_{gap} = \frac{k_g}{Y+M},
 
     with :math:`k_h = 2k_1k_2/(k_1+k_2)`, b = √(a/π), ψ = (1−√A_ss)^1.5, and the resistance of a
-    particle :math:`R = 1/(4k_1b_1)+1/(4k_2b_2)+R_{sphere}`
-    (`thirdbody.effects.single.heat.sphere_resistance`).
+    particle :math:`R = 1/(4k_1b_1)+1/(4k_2b_2)+R_p`
+    (`thirdbody.effects.single.heat.particle_resistance`).
 
     Parameters
     ----------
@@ -344,8 +358,9 @@ class ThermalConductance(AbstractOutput):
     )
     doi = "10.1016/0017-9310(69)90011-8"
     provenance = "derived"
-    valid_range = "A_t < 0.2; b < x/4 for particles"
+    valid_range = "A_t < 0.2; b < x/4 for particles that sink in"
     tells_few = True
+    follows_sinks = True
     columns = {
         "hc": Column("h", "W/m^2/K", "thermal conductance"),
         "hc_ss": Column("h_ss", "W/m^2/K", "thermal conductance of asperities"),
@@ -387,6 +402,9 @@ class ThermalConductance(AbstractOutput):
         m = absolute_slope(sigma=rough.sigma, R=rough.R, alpha=rough.alpha)
         low_pressure = np.where(state.pressure < 0.5 * pair.H, state.pressure, np.nan)
         return cooper_mikic_yovanovich(low_pressure, H=pair.H, k=k, m=float(m), sigma=rough.sigma)
+
+    def splits(self, probe: Probe) -> Sequence[float]:
+        return resistance_bends(probe)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         return _warnings(self, state, "hc, hc_ss and hc_sa", "hc_closed")
@@ -472,8 +490,9 @@ class ElectricalConductance(AbstractOutput):
     )
     doi = "10.1088/0370-1328/89/4/316"
     provenance = "derived"
-    valid_range = "A_t < 0.2; b < x/4 for particles"
+    valid_range = "A_t < 0.2; b < x/4 for particles that sink in"
     tells_few = True
+    follows_sinks = True
     columns = {
         "gc": Column("g", "S/m^2", "electrical conductance"),
         "gc_ss": Column("g_ss", "S/m^2", "electrical conductance of asperities"),
@@ -518,6 +537,9 @@ class ElectricalConductance(AbstractOutput):
         total = out["gc_ss"] + out["gc_sa"]
         with np.errstate(divide="ignore"):
             return {"gc": total, **out, "rho_c": 1 / total}
+
+    def splits(self, probe: Probe) -> Sequence[float]:
+        return resistance_bends(probe)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         return _warnings(self, state, "gc, gc_ss, gc_sa and rho_c", "gc_closed")

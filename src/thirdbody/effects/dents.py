@@ -130,6 +130,7 @@ class Dents(AbstractOutput):
     valid_range = "particles harder than the surface; depths up to their radius"
     tells_few = True
     by_population = True
+    follows_sinks = True
     columns = {
         f"{name}_{side}": Column(f"{symbol},{side}", unit, f"{meaning} in surface {side}")
         for side in (1, 2)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from ..contact.evaluation import bodies_of
-from ..contact.output import AbstractOutput, Column
+from ..contact.output import AbstractOutput, Column, changes
 from ..errors import Mistake, Note, Problem
 from ..populations.shape import CUTS
 from ..quantities.say import value_of
@@ -19,7 +19,7 @@ from .single.ploughing import coefficient, coefficient_of_faces, rear_support
 from .single.severity import severity, threshold
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -38,10 +38,6 @@ __all__ = ["Friction", "Motion", "changes"]
 PARTS = ("ss_shear", "ss_plough", "sa_shear", "sa_plough", "sa_roll")
 TUMBLES = 1.74
 """Longest axis over gap below which a particle that is no sphere can turn over."""
-SQUEEZES = np.geomspace(1e-6, 2.0, 300)
-"""Where jumps of a particle's force are looked for: δ/x."""
-ROUNDS, FINER = 5, 100
-"""A jump is narrowed down so many times, each time so many times finer."""
 TIE = 1e-12
 """Two ways of sliding that differ by less, relatively, cost the same."""
 
@@ -70,44 +66,6 @@ class Motion(NamedTuple):
     """Ploughing force of sliding over either surface, over the load [1]."""
     resistance: Array
     """Rolling force over the load [1]."""
-
-
-def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> list[float]:
-    """Squeezes over diameter ε at which particles become of another kind.
-
-    Parameters
-    ----------
-    probe : callable
-        ``probe(ε)`` gives particles of unit size, one a row; see `AbstractOutput.splits`.
-    kind : callable
-        A whole number for each particle of such a group: (M, n).
-
-    Returns
-    -------
-    list of float
-        Every ε between 1e-6 and 2 [1] at which that number changes, to 1e-10 of the spacing of the
-        300 first looked at; two changes between neighbours of these are not seen.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> found = changes(lambda eps: SimpleNamespace(x=eps[:, None]), lambda it: (it.x > 0.1) * 1)
-    >>> [round(eps, 9) for eps in found]
-    [0.1]
-    """
-
-    def kinds_at(eps: Array) -> NDArray[np.intp]:
-        return kind(probe(eps.ravel())).reshape(eps.shape)
-
-    jumps = np.flatnonzero(np.diff(kinds_at(SQUEEZES)))
-    low, high = SQUEEZES[jumps], SQUEEZES[jumps + 1]
-    steps, row = np.linspace(0.0, 1.0, FINER + 1), np.arange(len(jumps))
-    for _ in range(ROUNDS if len(jumps) else 0):
-        eps = low[:, None] + (high - low)[:, None] * steps
-        kinds = kinds_at(eps)
-        first = np.argmax(kinds != kinds[:, :1], axis=1)
-        low, high = eps[row, first - 1], eps[row, first]
-    return [float(eps) for eps in high]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -233,6 +191,7 @@ class Friction(AbstractOutput):
     citation = "thirdbody: shear, ploughing and rolling of the contacts of a solved state"
     provenance = "derived"
     valid_range = "dry sliding; depths up to the radius of what ploughs"
+    follows_sinks = True
     columns = {
         "mu": Column("μ", "1", "coefficient of friction"),
         "mu_ss_shear": Column("μ_ss,τ", "1", "part of μ: shear of asperities"),

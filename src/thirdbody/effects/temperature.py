@@ -14,15 +14,15 @@ from ..contact.output import AbstractOutput, Column, missing
 from ..errors import Mistake, Note, Problem
 from ..quantities.say import number
 from ..quantities.value import choice, quantity
-from .conductance import about_wide, wide_share
+from .conductance import about_wide, resistance_bends, wide_share
 from .single.heat import (
     Flux,
     Kind,
     body_conductance,
     bridge,
+    particle_resistance,
     partition,
     peclet,
-    sphere_resistance,
     sudden_share,
 )
 
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
     from ..contact.contact import Contact
     from ..contact.evaluation import Solved
+    from ..contact.output import Probe
     from ..contact.spots import AsperitySpots
     from ..laws.spots import ParticleSpots, Spots
     from ..populations.materials import Material
@@ -177,7 +178,10 @@ class FlashTemperature(AbstractOutput):
     citation = "Tian and Kennedy 1994, J. Tribol. 116, 167; thirdbody: particles as bridges"
     doi = "10.1115/1.2927035"
     provenance = "derived"
-    valid_range = "a < r/2 for particles; temperatures at which hardness and strength stay"
+    valid_range = (
+        "a < r/2 for particles that sink in; temperatures at which hardness and strength stay"
+    )
+    follows_sinks = True
     needs = ("friction",)
     columns = {
         f"dT_{group}_{name}": Column(f"ΔT_{group},{name}", "K", f"{meaning} of {kind}")
@@ -269,7 +273,14 @@ class FlashTemperature(AbstractOutput):
         assert k is not None
         with np.errstate(invalid="ignore", divide="ignore"):
             a_1, a_2 = (np.sqrt(area / np.pi) for area in spots.areas)
-            R = sphere_resistance(a_1, a_2=a_2, r=spots.x / 2, k=k, ends=(self.flux, self.kind))
+            R = particle_resistance(
+                a_1,
+                a_2=a_2,
+                r=spots.x / 2,
+                height=spots.height,
+                k=k,
+                ends=(self.flux, self.kind),
+            )
             G, heat = [], []
             pair = state.contact.surfaces
             for i, (material, a) in enumerate(
@@ -374,6 +385,9 @@ class FlashTemperature(AbstractOutput):
                 code = f"{self.name}.few.{group}"
                 out.append(Note(what, code=code, effect=math.inf, action="a larger A_n has one"))
         return out
+
+    def splits(self, probe: Probe) -> Sequence[float]:
+        return resistance_bends(probe)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         share = wide_share(state)

@@ -133,6 +133,7 @@ class Wear(AbstractOutput):
     provenance = "derived"
     valid_range = "coefficients measured on the same materials; shapes that wear leaves as they are"
     needs = ("friction",)
+    follows_sinks = True
     columns = {
         "wear": Column("V/(A_n L)", "1", "worn volume per area and sliding length"),
         "wear_1": Column("V_1", "1", "worn from surface 1"),

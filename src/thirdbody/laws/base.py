@@ -387,6 +387,11 @@ class OneParticle(ABC):
     def regime(self, side: int, depth: Array) -> NDArray[np.intp]:
         """Index into `REGIMES` of side 0 or 1 indented by depth over x (N,)."""
 
+    @property
+    def sink_bends(self) -> Sequence[float]:
+        """Squeezes ε at which the depth of an impression bends, between `kinks`."""
+        return ()
+
     def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
         """Depths of the impressions in the surfaces, of indentations (N,); all over x."""
         return depths

@@ -177,6 +177,22 @@ class ParticleSpots(Spots):
         return self.radius if self.shape is None else 0.5 * self.x
 
     @property
+    def height(self) -> Array:
+        """Height left of each particle (M, n) [m]: its size less what it is squashed itself.
+
+        Where the law does not say that, the softer of particle and surface gives way.
+        """
+        left = self.x
+        for depth, sink, knows, H in zip(
+            self.depths, self.sinks, self.knows_sink, self.hardness, strict=True
+        ):
+            if knows:
+                left = left - (depth - sink)
+            elif self.material is not None and self.material.H <= H:
+                left = left - depth
+        return np.maximum(left, 0.0)
+
+    @property
     def even(self) -> NDArray[np.bool_]:
         """Particles whose two contacts are alike (M, n): what slides, slides over either."""
         alike = np.full(self.x.shape, math.isclose(*self.hardness, rel_tol=EVEN))
@@ -195,6 +211,16 @@ class ParticleSpots(Spots):
         d, a = self.sinks[side], np.sqrt(self.areas[side] / np.pi)
         cap = np.divide(a**2 + d**2, 2 * d, out=np.zeros_like(d), where=d > 0)
         return np.maximum(self.radius, np.where(d < a, cap, a))
+
+    def impression_kind(self, side: int) -> NDArray[np.intp]:
+        """A number (M, n) that changes where an impression follows another formula.
+
+        It yields, its cap is flatter than the tip of the particle, it is deeper than wide.
+        """
+        yielding = self.sinks[side] > self.yields[side] * self.x
+        flatter = self.impression_radius(side) > self.radius
+        deeper = self.sinks[side] > np.sqrt(self.areas[side] / np.pi)
+        return 4 * yielding + 2 * flatter + 1 * deeper
 
     def thin_spots(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""

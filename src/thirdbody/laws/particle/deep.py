@@ -389,6 +389,7 @@ class DeepSide(Side):
         self.taken = float(squashed_part(curve.sinks))
         self.thick = 1 - TABLE_ENDS * self.taken
         self.end = self._sinks(max(1 / form.ratio, 1.0))
+        self.sink_bends = [*(R * SINK_AT[SINK_AT < self.end]).tolist(), R * self.end]
         turns = [y for y in self.law.breakpoints if y < self._reduced_indentation(LAW_ENDS)]
         turns += self._reduced_indentation(
             np.array([LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol
 
@@ -18,6 +18,8 @@ from ...quantities.say import value_of
 from ..base import REGIMES, AbstractAsperityLaw, OneParticle, Squeezed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     from ...populations.materials import Material, MaterialPair
@@ -62,6 +64,8 @@ class Side:
     spreads = False
     knows_sink = False
     """`sink` is not the whole indentation, but what was computed."""
+    sink_bends: Sequence[float] = ()
+    """Indentations over x at which `sink` bends."""
 
     def __init__(
         self,
@@ -382,6 +386,19 @@ class SqueezedParticle(OneParticle):
     def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
         one, two = depths
         return self.sides[0].sink(one), self.sides[1].sink(two)
+
+    @cached_property
+    def sink_bends(self) -> Sequence[float]:
+        """Squeezes ε at which the sink into either side bends."""
+        if self.equal:
+            return [2 * delta for delta in self.sides[0].sink_bends]
+        bends = set()
+        for side, other in (self.sides, self.sides[::-1]):
+            for delta in side.sink_bends:
+                force = float(side.force(np.array([delta]))[0])
+                if force < float(other.limit[0]) * (1 - 1e-12):
+                    bends.add(delta + other.indentation(force))
+        return sorted(bends)
 
     def __call__(self, eps: Array) -> Array:
         out = OneParticle.__call__(self, eps)
