@@ -11,7 +11,7 @@ from thirdbody.equilibrium import states
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.compiled import batch
 from thirdbody.equilibrium.states import state_columns
-from thirdbody.equilibrium.status import TABLE_ENDS, Status
+from thirdbody.equilibrium.status import FIELD_SENTENCES, Status
 from thirdbody.laws.field.formulas import hardness_ratio
 from thirdbody.laws.field.own import RollOff
 
@@ -120,7 +120,7 @@ def test_a_load_that_is_too_much_is_told_of_the_table():
     sigma = np.linspace(90e-9, 110e-9, 30)
     found = state_columns(contact(), F_star=np.full(30, 0.9), vary={"roughness.sigma": sigma})
     assert set(found["status_code"]) == {1}
-    assert {str(each) for each in found["status"]} == {TABLE_ENDS}
+    assert {str(each) for each in found["status"]} == {FIELD_SENTENCES[Status.TOO_MUCH]}
 
 
 @pytest.mark.parametrize(

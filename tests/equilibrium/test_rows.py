@@ -106,6 +106,11 @@ def test_a_change_of_any_module_of_the_engine_compiles_anew(tmp_path, monkeypatc
     assert fresh().is_cached(signature)
     (engine / "layout.py").write_text("TERMS = 20\n")
     assert not fresh().is_cached(signature)
+    (engine / "layout.py").write_text("TERMS = 18\n")
+    assert fresh().is_cached(signature)
+    for path in home.rglob("*.nbc"):
+        path.unlink()
+    assert not fresh().is_cached(signature)
     sys.modules.pop("doubles")
 
 

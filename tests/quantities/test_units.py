@@ -8,7 +8,7 @@ import pytest
 
 from thirdbody.errors import InvalidValue
 from thirdbody.quantities.kinds import one_spelling, registry
-from thirdbody.quantities.units import _POWERS, _scale, say, to_si
+from thirdbody.quantities.units import _FACTORS, _POWERS, _scale, say, to_si
 
 
 @pytest.mark.parametrize(
@@ -114,7 +114,19 @@ def test_pint_is_loaded_only_for_an_unusual_unit():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-@pytest.mark.parametrize(("unit", "name"), [(u, n) for u, names in _POWERS.items() for n in names])
+def entries(table):
+    return [(unit, name) for unit, names in table.items() for name in names]
+
+
+@pytest.mark.parametrize(("unit", "name"), entries(_FACTORS))
+def test_usual_units_that_are_no_powers_of_ten_are_those_of_the_registry(unit, name):
+    body = one_spelling(name)
+    for number in ("1", "0.3", "7e-3", "-1.7", "123456.789", "1500", "inf", "-inf", "1e-320"):
+        assert to_si(f"{number} {name}", unit) == _scale(number, body, "", unit)
+    assert math.isnan(to_si(f"nan {name}", unit))
+
+
+@pytest.mark.parametrize(("unit", "name"), entries(_POWERS))
 def test_usual_units_are_those_of_the_registry(unit, name):
     wanted = unit.replace("^", "**")
     known = registry()(f"1 {name}" if name[0] in "/1" else name).to(wanted)

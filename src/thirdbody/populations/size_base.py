@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -115,8 +116,8 @@ class Distribution(Named):
 
     def moment(self, n: int) -> float:
         """Full moment ⟨x^n⟩ [m^n]."""
-        lo, hi = self.support
-        return float(self.partial_moment(n, lo - 1.0, hi))
+        kept = type(self).__hash__ is not None  # what holds arrays has none
+        return _moment(self, n) if kept else _moment.__wrapped__(self, n)
 
     @property
     def mean_diameter(self) -> float:
@@ -131,6 +132,13 @@ class Distribution(Named):
     def sample(self, rng: np.random.Generator, size: int | tuple[int, ...]) -> Array:
         """Random diameters [m]."""
         return self.ppf(rng.random(size))
+
+
+@lru_cache(maxsize=512)
+def _moment(sizes: Distribution, n: int) -> float:
+    """The cached full moment of a distribution: what is near it is asked for it again and again."""
+    lo, hi = sizes.support
+    return float(sizes.partial_moment(n, lo - 1.0, hi))
 
 
 def _ratio(value: float, scale: float) -> float:

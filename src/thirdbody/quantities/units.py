@@ -85,16 +85,37 @@ EXAMPLES = {
 _USUAL = ("nm", "um", "µm", "mm", "m", "angstrom", "Pa", "kPa", "MPa", "GPa", "bar", "psi")
 
 _POWERS = {
-    "m": {"nm": -9, "um": -6, "µm": -6, "mm": -3, "m": 0},
-    "Pa": {"Pa": 0, "kPa": 3, "MPa": 6, "GPa": 9},
-    "1/m^2": {"1/m^2": 0, "/ m^2": 0},
-    "N": {"N": 0, "kN": 3},
+    "m": {"nm": -9, "um": -6, "µm": -6, "mm": -3, "cm": -2, "m": 0},
+    "Pa": {"Pa": 0, "kPa": 3, "bar": 5, "MPa": 6, "GPa": 9},
+    "1/m": {"1/m": 0, "/ m": 0, "1/mm": 3, "/ mm": 3},
+    "m^2": {"um^2": -12, "mm^2": -6, "cm^2": -4, "m^2": 0},
+    "1/m^2": {"1/m^2": 0, "/ m^2": 0, "1/mm^2": 6, "/ mm^2": 6},
+    "m^3": {"mL": -6, "L": -3, "m^3": 0},
+    "1/m^3": {"1/m^3": 0, "/ m^3": 0, "1/mL": 6, "/ mL": 6},
+    "N": {"mN": -3, "N": 0, "kN": 3},
     "m/s": {"mm/s": -3, "m/s": 0},
-    "Pa s": {"mPa s": -3, "Pa s": 0},
+    "s": {"us": -6, "ms": -3, "s": 0},
+    "rad": {"rad": 0},
+    "rad/s": {"rad/s": 0},
+    "Pa s": {"mPa s": -3, "cP": -3, "Pa s": 0},
     "1/Pa": {"1/GPa": -9, "/ GPa": -9, "1/Pa": 0},
+    "Pa m^0.5": {"MPa m^0.5": 6},
+    "kg": {"mg": -6, "g": -3, "kg": 0},
     "kg/m^3": {"kg/m^3": 0, "g/cm^3": 3},
+    "J/m^2": {"mJ/m^2": -3, "J/m^2": 0},
+    "W/m/K": {"W/m/K": 0},
+    "J/kg/K": {"J/kg/K": 0},
+    "ohm*m": {"ohm*m": 0, "ohm m": 0},
+    "A": {"mA": -3, "A": 0},
 }
 """The usual units as powers of ten of those that are needed: the registry takes half a second."""
+
+_FACTORS = {
+    "rad": {"deg": math.pi / 180},
+    "rad/s": {"rpm": math.pi / 30},
+    "s": {"min": 60.0, "h": 3600.0, "day": 86400.0},
+}
+"""Usual units that are no powers of ten, with the factors of the registry."""
 
 _NUMBER = re.compile(
     r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:infinity|inf|nan)\b", re.IGNORECASE
@@ -159,6 +180,9 @@ def to_si(value: object, unit: str) -> float:
     power = _POWERS.get(unit, {}).get(rest)
     if power is not None and math.isfinite(float(number.group())):
         return _shift(number.group(), power)
+    factor = _FACTORS.get(unit, {}).get(rest)
+    if factor is not None:
+        return float(number.group()) * factor
     shown = say(value)
     if re.match(r",\d", rest):
         return _refuse(_about_comma(text, shown), Mistake.FORM)

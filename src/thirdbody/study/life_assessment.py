@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,23 +10,9 @@ from ..errors import InvalidValue, Mistake, Problem
 from .asked_result import QuestionResult, question_entries
 from .life import AskedDry, AskedLife
 from .life_bands import COUNT, LifeBands
-from .life_uncertainty import names_life
 from .run_life import bands_of
-from .toml import override, read
 
-__all__ = ["LifeAssessment", "asks_for_bands", "assess_life"]
-
-
-def asks_for_bands(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> bool:
-    """Whether a study file has [life.uncertainty], or names numbers of [life] in [uncertainty].
-
-    Parameters
-    ----------
-    path : path-like
-    overrides : iterable of str, optional
-        As those of `thirdbody.load_study`.
-    """
-    return names_life(override(read(Path(path)), list(overrides)))
+__all__ = ["LifeAssessment", "assess_life"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

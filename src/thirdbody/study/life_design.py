@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue, Mistake, Problem
@@ -14,9 +16,10 @@ from ..systems.life.until import Until
 from ..systems.oil_filter import Filter
 from .life_dirt import CODE
 from .life_uncertainty import one_name_of, with_numbers
-from .reader import NOTHING, Key, Reader, read_number, wrong
+from .reader import NOTHING, Key, Reader, get, read_number, wrong
+from .toml import override, read
 
-__all__ = ["AskedDesign", "design_key", "design_of"]
+__all__ = ["AskedDesign", "asks_for_design", "design_key", "design_of"]
 
 CHOICES = (
     'e.g. [[life.design.choices]] name = "larger filter", "filters.0.capacity" = "100 g", at '
@@ -169,3 +172,15 @@ def design_of(
         for i, entry in enumerate(table["choices"])
     }
     return AskedDesign(circuits=circuits)
+
+
+def asks_for_design(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> bool:
+    """Whether a study file has a table [life.design].
+
+    Parameters
+    ----------
+    path : path-like
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+    """
+    return get(override(read(Path(path)), list(overrides)).get("life"), "design") is not None

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from ..analysis.uncertainty.inputs import Uncertain
@@ -15,12 +17,14 @@ from ..quantities.value import quantity
 from ..systems.life.circuit import OilCircuit
 from .inputs import inputs_of
 from .reader import Reader, get
+from .toml import override, read
 from .uncertainty import LIFE, ranges_of, read_uncertain
 
 __all__ = [
     "FACTOR",
     "KnownOfLife",
     "about_circuit",
+    "asks_for_bands",
     "known_of_life",
     "names_life",
     "one_name_of",
@@ -225,3 +229,15 @@ def _inputs_of_contact(reader: Reader) -> dict[str, tuple[str, Quantity]]:
         for one_input in inputs_of(reader.whole)
         if one_input.quantity and not one_input.idle and not one_input.table.startswith("particle")
     }
+
+
+def asks_for_bands(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> bool:
+    """Whether a study file has [life.uncertainty], or names numbers of [life] in [uncertainty].
+
+    Parameters
+    ----------
+    path : path-like
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+    """
+    return names_life(override(read(Path(path)), list(overrides)))

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -17,24 +15,10 @@ from ..systems.life.until import ContactUntil
 from .asked_result import QuestionResult, question_entries
 from .life import AskedLife
 from .life_design import AskedDesign
-from .reader import get
 from .run_dry import UNTIL
 from .run_life import OIL, history_of
-from .toml import override, read
 
-__all__ = ["LifeDesign", "asks_for_design", "design_life"]
-
-
-def asks_for_design(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> bool:
-    """Whether a study file has a table [life.design].
-
-    Parameters
-    ----------
-    path : path-like
-    overrides : iterable of str, optional
-        As those of `thirdbody.load_study`.
-    """
-    return get(override(read(Path(path)), list(overrides)).get("life"), "design") is not None
+__all__ = ["LifeDesign", "design_life"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

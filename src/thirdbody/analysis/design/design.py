@@ -32,7 +32,7 @@ from ..inputs import declared_quantity, words_of
 from ..sensitivity import sensitivity
 from .front import front, hypervolume
 from .problem import Limit, Objective, Suspension
-from .search import AMOUNT, DENSITY, GRID, SAMPLES, STARTS, STEPS, Point, Task
+from .search import AMOUNT, CLEARLY_FEW, DENSITY, GRID, NOTHING, SAMPLES, STARTS, STEPS, Point, Task
 from .task import NOT_SMOOTH, design_task
 
 if TYPE_CHECKING:
@@ -429,10 +429,14 @@ def _band(
     among = task.variables[name].span.values_at(np.linspace(*places, GRID + 1))
     grid = np.unique(np.append(among, best_value))
     place = int(np.searchsorted(grid, best_value))
+    asked = {one.of for one in task.objectives} | {limit.of for limit in task.limits}
+    few = NOTHING if "buried_share" in asked else CLEARLY_FEW
 
     def good(some: NDArray[np.intp]) -> NDArray[np.bool_]:
         rows = task.judge_points(
-            [{**best.numbers, name: float(grid[i])} for i in some], best.materials
+            [{**best.numbers, name: float(grid[i])} for i in some],
+            best.materials,
+            few_buried=few,
         )
         lost = np.array([point.costs[label] for point in rows]) - value
         return (lost <= fraction * abs(value)) & np.array([not point.reason for point in rows])

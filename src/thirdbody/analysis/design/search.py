@@ -47,6 +47,8 @@ MOST_AREA, MOST_COVERED, MOST_BURIED = 0.2, 0.3, 0.05
 than their radius, above which the model is not meant."""
 NOTHING = 1e-9
 """Share of the whole load that counts as none."""
+CLEARLY_FEW = 0.5 * MOST_BURIED
+"""The same where only the limit counts: what is no more than this at most does not break it."""
 CLOSE = 0.01
 """A limit is active when so little of it is left."""
 
@@ -195,12 +197,18 @@ class Task:
 
     # ------------------------------------------------------------------ metrics
     def metrics(
-        self, numbers: Sequence[Numbers], materials: Materials, *, samples: bool = True
+        self,
+        numbers: Sequence[Numbers],
+        materials: Materials,
+        *,
+        samples: bool = True,
+        few_buried: float = NOTHING,
     ) -> Columns:
         """Every metric (P, 1 + samples, loads), and coverage (P, 1 + samples).
 
         NaN where there is no such contact, with an infinite coverage, or no state; ``refused`` (P,)
-        says why no model takes the contact of a point.
+        says why no model takes the contact of a point. Buried particles that cannot bear more than
+        ``few_buried`` of the whole load count as none.
         """
         contact = self.contact.replace(**materials) if materials else self.contact
         vary = self._moving(numbers, contact, samples)
@@ -235,7 +243,7 @@ class Task:
             for name, values in out.items():
                 values[possible] = np.asarray(states[name], float).reshape(count, J)
         nominal = {name: values[:, 0] for name, values in vary.items()}
-        buried = self._buried_share(bare, nominal, out)
+        buried = self._buried_share(bare, nominal, out, few_buried)
         return {**out, "coverage": covered, "buried_share": buried, "refused": refused}
 
     def _states(
@@ -258,7 +266,7 @@ class Task:
             return none, dict.fromkeys(range(count), why)
 
     def _buried_share(
-        self, contact: Contact, vary: dict[str, Array], columns: dict[str, Array]
+        self, contact: Contact, vary: dict[str, Array], columns: dict[str, Array], few: float
     ) -> Array:
         """Share of the load on particles deeper than their radius, nominal: (P, loads)."""
         d, share = columns["d"][:, 0], columns["particle_load_share"][:, 0]
@@ -277,7 +285,7 @@ class Task:
             if DENSITY in vary:
                 most *= (vary[DENSITY][which] / vary[DENSITY][which[0]])[:, None]
             pressure = self.loads * (changed.E_ss if self.load == "F_star" else 1.0)
-            needed &= most > NOTHING * pressure
+            needed &= most > few * pressure
             buried = np.zeros(needed.shape)
             if needed.any():
                 buried[needed] = buried_share(changed, d[which][needed])
@@ -309,9 +317,11 @@ class Task:
             self.reported = points
             self.report(points)
 
-    def judge_points(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
+    def judge_points(
+        self, numbers: Sequence[Numbers], materials: Materials, *, few_buried: float = NOTHING
+    ) -> list[Point]:
         """Costs of points, and the limits that they break."""
-        metric = self.metrics(numbers, materials)
+        metric = self.metrics(numbers, materials, few_buried=few_buried)
         costs = {
             objective.label: objective.cost(metric[objective.of], self.weights)
             for objective in self.objectives

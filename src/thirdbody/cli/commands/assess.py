@@ -38,7 +38,7 @@ def command(options: Options) -> None:
     """
     from ...quantities.files import write_text
     from ...study.analyses import assess_study
-    from ...study.life_assessment import asks_for_bands
+    from ...study.life_uncertainty import asks_for_bands
     from ...views.assess_page import page
     from ..own_files import need_places
 

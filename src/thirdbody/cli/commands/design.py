@@ -51,7 +51,7 @@ def command(options: Options) -> None:
     Over a range of loads.
     """
     from ...study.analyses import design_study
-    from ...study.run_life_design import asks_for_design
+    from ...study.life_design import asks_for_design
 
     if asks_for_design(options.study, options.settings or ()):
         _choose_for_oil(options)

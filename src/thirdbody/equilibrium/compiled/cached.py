@@ -123,7 +123,14 @@ class Cached:
         try:
             cache = self.function._cache
             key = cache._index_key(signature, self.function.targetctx.codegen())
-            return cache._cache_file.load(key) is not None
+            stored = cache._cache_file
+            name = stored._load_index().get(key)
+            if name is None:
+                return False
+            with open(stored._data_path(name), "rb"):  # not read: the call does that, slowly
+                return True
+        except OSError:
+            return False
         except AttributeError:
             return True
 

@@ -189,13 +189,16 @@ class StateRows(Rows):
         """Most of the nominal area that particles can shadow; more than all of it if squashed."""
         self.steepest = np.zeros(count)
         """Most that it changes with d on a plane seat [1/m]."""
-        asperities = self._add_asperities(contact, datum)
+        units = self._find_law(contact)
+        if particles is not None:  # before anything is laid out
+            self._need_shared(contact, arrays)
+        asperities = self._add_asperities(units, datum)
         shared = {} if particles is None else self._add_particles(contact, arrays)
         _fill(self.interfaces, asperities | shared)
         self._finish()
 
-    def _add_asperities(self, contact: Contact, datum: float) -> Fields:
-        """Lay out the panels, and say what that is in the fields of an `INTERFACE`."""
+    def _find_law(self, contact: Contact) -> Array:
+        """Find the law that all asperities follow and its w; units of its loads and areas."""
         rough, surfaces = self.varied.roughness, self.varied.surfaces
         if isinstance(contact.asperity_law, Field):
             raise NotCompiled("surfaces of the law field share no nodes")
@@ -206,6 +209,11 @@ class StateRows(Rows):
             )
         w, units = scales(law, rough, surfaces)
         self.law, self.w = law, np.broadcast_to(w, len(self.interfaces))
+        return units
+
+    def _add_asperities(self, units: Array, datum: float) -> Fields:
+        """Lay out the panels, and say what that is in the fields of an `INTERFACE`."""
+        rough, law = self.varied.roughness, self.law
         step, across = GaussianSums.place(self.w)
 
         def family(step: int) -> tuple[tuple[int, int], int]:
@@ -221,8 +229,8 @@ class StateRows(Rows):
             "lowest": SEARCHED,
         }
 
-    def _add_particles(self, contact: Contact, arrays: Mapping[str, Array]) -> Fields:
-        """Fill the parts, and say what they add to the fields of an `INTERFACE`."""
+    def _need_shared(self, contact: Contact, arrays: Mapping[str, Array]) -> None:
+        """Refuse particles that are not one body in all states."""
         law, particles = self.varied.particle_law, contact.particles
         if not (isinstance(law, ParticleSeries) and isinstance(particles, Particles)):
             raise NotCompiled("particles that are not Series")
@@ -236,6 +244,12 @@ class StateRows(Rows):
             raise NotCompiled("the aspect of flakes varies")
         if any(name.startswith(MATERIALS) for name in arrays):
             raise NotCompiled("the materials of the particles vary")
+
+    def _add_particles(self, contact: Contact, arrays: Mapping[str, Array]) -> Fields:
+        """Fill the parts, and say what they add to the fields of an `INTERFACE`."""
+        law, particles = self.varied.particle_law, contact.particles
+        assert isinstance(law, ParticleSeries)
+        assert isinstance(particles, Particles)
         by_sizes = law.seat == "rough" and own_sizes(contact, arrays)
         parts = self._part_by_sizes if by_sizes else self._averaged_parts
         coverage = np.zeros(len(self.parts))

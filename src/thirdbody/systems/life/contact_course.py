@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...quantities.say import number, value_of
@@ -277,6 +276,7 @@ class ContactCourse:
 
     def _integrate(self, end: float, events: list[Any]) -> Any:
         """Stiff steps to a time, or to the first event."""
+        from scipy.integrate import solve_ivp
 
         def rising(excess: Callable[[float, Array], float]) -> Any:
             def event(time: float, y: Array) -> float:
