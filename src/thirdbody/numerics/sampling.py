@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities.record import Record
-from .direction_numbers import WIDEST, scrambled_points
 
 __all__ = ["Span", "latin", "sobol"]
 
@@ -69,9 +68,6 @@ def sobol(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     >>> bool(np.all(sobol(8, 2, 1, 5, 8) == whole[5:]))
     True
     """
-    bits = max(30, math.ceil(math.log2(size)))
-    if width <= WIDEST:
-        return scrambled_points(width, bits, seed, start, stop)
     from scipy.stats import qmc
 
     key = (size, width, seed)
@@ -81,7 +77,7 @@ def sobol(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     _last.key = None  # an interrupt may leave it between two points
     # skipping costs a few nanoseconds a point: go on where the last part ended when possible
     if engine is None or engine.num_generated > start:
-        engine = qmc.Sobol(width, rng=seed, bits=bits)
+        engine = qmc.Sobol(width, rng=seed, bits=max(30, math.ceil(math.log2(size))))
     if start > engine.num_generated:
         engine.fast_forward(start - engine.num_generated)
     with warnings.catch_warnings():
