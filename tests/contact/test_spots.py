@@ -305,3 +305,30 @@ def test_states_far_apart_are_laid_out_in_groups():
         alone = tb.solve(contact, F_star=float(loads[i]))
         for name, value in alone.outputs.items():
             np.testing.assert_allclose(together.outputs[name][i], value, rtol=1e-12, err_msg=name)
+
+
+@pytest.mark.parametrize("hardness", [8e9, 3e9, 1e9])
+def test_outputs_of_particles_that_sink_in_are_known_to_eight_digits(hardness, monkeypatch):
+    """The impression bends where its table does: more nodes change nothing."""
+    from thirdbody.contact import particle_averages
+
+    debris = tb.Material(E=2e11, nu=0.3, H=hardness, thermal_conductivity=50.0)
+    metal = debris.replace(H=5e9)
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(metal, metal.replace(H=6e9)),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(
+            material=debris,
+            areal_density=1e11,
+            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+        ),
+        outputs=(tb.outputs.Friction(tau_ss=4e8, tau_sa=2e8), tb.outputs.ThermalConductance()),
+    )
+    loads = np.geomspace(1e-7, 1e-3, 5)
+    few = tb.solve(case, F_star=loads).outputs
+    monkeypatch.setattr(particle_averages, "SIZE_NODES", 24)
+    monkeypatch.setattr(particle_averages, "SPOT_NODES", (32, 28))
+    many = tb.solve(case, F_star=loads).outputs
+    assert few["mu"][0] != many["mu"][0]  # more nodes are used
+    for name in ("mu", "mu_sa_roll", "rolling_share", "hc_sa"):
+        assert few[name] == pytest.approx(many[name], rel=1e-8, abs=1e-300), name

@@ -208,7 +208,7 @@ def test_clean_plastic_surfaces():
 
 
 def test_warns_of_wide_contacts():
-    with warns_of("thermal_conductance.wide", effect=0.06764):
+    with warns_of("thermal_conductance.wide", effect=0.1063):
         tb.solve(contact(ThermalConductance(), size=500e-9), pressure=5e6)
 
 
@@ -271,3 +271,34 @@ def test_of_few_particles_that_differ_nothing_is_told():
     none = SILICA.replace(resistivity=None)
     with refuses(Mistake.CLASH, "outputs.electrical_conductance.A_n"):
         mixed(ElectricalConductance(particles="by material", A_n=1e-10), silica=none)
+
+
+@pytest.mark.parametrize("seat", ["rough", "plane"])
+def test_soft_debris_conducts_the_more_the_more_it_is_pressed(seat):
+    """Squashed flat it is all but no resistance, and never less than none."""
+    debris = STEEL.replace(H=1e9)
+    through_all = ThermalConductance(), ElectricalConductance(particles="conduct")
+    case = contact(*through_all, dust=debris, density=1e11, second=SILICA)
+    case = case.replace(particle_law=tb.particle.Series(seat=seat))
+    state = tb.solve(case, F_star=np.geomspace(1e-8, 1e-3, 12))
+    for name in ("hc_sa", "gc_sa"):
+        through = state.outputs[name]
+        assert np.all(through > 0)
+        assert np.all(np.diff(through) > 0)
+
+
+def test_film_under_soft_debris_is_what_resists():
+    """Particles squashed flat leave the film and the surfaces: R → Σ 1/(4k b) + R_f/(πb²)."""
+    debris = STEEL.replace(H=1e9)
+    film = 1e-6
+    case = contact(ThermalConductance(film=film), dust=debris, density=1e9)
+    state = tb.solve(case, F_star=1e-3)
+    _, groups = spots_of(case, interface(case), np.atleast_1d(state.d), np.atleast_1d(state.shadow))
+    most = 0.0
+    for spots in groups:
+        R = sum(
+            1 / (4 * 50 * b) + film / (np.pi * b**2)
+            for b in (np.sqrt(np.maximum(area, 1e-300) / np.pi) for area in spots.areas)
+        )
+        most += spots.total(np.where(spots.load > 0, 1 / R, 0.0))[0]
+    assert 0.9 < state.outputs["hc_sa"] / most < 1.0

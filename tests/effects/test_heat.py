@@ -7,6 +7,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
+import scipy.sparse.linalg
 from scipy import integrate, optimize, special
 
 from thirdbody.effects.single import heat
@@ -305,3 +306,62 @@ def test_reference():
     assert heat.sudden_share(1e6, kind="max") == pytest.approx(
         values["transient_inf"]["value"], rel=1e-5
     )
+
+
+def barrel(height: float, steps: int = 100) -> tuple[float, float]:
+    """Radius of the ends, and resistance, of a unit sphere squashed to a height, by finite elements.
+
+    A zone of a larger sphere of the same volume, with isothermal ends and k = 1: linear elements of
+    one half, turned around the axis.
+    """
+    wide = math.sqrt(4 / 3 / height + height**2 / 12)
+    share = np.linspace(0, 1, steps + 1)
+    z = 0.5 * height * (1 - (1 - share) ** 1.5)  # closer where the end meets the side
+    r = share[:, None] ** 0.7 * np.sqrt(wide**2 - z**2)
+    place = np.arange(r.size).reshape(r.shape)
+    a, b, c, d = (
+        place[i, j].ravel()
+        for i, j in (
+            (slice(None, -1), slice(None, -1)),
+            (slice(1, None), slice(None, -1)),
+            (slice(1, None), slice(1, None)),
+            (slice(None, -1), slice(1, None)),
+        )
+    )
+    corners = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    R, Z = r.ravel()[corners], np.broadcast_to(z, r.shape).ravel()[corners]
+    twice = (R[:, 1] - R[:, 0]) * (Z[:, 2] - Z[:, 0]) - (R[:, 2] - R[:, 0]) * (Z[:, 1] - Z[:, 0])
+    across = (np.roll(Z, -1, 1) - np.roll(Z, -2, 1)) / twice[:, None]
+    along = (np.roll(R, -2, 1) - np.roll(R, -1, 1)) / twice[:, None]
+    stiff = across[:, :, None] * across[:, None] + along[:, :, None] * along[:, None]
+    stiff *= (math.pi * R.mean(1) * twice)[:, None, None]
+    ends = np.repeat(corners, 3, 1).ravel(), np.tile(corners, (1, 3)).ravel()
+    matrix = scipy.sparse.csr_matrix((stiff.ravel(), ends), (r.size, r.size))
+    T = np.zeros(r.size)
+    T[place[:, -1]] = 1.0
+    free = place[:, 1:-1].ravel()
+    T[free] = scipy.sparse.linalg.spsolve(matrix[free][:, free].tocsc(), -matrix[free] @ T)
+    return math.sqrt(wide**2 - height**2 / 4), 2 / float(T @ (matrix @ T))
+
+
+@pytest.mark.parametrize("height", [1.9, 1.7, 1.5, 1.2, 0.8, 0.3])
+def test_a_squashed_particle_is_a_barrel(height):
+    a, R = barrel(height)
+    found = heat.particle_resistance(a, a_2=a, r=1.0, height=height, k=1.0)
+    assert 1.0 < found / R < 1.11
+    assert found / R < 1.01 or a < 1.3
+
+
+def test_a_particle_that_keeps_its_shape_is_a_sphere():
+    a = np.array([0.01, 0.1, 0.3, 0.5, 0.7, 0.999])
+    sphere = heat.sphere_resistance(a, a_2=0.8 * a, r=1.0, k=2.0)
+    found = heat.particle_resistance(a, a_2=0.8 * a, r=1.0, height=2.0, k=2.0)
+    assert found == pytest.approx(sphere, rel=1e-15)
+
+
+def test_a_flat_disc_is_a_cylinder():
+    h = 1e-3
+    a = math.sqrt(4 / 3 / h)
+    found = heat.particle_resistance(a, a_2=a, r=1.0, height=h, k=3.0)
+    assert found == pytest.approx(h / (3 * math.pi * a**2), rel=1e-6)
+    assert heat.sphere_resistance(a, a_2=a, r=1.0, k=3.0) < 0

@@ -240,7 +240,7 @@ class SizeAverage:
         ``splits`` are more values of ε at which sums over gaps have a kink.
         """
         # without a gap particles of every size are squeezed by ε = 1: up to their middles
-        more = np.array([0.0, *(x * (1 - eps) for x in self.sizes.kinks for eps in splits)])
+        more = np.append(self.gaps_at(splits), 0.0)
         more = more[(more > self.bottom) & (more < self.top)]
         upper = np.sqrt(self.top - more[more > self.join])
         lower = None
@@ -248,6 +248,10 @@ class SizeAverage:
             lower = _distinct(np.sort([*self.gaps_below, *more[more < self.join]]))
         upper = _distinct(np.sort([*self.rises, *upper]))
         return self._gaps(upper, lower, _step(self.sizes, width), SPOT_NODES)
+
+    def gaps_at(self, splits: Sequence[float]) -> Array:
+        """Gaps that squeeze particles of the sizes at kinks by these ε."""
+        return np.array([x * (1 - eps) for x in self.sizes.kinks for eps in splits])
 
     def _gaps(
         self, upper: Array, lower: Array | None, width: float, nodes: tuple[int, int]
@@ -492,10 +496,10 @@ class SeatAverage:
         lowest = mean_gap.min() - NORMAL_REACH * self.width
         if lowest < average.bottom:
             # loads no longer change there, but depths do
-            edges = np.array(
-                sorted({lowest, min(max(lowest, 0.0), average.bottom), average.bottom})
-            )
-            edges = _cut(edges, SPOT_WIDTHS * self.width)
+            ends = average.gaps_at(splits)
+            ends = np.append(ends[(ends > lowest) & (ends < average.bottom)], [lowest, 0.0])
+            edges = _distinct(np.sort(np.append(np.minimum(ends, average.bottom), average.bottom)))
+            edges = _cut(edges[edges >= lowest], SPOT_WIDTHS * self.width)
             below, weight = panel_rule(edges, SPOT_NODES[0])
             gaps = np.concatenate([below, gaps])
             rise = np.concatenate([average.top - below, rise])

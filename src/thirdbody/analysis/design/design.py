@@ -429,8 +429,8 @@ def _band(
     among = task.variables[name].span.values_at(np.linspace(*places, GRID + 1))
     grid = np.unique(np.append(among, best_value))
     place = int(np.searchsorted(grid, best_value))
-    asked = {one.of for one in task.objectives} | {limit.of for limit in task.limits}
-    few = NOTHING if "buried_share" in asked else CLEARLY_FEW
+    weighed = {one.of for one in task.objectives} | {limit.of for limit in task.limits}
+    few = NOTHING if "buried_share" in weighed else CLEARLY_FEW
 
     def good(some: NDArray[np.intp]) -> NDArray[np.bool_]:
         rows = task.judge_points(

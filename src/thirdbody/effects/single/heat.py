@@ -58,6 +58,9 @@ __all__ = [
 LORENZ = (math.pi * 1.380649e-23 / 1.602176634e-19) ** 2 / 3
 """Lorenz number of a degenerate electron gas, L = π²k_B²/3e² = 2.4430e-8 [W Ω/K²]."""
 
+WIDEST = 1.5
+"""Radius of a contact over that of the sphere from which on a sphere's formula is not asked: where
+its sense ends, cones resist less than it."""
 Kind = Literal["mean", "max"]
 """Temperature averaged over the contact, or the largest in it."""
 Flux = Literal["uniform", "hertz"]
@@ -432,8 +435,8 @@ def particle_resistance(
               b^2 = \frac{4r^3}{3h}+\frac{h^2}{12}
 
     A sphere that is squashed to the height h keeps its volume and is as wide as b in the middle:
-    two cones lead from its contacts to there. Where contacts are as wide as the sphere was,
-    :math:`R_{sphere}` has no sense, and the cones alone count.
+    two cones lead from its contacts to there. Where contacts are much wider than the sphere was,
+    :math:`R_{sphere}` has no sense (it falls below zero), and the cones alone count.
 
     Parameters
     ----------
@@ -469,7 +472,7 @@ def particle_resistance(
     sphere = sphere_resistance(a_1, a_2=a_2, r=r, k=k, ends=ends)
     over_width = np.sqrt(height**3 / (4 / 3 * r**3 + height**3 / 12))
     cones = over_width / (2 * math.pi * k) * (1 / a_1 + 1 / a_2)
-    return np.where(np.maximum(a_1, a_2) < r, np.minimum(sphere, cones), cones)[()]
+    return np.where(np.maximum(a_1, a_2) < WIDEST * r, np.minimum(sphere, cones), cones)[()]
 
 
 # ------------------------------------------------------------------ conductance
