@@ -428,7 +428,12 @@ def test_a_copy_tells_only_of_slips_that_are_new():
 
 @pytest.mark.parametrize(
     ("value", "hint"),
-    [(-1e3, "leave out the minus sign"), (0.0, ""), (math.nan, ""), (1e12, "kN are '5 kN'")],
+    [
+        (-1e3, "leave out the minus sign"),
+        (0.0, ""),
+        (math.nan, "it is not a number, like 0/0 or a missing value"),
+        (1e12, "kN are '5 kN'"),
+    ],
 )
 def test_a_hint_fits_the_sign_of_a_number(value, hint):
     """A unit is the likely cause only of a number whose sign is right."""

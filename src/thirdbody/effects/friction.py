@@ -136,7 +136,7 @@ class Friction(AbstractOutput):
 
     The verdict depends on the squeeze ε of a particle alone, also where τ depends on pressure or
     hardness, as every pressure does. Sums are split where it changes, and then as accurate as the
-    contact itself (measured: 1e-9; 1e-5 where asperities' junctions grow).
+    contact itself (measured: 1e-8; 1e-5 where asperities' junctions grow).
 
     Examples
     --------

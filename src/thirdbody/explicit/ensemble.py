@@ -635,7 +635,8 @@ def _in_words(result: Ensemble) -> str:
         apart, errors = ours / theirs - 1, table[f"{name}_cv_error"].values / np.abs(theirs)
     has_error = np.isfinite(apart) & np.isfinite(errors)
     if not np.any(has_error):
-        return "No load is known with an error: more surfaces, or larger ones."
+        return "No load is known well enough to say by how much it errs: take more surfaces, or "\
+            "larger ones."  # fmt: skip
     worst = float(np.max(np.abs(apart[has_error])))
     clear = has_error & (np.abs(apart) > 2 * errors)
     if not np.any(clear):

@@ -33,6 +33,9 @@ __all__ = [
     "refuse_misfits",
 ]
 
+SPOKEN = {"separation": "d", "gap": "d", "load": "pressure", "p": "pressure", "speeds": "speed"}
+"""Names that people say for arguments, which are no misspelling of them."""
+
 F = TypeVar("F", bound=Callable[..., Any])
 FAILURES = (
     *(TypeError, AttributeError, ValueError, LookupError, ArithmeticError),
@@ -238,7 +241,9 @@ def misfits(
                 name,
                 "is no argument",
                 _short_text(value),
-                hint=guess(name, names, otherwise="it takes "),
+                hint=f"did you mean {SPOKEN[name]}?"
+                if SPOKEN.get(name) in names
+                else guess(name, names, otherwise="it takes "),
                 code=Mistake.UNKNOWN,
             )
             for name, value in named.items()

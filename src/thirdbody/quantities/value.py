@@ -148,14 +148,18 @@ def problem_with(about: Range, value: Any) -> Clause | None:
 
 
 def hint_on(about: Range, number: float) -> str:
-    """Likely cause of a number outside its range: a sign, or a unit; "" where it is neither.
+    """Likely cause of a number outside its range: a sign, a unit, no number; "" where it is none.
 
     A hint on units has a number as an example; on one that is not positive it would mislead.
 
     >>> force = quantity("F", "N", "force", gt=0, lt=1e9, hint="kN are '5 kN'").metadata["quantity"]
-    >>> hint_on(force, -1e3), hint_on(force, 0.0), hint_on(force, math.nan), hint_on(force, 1e12)
-    ('leave out the minus sign', '', '', "kN are '5 kN'")
+    >>> hint_on(force, -1e3), hint_on(force, 0.0), hint_on(force, 1e12)
+    ('leave out the minus sign', '', "kN are '5 kN'")
+    >>> hint_on(force, math.nan)
+    'it is not a number, like 0/0 or a missing value'
     """
+    if math.isnan(number):
+        return "it is not a number, like 0/0 or a missing value"
     least = about["ge"] if about["gt"] is None else about["gt"]
     if least is None or least < 0 or number > 0:
         return about["hint"]

@@ -201,8 +201,8 @@ class StudyResult(_Result):
         pressures = "" if forces[0].kind == "flat" else "under the pressures of smooth bodies, "
         means = ", on average over contacts with and without one," if rare else ""
         return (
-            f"That is of a wide surface {pressures}whose particles all share the load; of the load "
-            f"of the bodies themselves particles carry{means} {loads}."
+            f"The states are of a wide surface {pressures}whose particles all share the load; of "
+            f"the load of the bodies themselves particles carry{means} {loads}."
         )
 
     def table(self) -> tuple[Columns, dict[str, str]]:

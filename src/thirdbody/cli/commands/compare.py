@@ -192,11 +192,14 @@ def _answer(comparison: Comparison, index: int) -> list[str]:
         return by[0], by[-1]
 
     low, high = ends("A_t")
-    areas = [f"{percent(columns['A_t'][i])} ({laws[i]})" for i in (low, high)]
+    least, most = (percent(columns["A_t"][i]) for i in (low, high))
     out = (
-        f"By the choice of a law the real area is between {' and '.join(areas)} of the nominal one"
+        f"By the choice of a law the real area is between {least} ({laws[low]}) and {most} "
+        f"({laws[high]}) of the nominal one"
     )
-    if study_law in solved:
+    if least == most:
+        out = f"By every law the real area is {most} of the nominal one"
+    elif study_law in solved:
         away = [signed_number(columns["A_t_difference"][i], 1, "%") for i in (low, high)]
         out += f", {' to '.join(away)} about {laws[study_law]}"
     if "particle_load_share" not in columns:
