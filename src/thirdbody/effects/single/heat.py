@@ -467,7 +467,7 @@ def particle_resistance(
     >>> from thirdbody.effects.single.heat import particle_resistance
     >>> R = particle_resistance(1.249, a_2=1.249, r=1.0, height=0.8, k=1.0)
     >>> f"{R:.4f}; finite elements: 0.1536"
-    '0.1554; finite elements: 0.1536'
+    '0.1555; finite elements: 0.1536'
     """
     sphere = sphere_resistance(a_1, a_2=a_2, r=r, k=k, ends=ends)
     over_width = np.sqrt(height**3 / (4 / 3 * r**3 + height**3 / 12))
