@@ -241,9 +241,7 @@ def _splits(
 
     splits = [float(eps) for eps in output.splits(probe)]
     if output.follows_sinks:
-        splits += changes(
-            probe, lambda spots: 8 * spots.impression_kind(0) + spots.impression_kind(1)
-        )
+        splits += changes(probe, impression_kinds)
         splits += law.one(surfaces=surfaces, particle=particle).sink_bends
     return tuple(splits)
 

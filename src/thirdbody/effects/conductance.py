@@ -236,14 +236,14 @@ def about_wide(name: str, share: float) -> Note:
     return Note(what, code=f"{name}.wide", effect=0.11 * share, action=action)
 
 
-def resistance_bends(probe: Probe) -> list[float]:
+def resistance_bends(probe: Probe, ends: str | tuple[str, str] = "isothermal") -> list[float]:
     """Squeezes ε at which the resistance of a particle changes its formula."""
 
     def by_cones(spots: ParticleSpots) -> NDArray[np.intp]:
         a_1, a_2 = (np.sqrt(area / np.pi) for area in spots.areas)
         r = spots.x / 2
-        sphere = sphere_resistance(a_1, a_2=a_2, r=r, k=1.0)
-        whole = particle_resistance(a_1, a_2=a_2, r=r, height=spots.height, k=1.0)
+        sphere = sphere_resistance(a_1, a_2=a_2, r=r, k=1.0, ends=ends)
+        whole = particle_resistance(a_1, a_2=a_2, r=r, height=spots.height, k=1.0, ends=ends)
         return np.asarray(sphere != whole, dtype=np.intp)
 
     return changes(probe, by_cones)

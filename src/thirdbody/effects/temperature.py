@@ -387,7 +387,7 @@ class FlashTemperature(AbstractOutput):
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
-        return resistance_bends(probe)
+        return resistance_bends(probe, (self.flux, self.kind))
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         share = wide_share(state)

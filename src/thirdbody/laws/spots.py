@@ -220,7 +220,7 @@ class ParticleSpots(Spots):
         yielding = self.sinks[side] > self.yields[side] * self.x
         flatter = self.impression_radius(side) > self.radius
         deeper = self.sinks[side] > np.sqrt(self.areas[side] / np.pi)
-        return 4 * yielding + 2 * flatter + 1 * deeper
+        return 4 * yielding + 2 * flatter + deeper
 
     def thin_spots(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""
