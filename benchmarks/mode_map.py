@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
-import cases
+import measured_contact
 
 import thirdbody as tb
 
@@ -25,7 +25,7 @@ def main() -> int:
     warnings.simplefilter("ignore", tb.errors.RangeWarning)
     start = time.perf_counter()
     ax = tb.plot.mode_map(
-        cases.contact("rough"),
+        measured_contact.contact("rough"),
         ratio=np.geomspace(0.1, 10, SIDE),
         F_star=np.geomspace(1e-7, 1e-3, SIDE),
     )

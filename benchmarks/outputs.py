@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
-import cases
+import measured_contact
 
 import thirdbody as tb
 
@@ -64,7 +64,7 @@ def once(contact: tb.Contact) -> float:
 
 def costs() -> Iterator[Cost]:
     """The bare solve, then every set of outputs on the same contact."""
-    contact = cases.contact("rough")
+    contact = measured_contact.contact("rough")
     steel = contact.surfaces.first.replace(**METAL)
     contact = contact.replace(surfaces=tb.MaterialPair(steel, steel))
     contact = contact.replace(**{"particles.material": contact.particles.material.replace(**GLASS)})

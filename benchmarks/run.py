@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parent))
 import naive
-from cases import HIGH, LOW, contact, inputs, loads
+from measured_contact import HIGH, LOW, contact, inputs, loads
 
 import thirdbody as tb
 from thirdbody.contact import asperity_sums as asperities
@@ -234,8 +234,8 @@ imported = perf_counter()
 import numpy, sys, warnings
 warnings.simplefilter("ignore")
 sys.path.insert(0, sys.argv[1])
-import cases
-bound = cases.contact("rough")
+import measured_contact
+bound = measured_contact.contact("rough")
 call = perf_counter()
 {call}
 done = perf_counter()
@@ -247,9 +247,10 @@ except OSError:
     pass
 print(imported - start, done - call, peak)
 """
-SOLVE = "thirdbody.solve(bound, F_star=cases.loads({count}))"
+SOLVE = "thirdbody.solve(bound, F_star=measured_contact.loads({count}))"
 STATES = """from thirdbody.equilibrium.states import state_columns
-state_columns(bound, F_star=cases.loads({count}), vary=cases.inputs("rough", {count}))"""
+loads, vary = measured_contact.loads({count}), measured_contact.inputs("rough", {count})
+state_columns(bound, F_star=loads, vary=vary)"""
 
 
 def alone(call: str, **variables: object) -> tuple[float, float, float]:

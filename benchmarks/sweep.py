@@ -13,7 +13,7 @@ import warnings
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
-import cases
+import measured_contact
 
 import thirdbody as tb
 
@@ -31,7 +31,7 @@ def cost(samples: int, **asked: object) -> tuple[float, float]:
         where = {"out": Path(folder) / "states"} if asked.pop("stored", True) else {}
         start = time.process_time()
         data = tb.sweep(
-            cases.contact("rough"),
+            measured_contact.contact("rough"),
             F_star=LOADS,
             design="sobol",
             samples=samples,

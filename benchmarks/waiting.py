@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parent))
-import cases
+import measured_contact
 
 import thirdbody as tb
 from thirdbody.study import check
@@ -145,7 +145,7 @@ def main() -> int:
         ("a design by command", lambda: process("-m", "thirdbody", "design", additive)),
         (
             "a mode map of 40 000 states",
-            lambda: here(lambda: tb.plot.mode_map(cases.contact("rough"))),
+            lambda: here(lambda: tb.plot.mode_map(measured_contact.contact("rough"))),
         ),
     ]
     if importlib.util.find_spec("nicegui") is not None:

@@ -74,13 +74,14 @@ class TestBelowOneField:
             asperity_law=tb.asperity.Field(),
         )
 
-    @pytest.mark.parametrize("count", [2, 30])
+    @pytest.mark.parametrize("count", [2, pytest.param(30, marks=pytest.mark.slow)])
     def test_the_table_ends(self, count):
         alphas = np.linspace(25, 30, count)
         found = state_columns(self.dusty_field(), d=-1e-5, vary={"roughness.alpha": alphas})
         assert set(found["status_code"]) == {Status.TOO_DEEP}
         assert set(found["status"]) == {FIELD_SENTENCES[Status.TOO_DEEP]}
 
+    @pytest.mark.slow
     def test_an_unknown_bandwidth_is_refused_however_deep(self):
         alphas = np.linspace(25, 31, 30)
         for d in (-1e-5, 3e-7):
