@@ -181,7 +181,7 @@ def every_command(name):
         ["solve", path],
         ["solve", path, "--json", "--csv", f"{name}-states.csv"],
         ["film", path, "--json", "--csv", f"{name}-film.csv", "--figure", f"{name}-film.pdf"],
-        ["compare", path, "--csv", f"{name}-compare.csv"],
+        ["compare", path, "--laws", "gw,ke", "--csv", f"{name}-compare.csv"],
         ["table", path, "--out", f"{name}-table.csv", "--tolerance", "1e-3"],
         ["assess", path, "--html", f"{name}-assess.html", "--set", "uncertainty.samples=64"],
         ["report", path, "--out", f"{name}-report.html", "--set", "uncertainty.samples=64"],

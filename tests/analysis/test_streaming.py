@@ -516,8 +516,8 @@ def sampled(tmp_path):
 @pytest.mark.parametrize(
     ("format", "step"),
     [
-        pytest.param("zarr", 3, marks=pytest.mark.slow),
-        pytest.param("netcdf", 2, marks=pytest.mark.slow),
+        pytest.param("zarr", 6, marks=pytest.mark.slow),
+        pytest.param("netcdf", 4, marks=pytest.mark.slow),
     ],
 )
 def test_killed_at_any_moment_and_again_equals_unbroken(tmp_path, sampled, format, step):

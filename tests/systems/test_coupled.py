@@ -431,20 +431,38 @@ def test_melting_below_the_reference_is_refused():
 
 
 # ------------------------------------------------------------------ the page
-@pytest.mark.slow
-@pytest.mark.parametrize("density", [1e9, 1e10, 1e11])
-def test_particles_of_the_page(density):
-    """The table of docs/feedback.md, to its printed digits."""
-    mu, speed = {1e9: (0.18, 6.1), 1e10: (0.28, 5.4), 1e11: (0.16, 9.3)}[density]
+def contact_of_the_page(density):
     dust = tb.Particles(
         material=tb.materials["Al2O3"], areal_density=density,
         diameter=tb.TruncatedGaussian(mean=500e-9, std=50e-9),
     )  # fmt: skip
     outputs = tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6)
-    contact = TWO_BODY.replace(particles=dust, outputs=outputs)
-    found = asked(contact, sliding_speed=1.0, laws=[softening(1.03)], limits="speed")
+    return TWO_BODY.replace(particles=dust, outputs=outputs)
+
+
+PAGE = {1e9: (0.18, 6.1), 1e10: (0.28, 5.4), 1e11: (0.16, 9.3)}
+"""Friction at 1 m/s and seizure speed [m/s] by density, in the table of docs/feedback.md."""
+
+
+@pytest.mark.slow
+def test_particles_of_the_page():
+    mu, speed = PAGE[1e10]
+    made = contact_of_the_page(1e10)
+    found = asked(made, sliding_speed=1.0, laws=[softening(1.03)], limits="speed")
     assert round(found.states[0].mu, 2) == mu
     assert round(found.seizure_speed, 1) == speed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("density", [1e9, 1e11])
+def test_particles_of_the_page_by_a_scan(density):
+    """The speed of every temperature: where it is 1 m/s, and where it first falls again."""
+    mu, speed = PAGE[density]
+    T = np.r_[np.arange(320, 460, 20.0), np.arange(460, 1500, 10.0)]
+    frictions = frictions_at(contact_of_the_page(density), T, exponent=1.03)
+    speeds = (T - COLD) * 1e4 / (frictions * 5e6)
+    assert round(np.interp(1.0, speeds[:8], frictions[:8]), 2) == mu
+    assert round(speeds[turns_of(speeds)[0]], 1) == speed
 
 
 @pytest.mark.slow
@@ -515,20 +533,20 @@ def test_a_pair_of_folds_within_twenty_kelvin():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("seed", "deep"), [(0, "table"), (1, "off")])
-def test_folds_of_contacts_at_random_by_a_dense_scan(seed, deep):
+def test_folds_of_a_contact_at_random_by_a_dense_scan():
     """Every turn of the speed over the temperature is a fold of the branch, and no other is.
 
     The scan has 200 temperatures, and parts each step of them into ten where the speed hardly
-    changes along it or beside it.
+    changes along it or beside it. Those of particles by the table of deep squeezes:
+    `test_a_pair_of_folds_within_twenty_kelvin`.
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(1)
     mean = 10 ** rng.uniform(-6.7, -6.2)
     dust = silica(10 ** rng.uniform(10.5, 11.5), mean, mean * rng.choice([0.05, 0.08, 0.15]))
     pressure, exponent = 10 ** rng.uniform(6.4, 7.2), rng.uniform(0.8, 1.5)
     contact = TWO_BODY.replace(
         particles=dust,
-        particle_law=tb.particle.Series(deep=deep),
+        particle_law=tb.particle.Series(deep="off"),
         outputs=tb.outputs.Friction(tau_ss=TAU, tau_sa=200e6),
     )
     found = asked(
