@@ -70,6 +70,7 @@ def test_no_point_of_a_grid_is_better(best):
     assert best.active == ("plastic_share <= 0.2",)
 
 
+@pytest.mark.check
 def test_the_best_point_is_what_it_says(best):
     contact = best.contact
     x = best.values[SIZE]

@@ -413,6 +413,7 @@ def test_command_exit_status(arguments, status):
     assert re.search(r"^error: ", result.stderr, re.M)
 
 
+@pytest.mark.check
 def test_row_that_fails_is_shown_with_its_reason(extra, tmp_path):
     why = "divides by zero"
 

@@ -61,6 +61,7 @@ def brute(case, objective, x):
     return np.array(out)
 
 
+@pytest.mark.check
 @pytest.mark.spread(2)
 @pytest.mark.parametrize(
     "objective",

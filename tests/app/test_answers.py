@@ -44,6 +44,7 @@ BALL = {
 
 
 # ---------------------------------------------------------------- forces
+@pytest.mark.check
 @pytest.mark.spread(3)
 @pytest.mark.parametrize("force", ["20 N", ["20 N", "40 N"], ["5 N", "10 N", "20 N", "40 N"]])
 def test_a_force_is_told_in_the_words_of_the_command_line(force, tmp_path):

@@ -248,6 +248,7 @@ def test_the_script_holds_outputs_and_several_populations(tmp_path):
     assert np.array_equal(names["curves"].outputs["mu"], state.answer.study.solve().outputs["mu"])
 
 
+@pytest.mark.check
 @pytest.mark.spread(2)
 @pytest.mark.parametrize("suffix", ["csv", "json"])
 def test_files_are_those_of_the_command_line(suffix, tmp_path):
@@ -627,6 +628,7 @@ def test_a_figure_is_told_what_is_new_alone():
     assert plot.change(first)[:2] == ["react", first["data"]]
 
 
+@pytest.mark.check
 def test_figures_of_outputs_name_quantities_and_no_columns(tmp_path):
     study = example()
     study["outputs"] = {"counts": {}, "friction": {"m_ss": 0.2, "m_sa": 0.3}, "dents": {}}
@@ -668,6 +670,7 @@ def test_a_length_is_shown_with_its_sign_and_written_without():
     assert value_from("2.8 µm") == value_from("2.8 μm") == "2.8 um"
 
 
+@pytest.mark.check
 @pytest.mark.spread(2)
 @pytest.mark.parametrize("of", ["F_cr1", "n_sa"])
 def test_error_bars_of_critical_loads_and_outputs(of):
@@ -910,6 +913,7 @@ def test_names_of_uploads_are_harmless(name):
 
 
 # ---------------------------------------------------------------- command line
+@pytest.mark.check
 def test_the_command_tells_bad_input_and_a_taken_port(tmp_path):
     import socket
 

@@ -54,6 +54,7 @@ def test_the_study_in_a_report_gives_the_same_report(folder):
     assert (folder / "again.html").read_bytes() == (folder / "r.html").read_bytes()
 
 
+@pytest.mark.check
 def test_a_report_lists_the_bearing_and_its_load(folder):
     page = (folder / "r.html").read_text()
     assert row(page, "body.bore")[2:4] == ["25 mm", "study"]
@@ -68,6 +69,7 @@ def test_a_report_lists_the_bearing_and_its_load(folder):
     assert words(sentence) in bearing
 
 
+@pytest.mark.check
 def test_what_a_study_states_is_no_default_be_it_the_same(folder):
     page = (folder / "r.html").read_text()
     assert row(page, "body.inner_conformity")[2:4] == ["0.52", "study"]
@@ -90,6 +92,7 @@ def test_parts_that_leave_the_oil_out_say_so(folder):
     assert f"<h3>{HANGS_ON}</h3>" in page
 
 
+@pytest.mark.check
 def test_a_filter_of_the_study_file_is_that_of_the_option(folder):
     run("film", folder / "b.toml", "--filter", FILTER, "--json", folder / "option.json")
     told = ("--set", f'film.filter="{FILTER}"')

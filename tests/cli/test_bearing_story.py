@@ -39,6 +39,7 @@ def empty_folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.check
 def test_which_of_them_dents_and_would_a_filter_help():
     """Three commands: new, film, film --filter; the answer stands first."""
     assert run("new", "ball-bearing", "6205") == "thirdbody film ball-bearing.toml\n"
@@ -117,6 +118,7 @@ def test_the_numbers_of_the_answer_are_those_of_the_parts():
     assert parts == pytest.approx(oil["particle_share"], rel=1e-6)
 
 
+@pytest.mark.check
 def test_a_filter_lets_through_what_its_beta_says():
     study = load_study(resources.files("thirdbody").joinpath("data/studies/ball-bearing.toml"))
     before = dirty_oil(study)
@@ -202,6 +204,7 @@ def test_a_speed_follows_from_the_shaft_or_is_asked_for():
     assert dirty_oil(study).life is None
 
 
+@pytest.mark.check
 def test_soft_debris_is_flattened_and_an_oil_too_dirty_has_no_factor():
     run("new", "ball-bearing", "--out", "b.toml")
     dirty = [f'particles.{i}.iso4406="24/22/19"' for i in (0, 1)]

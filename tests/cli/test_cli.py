@@ -211,6 +211,7 @@ def test_mistakes_go_to_standard_error_one_line_each(wrong, more):
         assert any(line.startswith(f"error: {place}") for line in lines)
 
 
+@pytest.mark.check
 def test_no_traceback_in_a_process_of_its_own(wrong, tmp_path):
     result = process("solve", wrong)
     assert result.returncode == 2
@@ -281,6 +282,7 @@ def test_transitions_never_fail(monkeypatch):
 
 
 # ---------------------------------------------------------------------------- warnings
+@pytest.mark.check
 def test_warnings_are_one_line_each_on_standard_error():
     crowded = ["--set", "load.pressure=1 GPa", "--set", "particles.areal_density=5e12 / m^2"]
     result = process("solve", DUSTY, "--json", *crowded)
@@ -459,6 +461,7 @@ def test_a_full_device_is_told_before_any_work():
 
 
 # ---------------------------------------------------------------------------- interruptions
+@pytest.mark.check
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 def test_interrupt_exits_130_with_one_line_and_no_file(tmp_path):
     command = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY)]
@@ -597,6 +600,7 @@ def test_reproduce_hands_over_and_prints(monkeypatch, tmp_path):
     assert result.stderr == "figure 3 ...\n"
 
 
+@pytest.mark.check
 @pytest.mark.skipif(os.name == "nt", reason="resource")
 def test_one_state_loads_little_and_is_small():
     """A state by command needs no package for figures, tables, statistics or compiling; 400 MB."""

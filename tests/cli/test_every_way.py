@@ -119,6 +119,7 @@ def test_the_answer_stands_first_and_within_80_columns(kind):
     assert len([line for line in marked if "--verbose shows all" not in line]) <= 3
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", EVERY)
 def test_report_and_workbook_hold_the_answer(kind):
     result = solved(kind)
@@ -153,6 +154,7 @@ def test_the_page_has_the_same_states(kind, folder):
         assert interface.force_sentences(answer.forces) == result.force_sentences
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", QUESTIONS)
 def test_a_question_has_one_answer(kind, folder):
     file = template(kind)

@@ -93,6 +93,7 @@ def test_a_folder_of_somebody_else_is_refused(tmp_path, kind, name):
     assert contents(tmp_path) == before
 
 
+@pytest.mark.check
 def test_explicit_keeps_the_results_of_another_study(tmp_path):
     words = FOLDERS["explicit"]
     assert run(*words, "--out", tmp_path).exit_code == 0
@@ -120,6 +121,7 @@ def test_a_study_that_explicit_refuses_leaves_nothing(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.check
 def test_folders_of_an_earlier_version_of_explicit_go_on(tmp_path):
     words = FOLDERS["explicit"]
     assert run(*words, "--out", tmp_path).exit_code == 0
@@ -159,6 +161,7 @@ def test_names_that_a_command_chooses_are_taken_from_nobody(tmp_path, words):
 
 
 # ---------------------------------------------------------------- files
+@pytest.mark.check
 @pytest.mark.parametrize(
     ("kind", "command"),
     [
@@ -243,6 +246,7 @@ ONE_FILE = {
 """Files that a command writes quickly, and the command up to the name of the file."""
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("name", ONE_FILE)
 def test_a_file_of_somebody_else_is_replaced_by_force_only(tmp_path, name):
     """Our own file of an earlier run, and an empty one, are replaced without asking."""
@@ -448,6 +452,7 @@ DAMAGES = pytest.mark.parametrize(
 QUICK = [name for name in ONE_FILE if name.startswith(("solve", "film.png", "film.svg", "table"))]
 
 
+@pytest.mark.spread(3)
 @DAMAGES
 @pytest.mark.parametrize("name", QUICK)
 def test_a_damaged_file_is_written_anew(tmp_path, name, damage):

@@ -30,6 +30,7 @@ def rows_of(file: Path):
         return list(csv.DictReader(lines))
 
 
+@pytest.mark.check
 def test_dents_and_life_stand_in_the_table_under_the_names_of_the_json(bearing, tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
     table, book, data = (tmp_path / f"f.{kind}" for kind in ("csv", "xlsx", "json"))
@@ -73,6 +74,7 @@ def test_without_an_oil_the_table_has_no_column_of_it(bearing, tmp_path):
     assert not [head for head in row if "per_hour" in head or "a_ISO" in head]
 
 
+@pytest.mark.check
 def test_the_head_says_what_was_set_over_the_file(bearing, tmp_path, monkeypatch, blank_pictures):
     openpyxl = pytest.importorskip("openpyxl")
     for part in ("_assess", "_slopes"):  # most of a report, and no part of its head
@@ -103,6 +105,7 @@ def test_heads_of_questions_say_it_too(tmp_path, command, kind, setting):
     assert f"with {key} = {value}" in " ".join(run(command, file, "--set", setting).split())
 
 
+@pytest.mark.check
 def test_shares_too_small_to_be_read_are_numbers_in_the_workbook(bearing, tmp_path):
     """Where the screen says "< 0.0001 %", the cell holds the share and shows the words."""
     openpyxl = pytest.importorskip("openpyxl")

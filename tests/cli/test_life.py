@@ -114,6 +114,7 @@ def test_a_count_that_grows_for_ever_is_told():
     assert "4 µm" in answer(run_life(load_life("one.toml")))[1]
 
 
+@pytest.mark.check
 def test_the_figure_is_drawn_and_files_of_others_stay():
     assert run("life", "oil-circuit.toml", "--figure", "oil.png").exit_code == 0
     assert Path("oil.png").read_bytes()[:4] == b"\x89PNG"
@@ -245,6 +246,7 @@ def test_numbers_without_a_unit_that_no_oil_has_are_refused(key):
     assert (problem.code, problem.place, problem.value) == (Mistake.UNIT, place, value)
 
 
+@pytest.mark.check
 def test_rows_are_shown_where_much_happens():
     """A filter that is full every few hours: its rows do not hide the first minutes."""
     keys = setting('life.filters.0.capacity="1 g"')
@@ -334,6 +336,7 @@ def test_a_study_is_loaded_with_its_oil():
 
 
 # ------------------------------------------------------------------------------ bands, sizes
+@pytest.mark.check
 def test_what_is_known_of_the_numbers_becomes_bands(monkeypatch):
     monkeypatch.setattr("thirdbody.study.life_bands.SAMPLES", 64)  # enough for some of each end
     Path("known.toml").write_text(
@@ -384,6 +387,7 @@ def test_the_book_shows_what_is_printed():
     assert shown.splitlines() == printed[2:]
 
 
+@pytest.mark.check
 def test_the_report_has_a_page_on_the_oil():
     study = tb.load_study("oil-circuit.toml")
     page = report(study).html()

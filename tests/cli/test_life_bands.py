@@ -57,6 +57,7 @@ def few(monkeypatch):
 
 
 # ------------------------------------------------------------------------------ of an oil
+@pytest.mark.check
 def test_how_sure_an_oil_is_and_what_decides():
     file = study("oil-circuit", OIL)
     done = run("assess", file, *SHORT)
@@ -70,6 +71,7 @@ def test_how_sure_an_oil_is_and_what_decides():
     assert data["times"]["code 13/11/7"][-1] is None  # censored
 
 
+@pytest.mark.check
 def test_censored_quantiles_are_those_of_what_is_known():
     """One exponential: with a factor on the start, the time to a count has a closed form."""
     quartz = tb.materials["quartz"]
@@ -118,6 +120,7 @@ seed = 3
 """
 
 
+@pytest.mark.check
 def test_uncertainty_varies_a_life():
     """What [uncertainty] names of [life] is varied as in [life.uncertainty], β ratios too."""
     file = study("oil-circuit", IN_UNCERTAINTY)
@@ -275,6 +278,7 @@ def test_what_does_not_go_together_is_refused():
 
 
 # ------------------------------------------------------------------------------ interrupted
+@pytest.mark.check
 def test_an_interrupted_run_goes_on_to_the_same_bytes(monkeypatch):
     file = study("oil-circuit", OIL)
     whole = run("assess", file, *SHORT, "--json").stdout

@@ -149,6 +149,7 @@ def test_smaller_particles_are_told_apart(oils):
     assert track.smaller_depth < 0.2 * track.depth
 
 
+@pytest.mark.check
 def test_it_is_printed_and_in_json():
     file = quarry(DESIGN)
     done = run("life", file)
@@ -167,6 +168,7 @@ def test_it_is_printed_and_in_json():
     assert math.isinf(found.oils[1].time)
 
 
+@pytest.mark.check
 def test_the_report_holds_the_table():
     found = run_life(load_oil(quarry()))
     (part,) = life_section(SimpleNamespace(life=found))
@@ -174,6 +176,7 @@ def test_the_report_holds_the_table():
         assert f"<td>{oil.oil}</td>" in part
 
 
+@pytest.mark.check
 def test_a_workbook_holds_the_table():
     openpyxl = pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
     assert run("life", quarry(), "--xlsx", "a.xlsx").exit_code == 0

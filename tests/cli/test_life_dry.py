@@ -99,6 +99,7 @@ def test_particles_and_those_with_load_stand_on_one_basis():
     assert there == pytest.approx(np.sum(data["numbers"][-1]) / 1e6, rel=0.01)
 
 
+@pytest.mark.check
 def test_nothing_leaves_where_all_comes_round_again():
     keys = ("--set", "life.dry.loss=0", "--set", 'life.duration="2 s"')
     history = json.loads(run("life", "dry-contact.toml", *keys, "--json").stdout)
@@ -107,6 +108,7 @@ def test_nothing_leaves_where_all_comes_round_again():
     assert "life.dry.loss = 0" in said(run("life", "dry-contact.toml", *keys))
 
 
+@pytest.mark.check
 def test_json_csv_and_workbook_hold_the_same_numbers():
     openpyxl = pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
     done = run("life", "dry-contact.toml", *SHORT, "--json", "--csv", "a.csv", "--xlsx", "a.xlsx")
@@ -141,12 +143,14 @@ def test_what_never_leaves_is_told():
     assert "left" in {row["to"] for row in data["flows"] if row["kg"] > 0}
 
 
+@pytest.mark.check
 def test_the_figure_is_drawn():
     done = run("life", "dry-contact.toml", "--set", 'life.duration="20 s"', "--figure", "a.png")
     assert done.exit_code == 0, done.stderr
     assert Path("a.png").read_bytes()[:4] == b"\x89PNG"
 
 
+@pytest.mark.check
 def test_the_report_has_a_part_on_the_contact():
     found = run_life(load_life("dry-contact.toml", ['life.duration="20 s"']))
     (part,) = life_section(SimpleNamespace(life=found))
@@ -196,6 +200,7 @@ def test_options_of_an_oil_are_refused():
         assert "[life.dry]" in done.stderr or "life.dry" in done.stderr
 
 
+@pytest.mark.check
 def test_an_oil_has_a_workbook_too():
     pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
     run("new", "oil-circuit")

@@ -144,6 +144,7 @@ def test_a_contact_of_which_most_meet_no_particle_is_not_said_to_rest_on_particl
     assert "real contact is on particles" in " ".join(many.split())
 
 
+@pytest.mark.check
 def test_a_film_whose_bodies_hold_no_particle_mostly_is_not_said_to_rest_on_particles():
     """Of a study with [film] the contact is that of the film's bodies, whatever the load."""
     study = EXAMPLES / "oil_film.toml"

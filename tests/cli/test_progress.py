@@ -48,6 +48,7 @@ def test_long_work_says_in_a_pipe_that_it_goes_on(name, tmp_path, monkeypatch):
     assert (done.exit_code, done.stdout) == (quiet.exit_code, quiet.stdout)
 
 
+@pytest.mark.check
 @pytest.mark.usefixtures("short_search")
 @pytest.mark.parametrize("name", LONG)
 def test_a_pipe_is_told_nothing(name, tmp_path, monkeypatch):

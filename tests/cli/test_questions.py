@@ -54,6 +54,7 @@ def test_how_often_a_connector_fails_to_close():
     assert answers < table < rest
 
 
+@pytest.mark.check
 def test_how_high_a_wafer_stands_over_a_grain():
     done = run("plate", "wafer-chuck.toml")
     told = said(done)
@@ -67,6 +68,7 @@ def test_how_high_a_wafer_stands_over_a_grain():
     assert len(done.notes) == done.stderr.count("warning: ") == 2
 
 
+@pytest.mark.check
 def test_a_wafer_does_not_stand_on_a_grain_that_sinks_in():
     assert "1 µm < 0.1 nm < 0.01 % - 0.0656 N" in said(run("plate", "wafer-chuck.toml"))
     grain = ("--set", "plate.grain=0.3 um")
@@ -136,6 +138,7 @@ def test_a_bifurcated_contact_fails_less_often():
     assert data["states"]["failure_of_all"] == two.failure_of_all.tolist()
 
 
+@pytest.mark.check
 def test_a_wipe_of_unknown_effect_is_told_with_both_ends():
     told = said(run("probability", "connector.toml", "--set", "connector.wipe=0.3 mm"))
     assert "connector.pushed_aside" in told
@@ -260,6 +263,7 @@ def test_the_curve_of_a_plate_goes_through_its_table():
         assert math.log(height) == pytest.approx(at, abs=0.05)
 
 
+@pytest.mark.check
 def test_kinds_of_one_name_have_a_curve_each():
     asked = load_plate("wafer-chuck.toml")
     (dust,) = asked.chuck.particles
@@ -271,6 +275,7 @@ def test_kinds_of_one_name_have_a_curve_each():
     assert "410 nm" in answer(found)[0]
 
 
+@pytest.mark.check
 @pytest.mark.parametrize(("command", "kind"), FILES.items())
 def test_a_figure_is_drawn_and_stands_in_the_workbook(command, kind):
     pytest.importorskip("openpyxl")
@@ -286,6 +291,7 @@ def test_a_figure_is_drawn_and_stands_in_the_workbook(command, kind):
     assert not Path("a.csv").exists()
 
 
+@pytest.mark.check
 def test_one_speed_of_a_film_is_drawn_with_others_around_it():
     pytest.importorskip("openpyxl")
     assert run("new", "ball-bearing", "6205").exit_code == 0

@@ -144,6 +144,7 @@ def spelled_out(text):
     return f"{digits}{power.upper()}{tens}"
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_template(kind, folder):
     study = folder / f"{kind}.toml"
@@ -180,6 +181,7 @@ def test_every_template(kind, folder):
             assert share is None or kind == "two-body" or percent(share) in row
 
 
+@pytest.mark.check
 def test_a_film(folder):
     run("new", "rolling-bearing")
     named = ("--json", "a.json", "--xlsx", "a.xlsx", "--csv", "a.csv")
@@ -203,6 +205,7 @@ def test_a_film(folder):
             assert shown_in_si(f"[{unit.value or ''}]", value) == amount
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("fine", [(), ("--filter", "5=75, 10=1000")], ids=["as it is", "filter"])
 def test_what_the_oil_does_is_in_numbers(folder, fine):
     """The populations and the balls of a bearing: numbers in one unit, as they are printed."""

@@ -180,6 +180,7 @@ def first_sentences(shown):
     return " ".join(" ".join(lines).split())
 
 
+@pytest.mark.check
 def test_dust_or_steel_in_my_bearing_and_would_a_finer_filter_help(run):
     """Three commands; which carries, which dents, how deep, what life loses, what a filter does."""
     assert run("new", "ball-bearing", "6205").strip() == "thirdbody film ball-bearing.toml"

@@ -39,6 +39,7 @@ def read(path):
     return pandas.read_excel(path, sheet_name="States" if "States" in names else "Table")
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", LIBRARY)
 @pytest.mark.parametrize("arguments", COMMANDS, ids=lambda arguments: arguments[0])
 def test_the_numbers_of_the_csv_file(tmp_path, kind, arguments):
@@ -113,6 +114,7 @@ def test_a_file_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
 
+@pytest.mark.check
 def test_files_of_a_run_appear_together_or_not_at_all(tmp_path, monkeypatch):
     """The last of four cannot be written: an older one stays, and no other appears."""
     pandas = pytest.importorskip("pandas")
@@ -157,6 +159,7 @@ def test_json_goes_to_the_output_or_into_a_file(tmp_path):
     assert (tmp_path / "t.csv").read_bytes() == (tmp_path / "v.csv").read_bytes()
 
 
+@pytest.mark.check
 @pytest.mark.usefixtures("short_search")
 def test_points_of_a_design_have_units(tmp_path):
     file = tmp_path / "points.csv"
@@ -174,6 +177,7 @@ def test_points_of_a_design_have_units(tmp_path):
     ]
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("design", ["sampled", "reduced"])
 def test_a_sweep_has_tables_beside_its_folder(tmp_path, design):
     """The numbers of the folder, modes in words; a table that nobody reads is refused before."""

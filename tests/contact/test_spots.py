@@ -307,6 +307,7 @@ def test_states_far_apart_are_laid_out_in_groups():
             np.testing.assert_allclose(together.outputs[name][i], value, rtol=1e-12, err_msg=name)
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("hardness", [8e9, 3e9, 1e9])
 def test_outputs_of_particles_that_sink_in_are_known_to_eight_digits(hardness, monkeypatch):
     """The impression bends where its table does: more nodes change nothing."""

@@ -301,6 +301,7 @@ def soft_dust(
 class TestSeveralSeparations:
     """A load that several separations carry, in the consistent model."""
 
+    @pytest.mark.spread(2)
     @pytest.mark.parametrize("sizes", [None, tb.distributions.Monodisperse(mean=3e-8)])
     @pytest.mark.parametrize("shadow", ["footprint", "projected"])
     def test_all_of_them(self, sizes, shadow):

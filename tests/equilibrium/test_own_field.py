@@ -159,6 +159,7 @@ BRITTLE = tb.Particles(
 )
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize(
     ("case", "why"),
     [

@@ -62,6 +62,7 @@ def test_table_of_stiffness(chi):
     assert np.isnan(surface.stiffness(np.array([surface.lowest - 0.1]))[0])
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize(("alpha", "error"), [(2.5, 3e-3), (5.0, 8e-3), (30.0, 0.025)])
 @pytest.mark.parametrize("chi", [0.05, 1.0, 20.0])
 def test_stiffness_beyond_the_table(alpha, chi, error):

@@ -30,6 +30,7 @@ VERDICTS = {
 }
 
 
+@pytest.mark.check
 def test_verdicts(ledger):
     stated = [claim.id for claim in study.STUDY.claims if claim.standing != OWN]
     assert {id: tuple(ledger[name][id].word for name in READINGS) for id in stated} == VERDICTS

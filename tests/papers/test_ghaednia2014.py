@@ -160,6 +160,7 @@ VERDICTS = {
 }
 
 
+@pytest.mark.check
 def test_verdicts(ledger):
     stated = [claim.id for claim in STUDY.claims if claim.standing != OWN]
     assert {id: tuple(ledger[name][id].word for name in STATED) for id in stated} == VERDICTS

@@ -175,6 +175,7 @@ def test_shares_add_up_in_every_reading():
 
 
 # ------------------------------------------------------------------ totals
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("name", EXPECTED)
 def test_totals_of_the_printed_equations(verdicts, name):
     assert abs(total(verdicts[name]) - EXPECTED[name]) <= 3

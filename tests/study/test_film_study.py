@@ -322,6 +322,7 @@ def run(*arguments):
     return run_command("film", *arguments)
 
 
+@pytest.mark.check
 def test_the_command_tells_point_and_curve():
     done = run(EXAMPLE, "--set", "film.speed=0.5 m/s")
     assert done.exit_code == 0
@@ -377,6 +378,7 @@ def test_the_film_of_any_contact_is_told(settings, said):
     assert said in " ".join(done.stdout.split())
 
 
+@pytest.mark.check
 def test_json_csv_and_figure(tmp_path):
     numbers, figure = tmp_path / "o.csv", tmp_path / "o.svg"
     few = ("--set", "film.speed.points=3")
@@ -394,6 +396,7 @@ def test_json_csv_and_figure(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["o.csv", "o.svg"]
 
 
+@pytest.mark.check
 def test_friction_that_is_not_known_is_said(tmp_path):
     data = data_of(slide_roll=None)
     study = check(data)

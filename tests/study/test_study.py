@@ -1095,6 +1095,7 @@ def test_unsolved_states_keep_their_place(write):
     assert states["F_star"][1] == 1e3
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_examples_are_sensible(path):
     study = load_study(path)

@@ -65,7 +65,8 @@ def plastic():
     return RUBBING.replace(surfaces=tb.MaterialPair(stiff, stiff))
 
 
-@pytest.mark.parametrize("exponent", [0.7, 1.0, 2.0])
+@pytest.mark.spread(3)
+@pytest.mark.parametrize("exponent", [1.0, 0.7, 2.0])
 def test_fold_of_plastic_surfaces(plastic, exponent):
     """v ∝ θ(1 − θ^m) has its maximum at θ = (1 + m)^(−1/m)."""
     theta = (1 + exponent) ** (-1 / exponent)
@@ -122,6 +123,7 @@ def test_junction_growth_alone(plastic):
     assert found.speed_limit.startswith("none")
 
 
+@pytest.mark.check
 def test_junctions_make_softening_worse(plastic):
     """v ∝ θ √((1 − θ)² − a²), a² = ατ²/H_0²: its maximum by another search."""
     a = 3 * TAU / STEEL.H
@@ -300,6 +302,7 @@ def test_time_tells_the_stable_state_from_the_other():
     assert after(hot + 5.0) == math.inf
 
 
+@pytest.mark.check
 def test_loop_gain_is_one_at_the_fold():
     end = asked(limits="speed").seizure_speed
     near = asked(sliding_speed=end * (1 - 1e-6), limits="speed")
@@ -338,6 +341,7 @@ def test_flash_adds_the_mean_rise_of_the_spots():
     assert only.T_particles == pytest.approx(bulk + state.outputs["dT_sa_load"], abs=1e-6)
 
 
+@pytest.mark.check
 def test_oil_that_thins():
     """The film at the temperature that its own friction makes."""
     oil = tb.films.Oil(eta=0.05, alpha=2e-8, eyring_stress=5e6)
@@ -376,6 +380,7 @@ def test_half_spaces_are_those_of_the_moving_source():
 
 
 # ------------------------------------------------------------------ symmetry and mistakes
+@pytest.mark.check
 def test_celsius_and_kelvin_give_the_same():
     one = asked(limits="speed")
     law = feedback.Softening(T_melt=MELT - 273.15, T_0=COLD - 273.15, exponent=1.0)
@@ -584,6 +589,7 @@ def one_that_softens(T):
     return (T - COLD) * 1e4 / (mu * 5e6)
 
 
+@pytest.mark.check
 def test_states_beyond_a_jump_of_friction_are_found():
     """Surface 1 becomes 1.2 times softer than its partner at share 1/1.2, and is then ploughed."""
     jump = COLD + (MELT - COLD) * (1 - 1 / 1.2)

@@ -96,6 +96,7 @@ def coded(counts):
     return [tb.dust.iso4406_of_counts(each) for each in counts]
 
 
+@pytest.mark.check
 def test_the_band_of_codes_holds_what_is_true():
     """Volumes at random move every count somewhere else in its range."""
     inside, widths = [], []
@@ -272,6 +273,7 @@ def rounded(counts, seed):
     return np.minimum.accumulate(np.floor(seen), axis=1) * 1e6
 
 
+@pytest.mark.check
 def test_counts_of_0_are_taken_and_their_band_holds_what_is_true():
     """4000 particles a second from 14 µm on that the filter keeps below one a millilitre."""
     fine = tb.oil.Filter(sizes=(4e-6, 10e-6), betas=(4.0, 75.0), flow=1e-3)

@@ -40,6 +40,7 @@ F_star = 1e-5
 
 
 # ---------------------------------------------------------------- the page
+@pytest.mark.check
 def test_page_of_outputs_is_the_generated_one():
     """Made in a process of its own: other tests of this one may have brought outputs along."""
     command = [sys.executable, "-m", "thirdbody", "outputs", "--markdown"]

@@ -137,6 +137,7 @@ def no_figures(monkeypatch):
 
 
 # ---------------------------------------------------------------- the answer
+@pytest.mark.check
 def test_the_answer_is_that_of_the_solver(dusty):
     found, _ = dusty
     first, second, third = found.sentences()

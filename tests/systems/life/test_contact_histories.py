@@ -38,6 +38,7 @@ def dry():
 
 
 # ------------------------------------------------------------------ closed forms
+@pytest.mark.check
 def test_a_clean_contact_wears_as_its_wear_says():
     sliding = contact(STEEL, SOFT, K_ss_ep=1e-6, K_ss_e=1e-6)
     clean = run(sliding, duration=3.6e6, debris=DEBRIS, **(DRY | dict(arrivals=(), loss=1.0)))
@@ -162,6 +163,7 @@ def test_roughness_runs_in_over_its_length():
     assert "life.running_in" in codes_of(found)
 
 
+@pytest.mark.check
 def test_exchanged_surfaces_exchange_their_wear(dry):
     turned = DRY | dict(moving=2, worn_area=(1e-4, 1e-3))
     other = run(contact(SOFT, STEEL), duration=7.2e3, debris=DEBRIS, **turned)

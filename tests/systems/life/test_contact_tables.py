@@ -109,6 +109,7 @@ def test_dents_are_those_of_all_particles_beyond_first_yield(unlike, tables):
         assert state.per_particle[1, k, INDEX["dents_1"]] == pytest.approx(exact, rel=1e-5)
 
 
+@pytest.mark.check
 def test_the_gap_under_a_load_is_that_of_the_contact(unlike, tables):
     eta = mixture(9)
     dirty = unlike.replace(particles=populations(eta), outputs=())
