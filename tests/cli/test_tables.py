@@ -66,7 +66,7 @@ def test_no_number_of_a_study_drawn_at_random_is_broken(width, seed):
         ("film", FILM),
         ("film", FILM, "--set", "film.speed=0.5 m/s"),
         ("assess", ASSESS, "--set", "uncertainty.samples=64"),
-        ("assess", ADDITIVE, "--set", "uncertainty.samples=256"),
+        ("assess", ADDITIVE),
         ("compare", DUSTY),
         ("surface", "example"),
         ("materials",),
