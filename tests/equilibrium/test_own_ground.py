@@ -175,7 +175,7 @@ def errors(got, want, sigma):
 def test_states_hold_to_tables_of_each(name):
     several = name in SEVERAL
     case, more = SEVERAL[name] if several else CASES[name]
-    vary, loads = drawn(more, 6 if several else 20, 1, ROUGH if several else USUAL)
+    vary, loads = drawn(more, 6 if several else 8, 1, ROUGH if several else USUAL)
     got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
     known = got["doubt"] == ""
     assert known.mean() > (0.5 if several else 0.7)
@@ -190,7 +190,7 @@ def test_states_hold_to_tables_of_each(name):
 
 def test_a_fixed_bandwidth_of_any_size():
     rough = tb.Roughness(sigma=100e-9, R=2.8e-6, alpha=20.0)
-    case, (vary, loads) = contact().replace(roughness=rough), drawn({}, 30, 3)
+    case, (vary, loads) = contact().replace(roughness=rough), drawn({}, 10, 3)
     del vary["roughness.R"]
     got, want = own_columns(case, vary, "F_star", loads), by_numpy(case, loads, vary)
     known = got["doubt"] == ""
@@ -200,8 +200,8 @@ def test_a_fixed_bandwidth_of_any_size():
 
 
 def test_at_given_separations():
-    case, (vary, _) = contact(), drawn({}, 30, 4)
-    d = vary["roughness.sigma"] * np.linspace(0.5, 5.0, 30)
+    case, (vary, _) = contact(), drawn({}, 10, 4)
+    d = vary["roughness.sigma"] * np.linspace(0.5, 5.0, 10)
     got, want = own_columns(case, vary, "d", d), by_numpy(case, d, vary, "d")
     known = (got["doubt"] == "") & (want["status_code"] == 0)
     assert known.mean() > 0.7
@@ -250,8 +250,8 @@ def test_each_population_shades_by_its_own_rule():
         SOFT.replace(areal_density=2e11, law=tb.particle.Series(seat="rough")),
         HARD.replace(areal_density=2e10, law=COVERED),
     )
-    vary, _ = drawn({}, 8, 10, ROUGH)
-    loads = np.geomspace(1e-7, 3e-5, 8)
+    vary, _ = drawn({}, 4, 10, ROUGH)
+    loads = np.geomspace(1e-7, 3e-5, 4)
     for some in (parts, parts[::-1]):
         got = own_columns(contact(some), vary, "F_star", loads)
         known = got["doubt"] == ""
@@ -316,12 +316,13 @@ def test_alone_among_others_and_in_any_order(name):
 def test_what_is_not_resolved_is_solved_by_tables_and_says_so():
     wide = tb.TruncatedGaussian(mean=600e-9, std=60e-9, n=3.0)  # that lift asperities by kinks
     case, (vary, loads) = contact(SOFT.replace(diameter=wide)), drawn({}, 25, 6)
-    found, want = state_columns(case, F_star=loads, vary=vary), by_numpy(case, loads, vary)
+    found = state_columns(case, F_star=loads, vary=vary)
     again = np.array([str(each).startswith("numpy: its error") for each in found["engine"]])
     assert again.any()
     assert set(found["engine"][~again]) <= {"compiled"}
     assert set(found["status"]) == {"ok"}
-    np.testing.assert_array_equal(found["d"][again], want["d"][again])
+    want = by_numpy(case, loads[again], {name: values[again] for name, values in vary.items()})
+    np.testing.assert_array_equal(found["d"][again], want["d"])
 
 
 def test_what_the_kernel_does_not_know_is_left_to_tables():
@@ -456,7 +457,7 @@ def contact_at_random(rng):
 def test_contacts_at_random_hold_to_tables(seed):
     """Crowded, soft, wide, of any bandwidth: what the engine says it knows it knows."""
     rng, states_known, of = np.random.default_rng(seed), 0, 0
-    for _ in range(16):
+    for _ in range(8):
         case = contact_at_random(rng)
         loads = np.exp(rng.uniform(math.log(1e-8), math.log(1e-2), 15))
         got, want = own_columns(case, {}, "F_star", loads), by_numpy(case, loads, {})

@@ -660,7 +660,7 @@ def test_loads_that_asperities_carry_are_its_own_on_a_rough_seat(law, body):
 
     That it falls is checked by the scan of the load over all separations.
     """
-    count = 24
+    count = 12
     case = contact(law, "rough", body)
     rng = np.random.default_rng(11)
     vary = {
@@ -761,7 +761,7 @@ def test_the_slow_rows_are_told_of_as_compiled():
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("law", [name for name in JUMPING if name != "ceb"])
 def test_many_random_states_of_loads_that_jump(law, body, unlike):
-    hold(contact(law, "rough", body), 20, 8, unlike)
+    hold(contact(law, "rough", body), 8, 8, unlike)
 
 
 @pytest.mark.check
@@ -777,7 +777,7 @@ def test_many_random_states_of_loads_that_jump(law, body, unlike):
     ],
 )
 def test_many_random_states(law, seat, body, sizes, unlike):
-    hold(contact(law, seat, body, sizes), 20, 8, unlike)
+    hold(contact(law, seat, body, sizes), 8, 8, unlike)
 
 
 @pytest.mark.slow

@@ -44,7 +44,7 @@ def test_contact_that_failed_once(index):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("block", range(4))
+@pytest.mark.parametrize("block", range(2))
 def test_more_contacts(block):
     results = [random_contacts.run(SEED + 1, 10 * block + i, shares=3) for i in range(10)]
     bad = [random_contacts.told(result) for result in results if result["failed"]]

@@ -1,6 +1,7 @@
 """Ingress from oil reports: the inverse of the course of the oil."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -122,10 +123,15 @@ def test_bands_hold_what_is_true_where_a_filter_lets_nearly_all_pass(betas, monk
     oil = circuit(filters=weak, classes=usual)
     times = np.array([0, 24, 48, 72]) * HOUR
     exact = reported(times, filters=weak, classes=usual)
+
+    @cache  # counts that differ by a factor of less than two often have the same codes
+    def found_of(*codes):
+        return oil_reports(times, reports=codes, circuit=oil)
+
     inside, rng = [], np.random.default_rng(11)
     for _ in range(300):
         factor = math.exp(rng.uniform(-1, 1))
-        found = oil_reports(times, reports=coded(exact * factor), circuit=oil)
+        found = found_of(*coded(exact * factor))
         inside.append((found.low < RATES * factor) & (found.high > RATES * factor))
     # three standard deviations of 300 draws below nine of ten
     assert np.all(np.mean(inside, axis=0) > 0.9 - 3 * math.sqrt(0.09 / 300))
