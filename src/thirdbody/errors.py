@@ -324,6 +324,21 @@ def note_of(message: Warning | str) -> str:
     return next(iter(message.args), str(message))
 
 
+def note_data(note: str) -> dict[str, object]:
+    """A note taken apart for JSON; of a plain sentence only that is known.
+
+    >>> note_data(Note("A_t reaches 0.3", code="area", effect=0.17))
+    {'code': 'area', 'effect': 0.17, 'action': '', 'sentence': 'A_t reaches 0.3'}
+    """
+    effect = getattr(note, "effect", math.nan)
+    return {
+        "code": getattr(note, "code", ""),
+        "effect": None if math.isnan(effect) else effect,
+        "action": getattr(note, "action", ""),
+        "sentence": str(note),
+    }
+
+
 def place_note(note: str, place: str) -> Note:
     """The note of an answer at a place that is named first, such as a critical load.
 

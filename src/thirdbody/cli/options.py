@@ -74,7 +74,7 @@ Settings = Annotated[
     typer.Option(
         "--set",
         metavar="KEY=VALUE",
-        help='Change a key for this run, e.g. particles.mean="500 nm"; may be repeated.',
+        help='Change a key for this run, e.g. roughness.sigma="80 nm"; may be repeated.',
     ),
 ]
 KeepFile = Annotated[

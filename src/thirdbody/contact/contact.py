@@ -75,19 +75,21 @@ class Contact(Value):
         warn_of_slips(self)
 
     def _problems(self) -> list[str]:
-        kinds = {
-            "surfaces": MaterialPair,
-            "roughness": Roughness,
-            "asperity_law": AbstractAsperityLaw,
-            "particle_law": AbstractParticleLaw,
+        kinds: dict[str, tuple[type, str]] = {
+            "surfaces": (MaterialPair, "a MaterialPair"),
+            "roughness": (Roughness, "a Roughness"),
+            "asperity_law": (AbstractAsperityLaw, "an asperity law, e.g. asperity.ZMC()"),
+            "particle_law": (AbstractParticleLaw, "a particle law, e.g. particle.Series()"),
         }
-        out: list[str] = [
-            Problem(
-                name, f"must be a {kind.__name__}", repr(getattr(self, name)), code=Mistake.KIND
-            )
-            for name, kind in kinds.items()
-            if not isinstance(getattr(self, name), kind)
-        ]
+        out: list[str] = []
+        for name, (kind, words) in kinds.items():
+            value = getattr(self, name)
+            if not isinstance(value, kind):
+                # a class instead of one of its laws
+                bare = isinstance(value, type) and issubclass(value, kind)
+                hint = f"write {value.__name__}()" if bare else ""
+                rule = f"must be {words}"
+                out.append(Problem(name, rule, repr(value), hint=hint, code=Mistake.KIND))
         populations = self.particles if isinstance(self.particles, tuple) else (self.particles,)
         if not all(
             isinstance(population, Particles) for population in populations

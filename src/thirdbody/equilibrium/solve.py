@@ -69,6 +69,15 @@ class _Separations(NamedTuple):
     """The engine, and why it was this one."""
 
 
+UNITS_HINTS = {
+    "pressure": "in Pa: 5 MPa are 5e6",
+    "F_star": "F/(A_n E_ss), without a unit",
+    "d": "in m: 200 nm are 200e-9",
+    "h": "in m: 200 nm are 200e-9",
+}
+"""What to write for a load that is text."""
+
+
 def given_load(
     contact: Contact,
     pressure: ArrayLike | None,
@@ -102,7 +111,13 @@ def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
     except (TypeError, ValueError, OverflowError):
         shown = repr(value) if len(repr(value)) <= 80 else repr(value)[:76] + " ..."
         raise InvalidValue(
-            Problem(name, "must be a number or an array of numbers", f"{shown}", code=Mistake.KIND)
+            Problem(
+                name,
+                "must be a number or an array of numbers",
+                shown,
+                hint=UNITS_HINTS.get(name, "") if isinstance(value, str) else "",
+                code=Mistake.KIND,
+            )
         ) from None
     if values.ndim > 1:
         raise InvalidValue(

@@ -103,9 +103,8 @@ def only_one(**quantities: object) -> tuple[str, object]:
     values = {name: value for name, value in quantities.items() if value is not None}
     if len(values) != 1:
         names = ", ".join(values) or "none"
-        raise InvalidValue(
-            f"give exactly one of {', '.join(quantities)}; got {names}", code=Mistake.MISSING
-        )
+        code = Mistake.CLASH if values else Mistake.MISSING
+        raise InvalidValue(f"give exactly one of {', '.join(quantities)}; got {names}", code=code)
     return values.popitem()
 
 

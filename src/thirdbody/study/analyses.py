@@ -205,8 +205,8 @@ def arguments(study: Study) -> dict[str, Any]:
     if study.design is None:
         raise InvalidValue(
             "the study has no table [design]: it says what may be chosen and what is good, e.g. "
-            '[design] objective = { of = "A_t" }, [design.vary] "roughness.sigma" = '
-            '{ low = "50 nm", high = "200 nm" }; or [life.design], of an oil',
+            '[design] objective = { of = "A_t", aim = "smallest" }, [design.vary] '
+            '"roughness.sigma" = { low = "50 nm", high = "200 nm" }; or [life.design], of an oil',
             code=Mistake.MISSING,
         )
     keywords = dict(study.design)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..contact.citations import cite
-from ..equilibrium.columns import about
+from ..equilibrium.columns import CODE, about
 from ..equilibrium.transitions import Transitions
-from ..errors import NoEquilibrium
+from ..errors import NoEquilibrium, note_data
 from ..quantities.carried import takes_units
 from ..quantities.plain_data import plain_data
 from ..quantities.record import VERSION, Entry, MappedRecord, Record, with_names
@@ -40,7 +40,7 @@ Columns = dict[str, list[object]]
 def _entries(input_entry: Entry, *numbers: Entry) -> tuple[Entry, ...]:
     """Entries of a result: what every study says, an input beside the contact, and numbers."""
     inputs: Entry = ("inputs", (("", "study.contact"), input_entry))
-    more = ("natures", "warnings", "citations")
+    more = ("natures", "warnings", ("notes", "_notes"), "citations")
     return ("title", "study.title"), VERSION, inputs, *numbers, *more
 
 
@@ -66,6 +66,10 @@ class _Result(MappedRecord):
     def warnings(self) -> tuple[str, ...]:
         """Notes of reading and of solving the study, one sentence each."""
         return tuple(dict.fromkeys((*self.study.notes, *self.run_warnings)))
+
+    def _notes(self) -> list[dict[str, object]]:
+        """The warnings taken apart, for programs that read no sentences."""
+        return [note_data(warning) for warning in self.warnings]
 
     @property
     def citations(self) -> list[str]:
@@ -108,15 +112,16 @@ class StudyResult(_Result):
     -----
     `to_dict` has title, version, inputs (SI), scales, states (a list each), what each of several
     populations carries in them, transitions, what the answer hangs on, what the particles of each
-    population are, warnings, citations; ``body``, where a force presses one: pressures and
-    integrals of each force, and sentences; and where none does, of a study with [film],
-    ``particles_held``: how many lie in the contact of its bodies.
+    population are, warnings, the same taken apart as ``notes`` (code, effect, action, sentence),
+    citations; ``body``, where a force presses one: pressures and integrals of each force, and
+    sentences; and where none does, of a study with [film], ``particles_held``: how many lie in the
+    contact of its bodies.
     """
 
     in_dict = (
         *_entries(
             ("load", lambda result: {result.study.load: result.study.values}),
-            *(("scales", "states.scales"), ("states", "_states")),
+            *(("scales", "states.scales"), ("states", "_coded_states")),
             *(("populations", "states.populations"), ("engine", "states.engine")),
             *("transitions", "what_ifs"),
         ),
@@ -219,6 +224,10 @@ class StudyResult(_Result):
         columns["mode"] = [mode or None for mode in columns["mode"]]
         return {"status": columns.pop("status"), **columns}
 
+    def _coded_states(self) -> Columns:
+        columns = self._states()
+        return {"status": columns.pop("status"), CODE: self.states.status_code.tolist(), **columns}
+
     def _bodies(self) -> dict[str, object]:
         """What forces do to their bodies; without forces the particles that a film's hold."""
         if self.forces:
@@ -267,7 +276,8 @@ class FilmResult(_Result):
     `to_dict` has title, version, inputs (SI), states (a list each, one entry a speed), the speeds
     at which the regime changes, what of each population passes the film, how many particles one
     Hertz contact holds, what the oil brings, what the particles of each population are, warnings,
-    citations.
+    the same taken apart as ``notes``, citations. What the dirt of the oil does is for
+    `thirdbody.study.dirty_oil.dirty_oil`.
     """
 
     in_dict = _entries(

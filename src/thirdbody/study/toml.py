@@ -103,7 +103,7 @@ def override(data: dict[str, object], overrides: Iterable[str]) -> dict[str, obj
         path, equals, value = text.partition("=")
         keys = [key.strip() for key in path.split(".")]
         if not equals or not all(keys):
-            rule = f'--set {text!r} must be KEY=VALUE, e.g. --set particles.mean="500 nm"'
+            rule = f'--set {text!r} must be KEY=VALUE, e.g. --set roughness.sigma="80 nm"'
             problems.append(Problem("", rule, code=Mistake.FORM))
             continue
         try:

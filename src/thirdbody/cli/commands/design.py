@@ -235,12 +235,17 @@ class _Words:
                 within = f" (within 5 % of the best from {low} to {high})"
             chosen.append(f"{self.name(name)} {self.amount(name, value)}{within}")
         gives = [
-            f"{self.objective(label)} = {self.metric(label, value)}"
+            f"{self.aim(label)}{self.objective(label)} = {self.metric(label, value)}"
             for label, value in self.best.objectives.items()
         ]
         best = "Best" if len(gives) == 1 else "One of the best"
         best = best if self.best.feasible else "Nearest"
         return f"{best}: {join_words(chosen)}, for {join_words(gives)}."
+
+    def aim(self, label: str) -> str:
+        """What is sought of an objective, before its name; nothing where nothing is reached."""
+        aim = self.study_objectives[label].aim
+        return f"the {aim} " if self.best.feasible and aim != "window" else ""
 
     def about(self, of: str) -> tuple[str, str]:
         """Unit and meaning of a number of the states."""
