@@ -401,6 +401,30 @@ def test_wide_sizes_on_a_rough_seat(median, gsd):
     assert max(largest_error(got, want, sure).values()) <= BOUND
 
 
+def test_the_largest_of_log_normal_sizes_are_seen_where_they_end():
+    """Far above the median few sizes are left, and end within the panels of a usual state.
+
+    Gauss rules over gaps and squeezes agree with the slow path there (5e-11 of the load).
+    """
+    dust = tb.LogNormal(median=10e-6, gsd=1.15)
+    particles = tb.Particles(
+        material=tb.materials["SiO2"], diameter=dust, areal_density=1.2 / (np.pi * dust.moment(2))
+    )
+    case = contact().replace(
+        particles=particles,
+        particle_law=tb.particle.Series(deep="off"),
+        roughness=tb.Roughness(sigma=1e-7, R=2.8e-6),
+    )
+    loads = np.geomspace(1e-12, 1e-4, 24)
+    vary = {"particles.material.E": particles.material.E * (1 + 1e-14 * np.arange(24))}
+    got = own_columns(case, vary, "F_star", loads)
+    want = tb.solve(case, F_star=loads)
+    sigma = case.roughness.sigma
+    error = np.abs(got["d"] - want.d) / np.maximum(sigma, np.abs(want.d))
+    assert np.all(error < 1e-12 + 10 * got["error"])
+    np.testing.assert_allclose(got["A_t"], want.A_t, rtol=1e-10)
+
+
 @pytest.mark.parametrize("seat", SEATS)
 def test_other_sizes_and_flakes(seat):
     case = contact(seat=seat)

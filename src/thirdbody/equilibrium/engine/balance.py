@@ -39,6 +39,7 @@ from .fields import (
     NOT_RESOLVED,
     OFFSET,
     OK,
+    PANEL_SPAN,
     PLANE,
     POLYNOMIAL,
     PRINTED,
@@ -96,6 +97,7 @@ from .seats import (
     add_broken,
     add_rough,
     gather_gaps,
+    is_end_felt,
     lay_broken,
     lay_pieces,
 )
@@ -494,6 +496,11 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
         pressed = row[A_SA] + row[A_SA + 1] + row[A_SA + 2]
         left *= min(max(row[F_SA] / load, pressed / area), 1.0)
     error += SAFE * left
+    for p in range(len(given)):
+        if given[p, SEAT] == ROUGH and laid[p, few, WAY] == PIECES and given[p, BREAKS] == 0:
+            gap = h * skin[0, SIGMA_S] + given[p, OFFSET]
+            if is_end_felt(given, p, rules[few, 0, PANEL_SPAN], gap):
+                return math.inf
     if slope < 0:
         unit = skin[0, SIGMA_S] / skin[0, SIGMA]
         error = max(error, error / -slope * unit / max(1.0, FAR * abs(h) * unit))

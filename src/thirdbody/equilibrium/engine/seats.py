@@ -64,6 +64,7 @@ __all__ = [
     "add_nodes",
     "add_rough",
     "gather_gaps",
+    "is_end_felt",
     "lay_broken",
     "lay_pieces",
     "pays",
@@ -95,6 +96,8 @@ SMOOTH_END = 7.5
 """Standard deviations from the mean at which a normal density ends without a jump."""
 VECTOR = 8
 """Numbers that a processor takes at once: loops over the rest are slow."""
+FEW_AT_END = 29.0
+"""−ln of the density where sizes end over that at the gap from which on the end is not felt."""
 ONSET, ALIKE = 0.4, 0.5
 """Part of the width of a panel that one from the onset may have; 1 − ε from which on sizes may lie
 as close as before."""
@@ -268,6 +271,21 @@ def _own_width(given, p, span):
         return 0.0
     size = 0.5 * (given[p, LOW] + given[p, HIGH])
     return scale_of(given, p, size) / size
+
+
+@scalar
+def is_end_felt(given, p, span, gap):
+    """Whether panels are as wide as sizes spread, under a gap so large that these end too soon.
+
+    Squares of deviations from the middle say how many sizes there are at the gap and at the end.
+    """
+    if _own_width(given, p, span) == 0:
+        return False
+    middle, spread, high = given[p, SIZE_1], given[p, SIZE_2], given[p, HIGH]
+    if given[p, KIND] == LOGNORMAL:
+        gap, high, middle = math.log(max(gap, 1e-300)), math.log(high), math.log(middle)
+    deviation = max(gap - middle, 0.0)
+    return (high - middle) ** 2 - deviation**2 < 2 * FEW_AT_END * spread**2
 
 
 @scalar
