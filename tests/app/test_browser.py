@@ -29,9 +29,10 @@ from hostile import PAYLOADS, several, wrong  # noqa: E402
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.fields import engineering  # noqa: E402
 from thirdbody.app.sliders import REACH, STEPS, at_position  # noqa: E402
+from thirdbody.app.state import look  # noqa: E402
 from thirdbody.app.tabs import TABS  # noqa: E402
 from thirdbody.app.tabs.interface import abouts, headline  # noqa: E402
-from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
+from thirdbody.app.text import as_shown, from_link, to_link, to_toml  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
 from thirdbody.study.one_surface import one_surface  # noqa: E402
 from thirdbody.views import explicit_words  # noqa: E402
@@ -234,7 +235,13 @@ FITS = """() => document.documentElement.scrollWidth <= innerWidth &&
 
 
 def looked_at(page, name):
-    """At both widths, light and dark: nothing is wider than the page, cut off or hard to read."""
+    """At both widths, light and dark: nothing is wider than the page, cut off or hard to read.
+
+    The badge says how far the answer holds.
+    """
+    badge = page.locator('[data-fact="validity"]')
+    badge.wait_for()
+    assert badge.get_attribute("aria-label").startswith("how far the answer holds: ")
     folder = os.environ.get("THIRDBODY_SCREENSHOTS")
     looks = [(1280, "light"), (1280, "dark"), (390, "dark")]
     # colours move nothing: the fourth is for the picture alone
@@ -775,6 +782,26 @@ HARM = """() => [
 ].filter(Boolean)"""
 
 
+WITH_TABLES = ("Curves", "Outputs", "Laws", "Before / after")
+
+
+def built(page):
+    """The tab in sight stands there, and no longer what waits for it."""
+    when(
+        page,
+        "() => { const e = document.querySelector('.q-tab-panel');"
+        " return e?.innerText.trim() && !e.querySelector('.waiting'); }",
+    )
+
+
+def travelled(page, query):
+    """Goes back to an address that is laid into the history."""
+    page.evaluate(
+        "q => { history.pushState(null, '', q); history.pushState(null, '', '?'); }", f"?{query}"
+    )
+    page.go_back()
+
+
 def test_texts_of_a_link_are_shown_as_text(visit):
     page = visit(several())
     dialogs = []
@@ -784,6 +811,7 @@ def test_texts_of_a_link_are_shown_as_text(visit):
         assert " ".join(f"{number} {payload}".split()) in " ".join(shown.split())
     for name in (TITLES := page.get_by_role("tab").all_inner_texts()):
         tab(page, name.strip())
+        built(page)
         if name.strip() == "Curves":
             drawn(page, "shares")
             legend = page.locator('[data-figure="shares"] .legendtext').all_text_contents()
@@ -794,43 +822,57 @@ def test_texts_of_a_link_are_shown_as_text(visit):
             drawn(page, "sizes")
         if name.strip() == "Take away":
             when(page, "document.querySelector('[data-path=python]')?.innerText.includes('__hit')")
-        page.wait_for_timeout(200)
+        if name.strip() == "Outputs":
+            page.locator('[data-figure="outputs"] tbody').wait_for()
+        if name.strip() in WITH_TABLES:
+            page.wait_for_timeout(200)
         assert not page.evaluate(HARM), name
     assert len(TITLES) == len(TABS)
     page.set_viewport_size({"width": 390, "height": 860})
-    for name in TITLES:  # tables are cards there
-        tab(page, name.strip())
+    for name in WITH_TABLES:  # they are cards there
+        tab(page, name)
+        if name == "Outputs":
+            page.locator('[data-figure="outputs"] .q-table__grid-item').first.wait_for()
         page.wait_for_timeout(200)
         assert not page.evaluate(HARM), name
     assert not dialogs
 
 
-def test_mistakes_of_a_link_are_told_as_text(visit, address):
-    page = visit()
+def test_mistakes_of_a_link_are_told_as_text(shared, address, tmp_path):
+    """Opened where a text could end the script that the page comes with, else come back to."""
+    page, failed = shared
     for number in range(len(list(wrong("")))):
-        where, study = list(wrong(PAYLOADS[number % len(PAYLOADS)]))[number]
-        page.goto(f"{address}/?{to_link(study)}")
+        payload = PAYLOADS[(number + 3) % len(PAYLOADS)]
+        where, study = list(wrong(payload))[number]
+        if "</script>" in payload:
+            page.goto(f"{address}/?{to_link(study)}")
+        else:
+            travelled(page, to_link(study))
+        _, problems, _ = look(study, tmp_path)
+        page.locator('[data-said="page"]', has_text=as_shown("; ".join(problems))).wait_for()
         page.locator(".problem", has_text="__hit").first.wait_for()
         assert not page.evaluate(HARM), where
+    assert not failed
 
 
 def test_an_address_made_to_do_harm_is_told_as_text(visit):
     page = visit()
     for payload in PAYLOADS:
-        for name in ("study", "tab", "at", "tab", "files", "tab", "surface", "tab"):
-            # each shows another tab than the last
-            query = parse_qsl(to_link(STUDY, AT)) + [("tab", "curves")]
-            page.evaluate(
-                "q => { history.pushState(null, '', q); history.pushState(null, '', '?'); }",
-                f"?{urlencode(dict(query) | {name: payload})}",
-            )
-            page.go_back()
+        # each shows another tab than the last
+        for names, there in (
+            (("study", "files"), "curves"),
+            (("at", "surface"), "take_away"),
+            (("tab",), None),
+        ):
+            query = dict(parse_qsl(to_link(STUDY, AT))) | {"tab": there}
+            travelled(page, urlencode(query | dict.fromkeys(names, payload)))
+            shown = {"curves": "Curves", "take_away": "Take away", None: "Interface"}[there]
             when(
                 page,
                 "name => document.querySelector('.q-tab--active').innerText.trim() === name",
-                arg="Interface" if name == "tab" else "Curves",
+                arg=shown,
             )
-            assert not page.evaluate(HARM), (name, payload)
+            assert not page.evaluate(HARM), (names, payload)
 
 
 def test_codes_made_to_do_harm_are_told_as_text(visit):

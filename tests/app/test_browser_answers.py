@@ -61,10 +61,17 @@ def browser():
         made.close()
 
 
+@pytest.fixture(scope="module")
+def context(browser):
+    """What pages share: what they have loaded once."""
+    made = browser.new_context(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
+    yield made
+    made.close()
+
+
 @pytest.fixture
-def visit(browser, server):
+def visit(context, server):
     """Opens the page anew; at the end nothing may have failed in the browser."""
-    context = browser.new_context(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
     page, wrong = context.new_page(), []
     page.set_default_timeout(PATIENCE)
     page.on("console", lambda m: m.type == "error" and wrong.append(f"console: {m.text}"))
@@ -75,7 +82,7 @@ def visit(browser, server):
         return page
 
     yield open_page
-    context.close()
+    page.close()
     assert not wrong
 
 

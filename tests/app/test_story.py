@@ -41,14 +41,16 @@ FACTS = """() => Object.fromEntries([...document.querySelectorAll(
   .map(e => [e.dataset.fact, e.innerText.replaceAll("\u00a0", " ")]))"""
 
 
-@pytest.fixture
-def opened():
-    """A page on a server of its own: the browser and a function that starts the server."""
+@pytest.fixture(scope="module")
+def started():
+    """The browser and a function that starts a server, or gives the one that a story left."""
     running = []
 
     def start(port=0):
+        if not port and running and running[-1][0].poll() is None:
+            return running[-1]
         server, address = served(port)
-        running.append(server)
+        running.append((server, address))
         return server, address
 
     with sync_api.sync_playwright() as playwright:
@@ -60,8 +62,16 @@ def opened():
             yield browser, start
         finally:
             browser.close()
-            for server in running:
+            for server, _ in running:
                 ended(server)
+
+
+@pytest.fixture
+def opened(started):
+    """The same, of which nobody looks at a page any more when the story ends."""
+    yield started
+    for context in started[0].contexts:
+        context.close()
 
 
 def visited(browser, link):
