@@ -274,15 +274,15 @@ def _own_width(given, p, span):
 
 
 @scalar
-def is_end_felt(given, p, span, gap):
+def is_end_felt(parts, p, span, gap):
     """Whether panels are as wide as sizes spread, under a gap so large that these end too soon.
 
     Squares of deviations from the middle say how many sizes there are at the gap and at the end.
     """
-    if _own_width(given, p, span) == 0:
+    if _own_width(parts, p, span) == 0:
         return False
-    middle, spread, high = given[p, SIZE_1], given[p, SIZE_2], given[p, HIGH]
-    if given[p, KIND] == LOGNORMAL:
+    middle, spread, high = parts[p, SIZE_1], parts[p, SIZE_2], parts[p, HIGH]
+    if parts[p, KIND] == LOGNORMAL:
         gap, high, middle = math.log(max(gap, 1e-300)), math.log(high), math.log(middle)
     deviation = max(gap - middle, 0.0)
     return (high - middle) ** 2 - deviation**2 < 2 * FEW_AT_END * spread**2
