@@ -194,7 +194,7 @@ def test_samples_are_the_designs_and_the_states_are_theirs(design):
         (dict(columns=["area"]), refuses(Mistake.OPTION, "column", value="'area'")),
         (dict(chunk=0), refuses(Mistake.KIND, "chunk", value="0")),
         (dict(workers=0), refuses(Mistake.KIND, "workers", value="0")),
-        (dict(pressure=[1.0]), refuses(Mistake.MISSING, "", says="pressure, F_star")),
+        (dict(pressure=[1.0]), refuses(Mistake.CLASH, "", says="pressure, F_star")),
         (dict(F_star=[-1.0]), refuses(Mistake.RANGE, "F_star", value="-1")),
         (dict(reduce={"mean": True}), refuses(Mistake.MISSING, "reduce['over']")),
         (dict(reduce={"over": "F_star"}), refuses(Mistake.EMPTY, "reduce")),

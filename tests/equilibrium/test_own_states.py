@@ -621,6 +621,15 @@ def test_coated_asperities_hold_to_the_slow_path(indenter):
         own_columns(bare, {"asperity_law.E_1": 3e11 * np.ones(6)}, "F_star", loads)
 
 
+def test_contacts_wider_than_the_table_of_a_coating_are_for_the_numpy_engine():
+    law = tb.asperity.Coated(E_1=400e9, nu_1=0.3, t=5e-9, E_2=2e9, nu_2=0.3)
+    case = contact().replace(particles=None, asperity_law=law)
+    radii = np.array([1e-6, 50e-6])
+    own_columns(case, {"roughness.R": radii[:1]}, "F_star", np.array([1e-5]))
+    with pytest.raises(NotCompiled):
+        own_columns(case, {"roughness.R": radii}, "F_star", np.full(2, 1e-5))
+
+
 @pytest.mark.parametrize("heights", ["gaussian", "exponential"])
 def test_asperities_of_several_shapes_hold_to_the_slow_path(heights):
     shapes = tb.surfaces.Ellipticity(

@@ -14,7 +14,7 @@ from refusals import Mistake, refuses
 
 import thirdbody as tb
 from thirdbody.contact.contact import Contact
-from thirdbody.errors import InvalidValue
+from thirdbody.errors import InvalidValue, code_of
 from thirdbody.study import check, load_study, run_film, run_study
 from thirdbody.study.analyses import assess_study
 from thirdbody.study.film import note_without_oil
@@ -37,6 +37,19 @@ def data_of(**film):
     table = data["film"] | {"speed": SPEED} | film
     data["film"] = {key: value for key, value in table.items() if value is not None}
     return data
+
+
+def test_bodies_that_yield_are_noted():
+    """Hertz: p_0 = 1.5 w/A grows with the cube root of the load; 0.6 H is where yield begins."""
+    data = data_of(load="20 N")
+    first = run_film(check(data))
+    contact, film = first.study.contact, first.conditions
+    p_0 = 1.5 * 20.0 / film.conjunction.hertz(20.0, E=2 * contact.E_ss).area
+    limit = 20.0 * (0.6 * contact.surfaces.H / p_0) ** 3
+    for part, is_noted in ((0.99, False), (1.01, True)):
+        data = data_of(load=f"{part * limit} N")
+        codes = [code_of(note) for note in run_film(check(data)).warnings]
+        assert ("bodies.yield" in codes) == is_noted
 
 
 def problems_of(data):

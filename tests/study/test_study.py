@@ -811,6 +811,7 @@ def test_a_table_is_one_entry_of_the_list(write, problems, monkeypatch):
         ('"2.8 um"', "2,8", ["line 8", "decimal point"]),
         ("alpha = 5.0", "sigma = 5.0", ["line 9", "sigma is given twice"]),
         ("[roughness]", "[roughness", ["line 6", "[roughness"]),
+        ("[roughness]", "[surfaces]", ["line 6", "[surfaces]", "twice"]),
     ],
 )
 def test_syntax_errors_name_the_line(problems, old, new, words):

@@ -195,7 +195,7 @@ def test_mistakes():
     contact, s = reference_contact()
     with refuses(Mistake.RANGE, "nominal_area", value="0.0"):
         mean_interaction(contact, nominal_area=0.0, pressure=1e6)
-    with refuses(Mistake.MISSING, "", says="pressure, d"):
+    with refuses(Mistake.CLASH, "", says="pressure, d"):
         mean_interaction(contact, nominal_area=1e-6, pressure=1e6, d_0=0.0)
     with balances_not(Status.TOO_DEEP, says="-3 sigma_s"):
         mean_interaction(contact, nominal_area=1e-16, d_0=-10 * s)

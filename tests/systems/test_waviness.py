@@ -149,7 +149,7 @@ def test_mistakes():
     contact, s = reference_contact()
     with refuses(Mistake.RANGE, "amplitude", value="-1e-09"):
         rigid_wave(contact, amplitude=-1e-9, d=0.0)
-    with refuses(Mistake.MISSING, "", says="d, pressure, F_star"):
+    with refuses(Mistake.CLASH, "", says="d, pressure, F_star"):
         rigid_wave(contact, amplitude=1e-9, pressure=1e6, F_star=1e-5)
     with refuses(Mistake.MISSING, "", says="d, pressure, F_star"):
         measured_wave(contact, heights=[0.0, 1e-9])

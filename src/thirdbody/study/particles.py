@@ -262,7 +262,11 @@ def _population(reader: Reader, path: str, data: object) -> object:
 
     if kind == "distribution":
         return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, keys)
-    return reader.table(path, data, keys | _keys_of_count(table, kind), build)
+    keys |= _keys_of_count(table, kind)
+    rule = f"says the sizes, and so does {path}.{kind}: remove one of the two"
+    of_sizes = (name for sizes in DISTRIBUTIONS.values() for name in keys_of(sizes))
+    reader.known_keys.refused[path] = {name: rule for name in of_sizes if name not in keys}
+    return reader.table(path, data, keys, build)
 
 
 # -------------------------------------------------------------------------- keys

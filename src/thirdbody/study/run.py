@@ -12,6 +12,7 @@ from ..contact.contact import Contact
 from ..equilibrium.modes import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
 from ..errors import InvalidValue, Mistake, RangeWarning, ThirdBodyError, note_of
+from ..systems.bodies import YIELD, yield_note
 from .load import press_forces
 from .results import Entrained, FilmResult, Passing, StudyResult
 from .whole import Study
@@ -104,6 +105,9 @@ def run_film(study: Study) -> FilmResult:
         ]
         brought = Entrained(np.asarray(dirt.largest(states["h_T"], R=R)), entered)
     sentences = [note_of(item.message) for item in heard]
+    pressed = film.conjunction.hertz(film.load, E=2 * contact.E_ss)
+    if (maximum := float(pressed.maximum)) > (yields := YIELD * contact.surfaces.H):
+        sentences.append(yield_note(film.load, maximum, yields))
     return FilmResult(
         study=study,
         states=states,

@@ -78,6 +78,9 @@ def _syntax(path: Path, text: str, message: str) -> str:
     number = int(where[1]) if where and where[1] else len(lines)
     line = lines[min(number, len(lines)) - 1].split("#")[0].strip()
     what = message[: where.start()] if where else message
+    if twice := re.fullmatch(r"Cannot declare \((.+?),?\) twice", what):
+        table = twice[1].replace("'", "").replace(", ", ".")
+        return f"{path}, line {number}: the table [{table}] stands twice; keep one of the two"
     out = f"{path}, line {number}: {what[:1].lower()}{what[1:]}, in: {line}"
     key, equals, value = (piece.strip() for piece in line.partition("="))
     if "overwrite" in what:

@@ -48,11 +48,35 @@ __all__ = [
     "Pressed",
     "Roller",
     "press",
+    "yield_note",
 ]
 
 YIELD = 1.5 * ZMC().k
 """Largest Hertz pressure at first yield over the hardness [1]: 0.6, 1.5 k of the law ZMC."""
 NODES = 24
+
+
+def yield_note(force: float, maximum: float, yields: float, *, flat: bool = False) -> Note:
+    """The note that bodies themselves yield under a force.
+
+    Parameters
+    ----------
+    force : float
+        Force on the bodies [N].
+    maximum, yields : float
+        Largest pressure, and that at which yield begins [Pa].
+    flat : bool, optional
+        Whether a flat punch presses, whose yield stress that is.
+    """
+    first = "p_0 = 1.6 Y = 0.6 H, at which yield begins below a ball (ZMC, k = 0.4)"
+    if flat:
+        first = "the yield stress Y = 0.375 H: p_0 = 1.6 Y = 0.6 H at first yield under a ball"
+    what = (
+        f"under {value_of(force, 'N')} the bodies themselves yield: the largest pressure, "
+        f"{value_of(maximum, 'Pa')}, is above {value_of(yields, 'Pa')}, {first}; "
+        "Hertz and the elastic bodies then overestimate the pressure"
+    )
+    return Note(what, code="bodies.yield", effect=1 - yields / maximum)
 
 
 BODIES: dict[str, type[Body]] = {
@@ -133,17 +157,8 @@ class Pressed(Record):
         close = (f"under {value_of(self.force, 'N')}: {self.note}",) if self.crowded_share else ()
         if self.maximum <= self.yields:
             return close
-        if self.kind == "flat":
-            first = "the yield stress Y = 0.375 H: p_0 = 1.6 Y = 0.6 H at first yield under a ball"
-        else:
-            first = "p_0 = 1.6 Y = 0.6 H, at which yield begins below a ball (ZMC, k = 0.4)"
-        what = (
-            f"under {value_of(self.force, 'N')} the bodies themselves yield: the largest pressure, "
-            f"{value_of(self.maximum, 'Pa')}, is above {value_of(self.yields, 'Pa')}, {first}; "
-            "Hertz and the elastic bodies then overestimate the pressure"
-        )
-        effect = 1 - self.yields / self.maximum
-        return (*close, Note(what, code="bodies.yield", effect=effect))
+        flat = self.kind == "flat"
+        return (*close, yield_note(self.force, self.maximum, self.yields, flat=flat))
 
     def sentence(self) -> str:
         """Force, pressures and what the integral gives, in words."""

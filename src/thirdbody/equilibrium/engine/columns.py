@@ -159,6 +159,9 @@ def _law_with_length(
     return [f.DMT, 2 * load, 0, 0, 0], unit
 
 
+STIFFEST, HIGHEST_PEAK, WIDEST_OVER_COATING = 20.0, 10.0, 1024.0
+"""E_1/E_2 up to which a coating is known beyond its table; height of an asperity that may be
+pressed flat [σ_s], and radius of its contact over the coating up to which that is tabulated."""
 NO_COATING = np.zeros((1, 2 * f.COATING_TERMS))
 PIECES = 256
 """Of the table of a coating: load to 1e-14 of it and area to 6e-13, for E_1/E_2 up to 1e3."""
@@ -322,6 +325,9 @@ class Numbers:
             rows[:, f.START] = own.start
             rows[:, f.LAID_FROM] -= own.start * rows[:, f.W]
         if type(own) is asperity.Coated:
+            widest = np.sqrt(2 * R * HIGHEST_PEAK * rough.sigma_s) / law.t
+            if own.layer.modulus_ratio > STIFFEST and np.any(widest > WIDEST_OVER_COATING):
+                raise NotCompiled("stiff coatings so thin that contacts are as wide as their table")
             self.coating = coating_of(own.layer)
             rows[:, f.FINEST] = (0.5 / self.coating[0, f.BENDS]) ** 2
 
