@@ -264,7 +264,7 @@ def _population(reader: Reader, path: str, data: object) -> object:
         return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, keys)
     keys |= _keys_of_count(table, kind)
     rule = f"says the sizes, and so does {path}.{kind}: remove one of the two"
-    of_sizes = (name for sizes in DISTRIBUTIONS.values() for name in keys_of(sizes))
+    of_sizes = (name for sizes in DISTRIBUTIONS.values() for name in sizes.__dataclass_fields__)
     reader.known_keys.refused[path] = {name: rule for name in of_sizes if name not in keys}
     return reader.table(path, data, keys, build)
 

@@ -307,7 +307,8 @@ class Numbers:
         self, rows: Array, ratio: float | None, radius: float, share: float
     ) -> None:
         """Fill in the numbers of asperities of one shape, by its λ, R_g/R and share."""
-        rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
+        rough, surfaces = self.varied.roughness, self.varied.surfaces
+        law: Any = self.varied.asperity_law
         own = self.contact.asperity_law
         if ratio is not None:
             law = law.replace(ratio=ratio)
