@@ -56,6 +56,7 @@ YIELD = 1.5 * ZMC().k
 NODES = 24
 
 
+@takes_units
 def yield_note(force: float, maximum: float, yields: float, *, flat: bool = False) -> Note:
     """The note that bodies themselves yield under a force.
 
