@@ -307,8 +307,7 @@ class Numbers:
         self, rows: Array, ratio: float | None, radius: float, share: float
     ) -> None:
         """Fill in the numbers of asperities of one shape, by its λ, R_g/R and share."""
-        rough, surfaces = self.varied.roughness, self.varied.surfaces
-        law: Any = self.varied.asperity_law
+        rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
         own = self.contact.asperity_law
         if ratio is not None:
             law = law.replace(ratio=ratio)
@@ -325,7 +324,7 @@ class Numbers:
         if type(own) is asperity.JKR:  # stretched asperities reach above their height
             rows[:, f.START] = own.start
             rows[:, f.LAID_FROM] -= own.start * rows[:, f.W]
-        if type(own) is asperity.Coated:
+        if type(own) is asperity.Coated and isinstance(law, asperity.Coated):
             widest = np.sqrt(2 * R * HIGHEST_PEAK * rough.sigma_s) / law.t
             if own.layer.modulus_ratio > STIFFEST and np.any(widest > WIDEST_OVER_COATING):
                 raise NotCompiled("stiff coatings so thin that contacts are as wide as their table")
