@@ -87,16 +87,9 @@ def browser():
         made.close()
 
 
-@pytest.fixture(scope="module")
-def context(browser):
-    """What pages share: what they have loaded once."""
-    made = browser.new_context(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
-    yield made
-    made.close()
-
-
 @pytest.fixture
-def visit(context, address):
+def visit(browser, address):
+    context = browser.new_context(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
     page, wrong = context.new_page(), []
     page.set_default_timeout(PATIENCE)
     page.on("console", lambda m: m.type == "error" and wrong.append(f"console: {m.text}"))
@@ -108,7 +101,7 @@ def visit(context, address):
         return page
 
     yield open_page
-    page.close()
+    context.close()
     assert not wrong
 
 
