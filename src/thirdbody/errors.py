@@ -327,6 +327,8 @@ def note_of(message: Warning | str) -> str:
 def note_data(note: str) -> dict[str, object]:
     """A note taken apart for JSON; of a plain sentence only that is known.
 
+    Its effect is relative [1], None where nobody knows.
+
     >>> note_data(Note("A_t reaches 0.3", code="area", effect=0.17))
     {'code': 'area', 'effect': 0.17, 'action': '', 'sentence': 'A_t reaches 0.3'}
     """

@@ -345,6 +345,18 @@ def test_odd_numbers_of_threads_are_refused(value):
 
 
 # ---------------------------------------------------------------------------- --csv
+def test_json_has_codes_beside_its_sentences():
+    loads = ("--set", "load.F_star=[1e-5, 1e3]", "--set", 'particles.material="SiO2"')
+    data = json.loads(run("solve", DUSTY, "--json", *loads).stdout)
+    answer = study.run_study(study.load_study(DUSTY, ["load.F_star=[1e-5, 1e3]"]))
+    assert data["states"]["status_code"] == answer.states.status_code.tolist()
+    assert [code == 0 for code in data["states"]["status_code"]] == [True, False]
+    assert [note["sentence"] for note in data["notes"]] == data["warnings"]
+    codes = {note["code"]: note["effect"] for note in data["notes"]}
+    assert "" not in codes
+    assert codes == {note.code: note.effect for note in answer.warnings}
+
+
 def test_csv_round_trip(tmp_path):
     path = tmp_path / "states.csv"
     result = run("solve", DUSTY, "--csv", path, "--set", "load.F_star=[1e-5, 1e3, 1e-4]")

@@ -202,3 +202,27 @@ def test_a_clause_keeps_its_code_and_its_words_for_studies():
     assert (moved.code, moved.rule) == (Mistake.RANGE, clause.study)
     assert Problem("R", clause, "0", code=Mistake.KIND).code is Mistake.KIND
     assert tb.errors.InvalidValue("my own words").problems[0].code is Mistake.UNSAID
+
+
+# ------------------------------------------------------------------------- what to write instead
+@pytest.mark.parametrize(
+    ("call", "place", "hint"),
+    [
+        (lambda: CONTACT.replace(asperity_law=tb.asperity.ZMC), "Contact.asperity_law", "ZMC()"),
+        (lambda: tb.solve(CONTACT, pressure="5 MPa"), "pressure", "5e6"),
+        (lambda: tb.solve(CONTACT, d="200 nm"), "d", "200e-9"),
+    ],
+)
+def test_what_is_no_law_or_number_is_answered_with_one(call, place, hint):
+    with pytest.raises(tb.errors.InvalidValue) as raised:
+        call()
+    (problem,) = raised.value.problems
+    assert (problem.code, problem.place) == (Mistake.KIND, place)
+    assert hint in problem.hint
+
+
+def test_loads_that_clash_are_none_that_is_missing():
+    for loads, code in (({}, Mistake.MISSING), ({"d": 0.0, "F_star": 1e-5}, Mistake.CLASH)):
+        with pytest.raises(tb.errors.InvalidValue) as raised:
+            tb.solve(CONTACT, **loads)
+        assert raised.value.problems[0].code is code

@@ -1187,3 +1187,10 @@ def test_what_the_examples_say():
 
 def test_loads_are_documented():
     assert list(LOADS) == ["F_star", "pressure", "separation"]
+
+
+def test_sizes_beside_a_code_are_answered_with_the_code(problems):
+    kept = 'material = "SiO2"\niso4406 = "18/16/13"\ngap = "1 um"\nmean = "300 nm"\n'
+    begin, end = GOOD.index("[particles]") + len("[particles]\n"), GOOD.index("[load]")
+    found = problems(text=GOOD[:begin] + kept + GOOD[end:])
+    only(found, "particles.mean", "particles.iso4406")

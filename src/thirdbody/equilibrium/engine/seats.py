@@ -97,7 +97,8 @@ SMOOTH_END = 7.5
 VECTOR = 8
 """Numbers that a processor takes at once: loops over the rest are slow."""
 FEW_AT_END = 29.0
-"""−ln of the density where sizes end over that at the gap from which on the end is not felt."""
+"""−ln of the density where sizes end over that at the gap from which on the end is not felt: what
+is left out is then 3e-13."""
 ONSET, ALIKE = 0.4, 0.5
 """Part of the width of a panel that one from the onset may have; 1 − ε from which on sizes may lie
 as close as before."""
