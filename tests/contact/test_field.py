@@ -292,3 +292,25 @@ def test_a_seat_of_its_own_height_and_width():
     one, other = (solved(contact(particle_law=seat), F_star=1e-3) for seat in seats)
     assert other.particle_load_share > 1.3 * one.particle_load_share
     assert isinstance(interface(contact(particle_law=seats[1])), Interface)
+
+
+@pytest.mark.parametrize("width", [0.05, 0.08])
+def test_ground_of_narrow_seats_goes_on_without_a_leap(width):
+    """Of several grounds the table keeps to one, however close its separations lie."""
+    bodies = tb.Material(E=50.5e9, nu=0.458, H=139e6), tb.Material(E=1.64e9, nu=0.078, H=29.2e6)
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(*bodies),
+        roughness=tb.Roughness(sigma=3.3e-6, R=7.95e-3, alpha=9.66, eta_R_sigma=0.02284),
+        asperity_law=tb.asperity.Field(),
+        particles=tb.Particles(
+            material=tb.Material(E=4.92e9, nu=0.166, H=5.82e6),
+            diameter=tb.TruncatedGaussian(mean=18.8e-6, std=1.124e-6, n=4.144),
+            areal_density=9.0e6,
+        ),
+        particle_law=tb.particle.Series(
+            zeta_mean=1.6, zeta_std=width, shadow="projected", friction_factor=0.03, deep="off"
+        ),
+    )
+    ground = interface(case).asperities.ground
+    assert not ground.cut
+    assert np.abs(np.diff(ground.w)).max() < 0.015

@@ -76,10 +76,10 @@ LEVEL, LEVELS = 3.5, 1.0
 that of half as much more. Beyond, terms of twelve moments are large and cancel."""
 FLAT = 1.0
 """Mean slope of u over ζ from which on particles leave nothing of the surface."""
-LIFTS, LEAP, CREEPS, KINK = 12, 0.1, (4, 32), 4.0
-"""Chords by which the lift of asperities is found, at most; second difference of it from which on
-it may belong to another ground [σ]; steps between two separations that show whether it does, as
-differences of a kink are so many times less in them."""
+LIFTS, LEAP, CREEPS, KINK = 12, 0.5, (4, 32), 4.0
+"""Chords by which the lift of asperities is found, at most; second difference of it, over the step
+between two separations, from which on it may belong to another ground; steps between two
+separations that show whether it does, as differences of a kink are so many times less in them."""
 PANELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.33, 0.4, 0.5, 0.6, 0.75, 1.0])
 NODES = 12
 """Of sums over seats: 2e-5 of a load."""
@@ -321,12 +321,17 @@ class Ground:
         if failed[-2:].any():
             return self._above(count, u, w)
         for row in range(count - 3, -1, -1):
-            whole = not failed[row] and not _leaps(w[row : row + 3])
+            whole = not failed[row] and not self._leaps(w[row : row + 3])
             whole = whole or self._solve_from_above(row, u, w, kept)
             whole = whole or self._creep_down(row, u, w, kept)
             if not whole or u[row, 1] >= FLAT:
                 return self._above(row + 1, u, w)
         return u, w[:, 0]
+
+    def _leaps(self, lifts: Array) -> bool:
+        """Whether the first of three lifts (3, 1) may belong to another ground than the others."""
+        bend = abs(float(lifts[0, 0] - 2 * lifts[1, 0] + lifts[2, 0]))
+        return not bend <= LEAP * (self.h[1] - self.h[0])
 
     def _solve_from_above(self, row: int, u: Array, w: Array, kept: Array) -> bool:
         """Solve one separation from what those above say of it; whether that goes on smoothly."""
@@ -336,7 +341,7 @@ class Ground:
                 near = values[row + 1 : row + 1 + len(BEFORE)]
                 values[row] = BEFORE @ near if len(near) == len(BEFORE) else near[0]
             if not len(self._iterate_states(self.h[here], u[here], w[here], kept[here], memory)):
-                return not _leaps(w[row : row + 3])
+                return not self._leaps(w[row : row + 3])
         return False
 
     def _creep_down(self, row: int, u: Array, w: Array, kept: Array) -> bool:
@@ -358,7 +363,7 @@ class Ground:
                     break
                 path[0].append(state[0])
                 path[1].append(lift[0])
-                if _leaps(np.array(path[1][-3:]) * KINK):
+                if self._leaps(np.array(path[1][-3:]) * KINK):
                     break
             else:
                 u[row], w[row], kept[row] = ground[0], lift[0], state[0]
@@ -431,11 +436,6 @@ class Ground:
 def field_offset(seat: Seat, field: FieldSum) -> float:
     """h − (d + offset)/σ of a part."""
     return (field.rough.y_s - field.centre - seat.component.offset) / field.sigma
-
-
-def _leaps(lifts: Array) -> bool:
-    """Whether the first of three lifts (3, 1) may belong to another ground than the others."""
-    return not abs(float(lifts[0, 0] - 2 * lifts[1, 0] + lifts[2, 0])) <= LEAP
 
 
 def _next_state(states: list[Array], misses: list[Array]) -> Array:

@@ -298,12 +298,12 @@ def _first_row(field, held, load, high, rows, work, out):
 
 
 @scalar
-def _leaps(lifts, done, k, way):
+def _leaps(lifts, done, k, way, step):
     """Whether the lift of row k may be that of another ground than those before it, on one side."""
     far = k + 2 * way
     if not 0 <= far < len(done) or done[k + way] == NONE or done[far] == NONE:
         return False
-    return not abs(lifts[k] - 2 * lifts[k + way] + lifts[far]) <= LEAP
+    return not abs(lifts[k] - 2 * lifts[k + way] + lifts[far]) <= LEAP * step
 
 
 @scalar
@@ -320,7 +320,7 @@ def _come_down(field, held, k, target, h, rows, work, out):
         if rows[5][k] == NONE:
             _guess_row(k, 1, rows, last)
             n = _solve_row(field, k, LOOSE, False, rows, work)
-            if n < 0 or _leaps(lifts, rows[5], k, 1):
+            if n < 0 or _leaps(lifts, rows[5], k, 1, own[STEP]):
                 rows[5][k] = NONE
                 return -1, rounds, UNSOLVED
             rounds += n
@@ -349,7 +349,7 @@ def _finish_rows(field, care, k, low, high, rows, work):
     """
     keep_apart()
     done, rounds, last = rows[5], 0, int(field[0][ROWS]) - 1
-    first = high
+    step, first = field[0][STEP], high
     while first > low and done[first] == NONE:
         first -= 1
     for way in range(2):  # up from the rows that are known, then down
@@ -360,7 +360,7 @@ def _finish_rows(field, care, k, low, high, rows, work):
             if done[i] != DONE:
                 accuracy = min(care[OF_ROOT] * 2.0 ** max(k - i, i - k - 1), care[OF_ROWS])
                 n = _solve_row(field, i, accuracy, True, rows, work)
-                if n < 0 or _leaps(rows[1], done, i, -1 if way == 0 else 1):
+                if n < 0 or _leaps(rows[1], done, i, -1 if way == 0 else 1, step):
                     done[i] = NONE
                     return (rounds, i + 1) if i < k else (-1, low)
                 rounds += n
