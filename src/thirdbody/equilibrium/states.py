@@ -390,13 +390,13 @@ def _solve(
             return _by_groups(contact, arrays, load, loads, str(error))
     try:
         return _by_nodes(contact, numbers, load, loads)
-    except NotCompiled as error:
-        why = str(error)
+    except NotCompiled:
         try:
             return _by_own(contact, numbers, load, loads)
         except NotCompiled as other:
+            why = str(other)
             if contact.asperity_law.of_surface:  # such surfaces share no nodes
-                return _by_groups(contact, arrays, load, loads, str(other))
+                return _by_groups(contact, arrays, load, loads, why)
         odd = np.zeros(len(loads), bool)
         for name, values in numbers.items():
             if _unnumbered_name(name).startswith(DEMANDING):
@@ -408,8 +408,7 @@ def _solve(
         }
         try:
             parts.append((even, _by_nodes(contact, plain, load, loads[even])))
-        except NotCompiled as error:
-            why = str(error)
+        except NotCompiled:
             odd[:] = True
     if len(rest := np.flatnonzero(odd)):
         some = _take_states(arrays, rest)

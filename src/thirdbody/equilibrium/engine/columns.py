@@ -200,7 +200,7 @@ def _heights(heights: Any) -> dict[int, Number]:
         own = {f.HEIGHTS: f.WEIBULL, f.SHAPE: shape, f.MIDDLE: first, f.SPREAD: spread}
         ends = {f.LOWEST_HEIGHT: -first / spread, f.LAID_FROM: 1 - first / spread}
         return {**own, **ends, f.STEP: 1.5, f.LAST: COMPLETE ** (1 / shape) / spread}
-    raise NotCompiled("heights of a kind that the kernel does not know")
+    raise NotCompiled("such heights are known to the NumPy engine alone")
 
 
 @lru_cache(maxsize=32)
@@ -237,7 +237,7 @@ def _sections(one: Any, changed: Distribution) -> list[tuple[float, tuple[Sizes,
             kind = sizes.Uniform(low=low, high=high) if slope is None else Power(low, high, slope)
             out.append((count / math.fsum(one.counts), (kind, kind)))
     if len(out) > MOST_SECTIONS:
-        raise NotCompiled("sizes in many classes")
+        raise NotCompiled(f"sizes in more than {MOST_SECTIONS} classes")
     return out
 
 
@@ -465,7 +465,7 @@ class Numbers:
     ) -> None:
         """Fill in the numbers of particles whose sum is printed."""
         if type(one) not in (sizes.TruncatedGaussian, sizes.LogNormal, sizes.Uniform):
-            raise NotCompiled("printed integrals over sizes of other kinds")
+            raise NotCompiled("sizes over which the paper prints no integral")
         self._add_sizes(rows, one, changed.diameter)
         x_a, mass = rows[:, f.SIZE_1], np.ones(self.count)
         if type(one) is sizes.TruncatedGaussian:
@@ -503,7 +503,7 @@ class Numbers:
         _fill_columns(rows, dict(enumerate(numbers)))
         falls = type(law.law) is asperity.KE and np.any(numbers[1] > MOST_K)
         if hasattr(law.law, "ratio") or falls:
-            raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
+            raise NotCompiled(f"particles by the law {law.law.name} are known to the NumPy engine alone")
         if grit is not None:
             self._add_grit(rows, H, delta_1, R, grit)
             return E, H
@@ -612,7 +612,7 @@ class Numbers:
             if np.any(s < NARROWEST):
                 raise NotCompiled("sizes that lie very close together")
             if np.any(s > WIDEST):
-                raise NotCompiled("sizes over many decades, to the NumPy engine alone")
+                raise NotCompiled("sizes over many decades are known to the NumPy engine alone")
             return median**2 * np.exp(2 * s * s)
         if type(one) is sizes.Uniform:
             low, high = changed.low, changed.high
@@ -628,4 +628,4 @@ class Numbers:
             _fill_columns(rows, {**kind, f.NORM: 1 / (low * long * special.exprel(-slope * long))})
             ratio = special.exprel((2 - slope) * long) / special.exprel(-slope * long)
             return low**2 * float(ratio)
-        raise NotCompiled("sizes of a kind that the kernel does not know")
+        raise NotCompiled(f"{type(one).__name__} sizes are known to the NumPy engine alone")
