@@ -335,6 +335,7 @@ def test_smooth_seat_recovers_the_plane(interface, mean, squeeze):
     assert errors[1] < max(0.1 * errors[0], 1e-8)
 
 
+@pytest.mark.check
 @given(twin=series_twins(seats=("rough",)), shift=st.floats(-1, 1))
 def test_higher_seats_are_a_smaller_gap(twin, shift):
     """Moving all seats by mσ moves the particle load by the same separation."""

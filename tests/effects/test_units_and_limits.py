@@ -103,6 +103,7 @@ def rounding(name):
     return 1e-3 if name.startswith("dent_") and ("_p95" in name or "_max" in name) else 1e-6
 
 
+@pytest.mark.check
 @settings(max_examples=5, deadline=None)
 @given(
     scales=st.tuples(ratios, ratios, ratios, ratios, ratios),

@@ -89,6 +89,7 @@ def balanced(got, F_star, at, bound=1e-12) -> None:
 
 
 # --------------------------------------------------------------------------- balances
+@pytest.mark.check
 @pytest.mark.spread(4)
 @compiled
 @pytest.mark.parametrize("shape", SIZES)

@@ -678,6 +678,7 @@ def test_lengths_and_shapes():
         state_columns(default(), F_star=1e-6, vary={"roughness.sigma": 1e-7 * np.ones((2, 2))})
 
 
+@pytest.mark.check
 @pytest.mark.parametrize(
     ("sizes", "name"),
     [

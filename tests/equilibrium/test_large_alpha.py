@@ -59,6 +59,7 @@ def test_area_of_elastic_asperities(alpha):
     np.testing.assert_allclose(persson, [1.60, 1.59, 1.59][: len(persson)], rtol=0, atol=0.01)
 
 
+@pytest.mark.check
 def test_the_area_after_persson():
     case = contact(7.0)
     p = np.array([1e5, 1e8, 1e11])

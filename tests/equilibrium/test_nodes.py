@@ -135,6 +135,7 @@ def test_close_sizes_by_their_definition(kind, spread):
         assert_allclose(state.A_sa2, 1e11 * np.sum(weight * one["area_2"]), rtol=1e-12)
 
 
+@pytest.mark.check
 @pytest.mark.spread(4)
 @pytest.mark.parametrize("kind", ["gaussian", "lognormal", "uniform"])
 @pytest.mark.parametrize("spread", [1e-9, 1e-6, 1e-3])

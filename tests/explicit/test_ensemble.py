@@ -134,6 +134,7 @@ def test_settled_particles_bring_the_model_to_their_seat():
     assert float(away[-1]) < 0.2
 
 
+@pytest.mark.check
 def test_particles_on_summits_bring_the_model_to_summits():
     """A map has fewer summits than places are drawn to know a seat: then all of them count."""
     one_each = CONTACT.replace(particles=CONTACT.particles.replace(areal_density=2e10))

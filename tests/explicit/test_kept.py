@@ -74,6 +74,7 @@ TEXTS = ["study.json", "states.csv", "explicit.json", "surfaces/surface_000.json
 DAMAGED = [*product(TEXTS, DAMAGES), ("maps.nc", truncated), ("explicit.png", truncated)]
 
 
+@pytest.mark.check
 @pytest.mark.spread(5)
 @pytest.mark.parametrize(("name", "damage"), DAMAGED)
 def test_the_command_makes_what_is_damaged_again(tmp_path, made, name, damage):

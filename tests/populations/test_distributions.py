@@ -128,6 +128,7 @@ def test_last_particles_of_a_truncated_gaussian(width, n_cut, n, reach):
     assert float(dist.partial_moment(n, a, 2 * hi)) == pytest.approx(want, rel=2e-12)
 
 
+@pytest.mark.check
 @given(dist=distributions(("gaussian", "weibull", "lognormal")), n=st.integers(3, 4))
 def test_higher_moments(dist, n):
     if isinstance(dist, tb.LogNormal):

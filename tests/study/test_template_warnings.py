@@ -29,6 +29,7 @@ ANSWERS = {
 READERS = {"connector": load_connector, "wafer-chuck": load_plate}
 
 
+@pytest.mark.check
 @pytest.mark.spread(3)
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_a_template_warns_of_two_things_at_most(name):

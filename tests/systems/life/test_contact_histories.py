@@ -70,6 +70,7 @@ def test_numbers_of_the_oil_are_a_matrix_exponential(filmed):
     np.testing.assert_allclose(y[pool], exact[:n][pool], rtol=2e-4, atol=5.0)
 
 
+@pytest.mark.check
 def test_the_jacobian_is_the_slope_of_the_rates(filmed, dry):
     for history in (filmed, dry):
         loop, y = history.loop, history.last_state.copy()

@@ -128,6 +128,7 @@ def test_slopes_of_the_load(tables):
         assert slope == pytest.approx((above - below) / (2 * h), rel=1e-4)
 
 
+@pytest.mark.check
 def test_exchanged_surfaces_exchange_what_they_lose(tables):
     eta = mixture(3)
     turned = ContactTables(contact(SOFT, STEEL, K_sa=1e-6), CLASSES, KINDS)
