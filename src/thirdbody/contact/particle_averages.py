@@ -547,7 +547,7 @@ SEAT_NODES = (14, 10)
 SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.6, 10
 """The same for spots, whose sums need 1e-9 of the load; width of their panels over that of the seat
 under particles of one size, and over that of seat and sizes together; nodes of sizes."""
-CLOSED = 5
+CLOSED = 2
 """Panels over gaps that are closed halve so often towards none, from as wide as elsewhere."""
 CLOSED_SQUEEZES = (1.25, 2.0, 5.0, 17.0)
 """Squeezes of sizes in closed gaps between which what they do is smooth: x = −g/(ε − 1)."""
