@@ -120,7 +120,7 @@ class BrokenAverage(SizeAverage):
         self.floor = self.average(bottom, self.top - bottom)[0]
 
     @cached_property
-    def layer(self) -> float:
+    def closed_area(self) -> float:
         """Area of all that is there where the gap closes, side by side, as round as it came.
 
         Pieces that are gone take none; what spreads as it is squashed may lie over others.

@@ -203,10 +203,10 @@ class Part:
         return isinstance(one, BrokenAverage)
 
     @property
-    def layer(self) -> float:
+    def closed_area(self) -> float:
         """Part of the nominal area that its pieces cover where the gap closes, if they break."""
         one = self.average.particles
-        return self.factor * one.layer if isinstance(one, BrokenAverage) else 0.0
+        return self.factor * one.closed_area if isinstance(one, BrokenAverage) else 0.0
 
     @property
     def resolution(self) -> float:
@@ -279,7 +279,7 @@ class SeatedParticles(ParticleSum):
         self.monotone = not any(component.breaks for component in parts)
         self.resolution = min((component.resolution for component in parts), default=np.inf)
         self.stretch = min((component.stretch for component in parts), default=np.inf)
-        self.in_one_layer = sum(component.layer for component in parts)
+        self.in_one_layer = sum(component.closed_area for component in parts)
 
     @property
     def marks(self) -> Array:  # type: ignore[override]
