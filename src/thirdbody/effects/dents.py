@@ -93,7 +93,7 @@ class Dents(AbstractOutput):
     (`thirdbody.effects.single.dent.dents_after`). Numbers, percentiles and the largest of whole
     particles and of brittle ones are within 1e-6 of their exact values, but for soft particles of
     one size, whose number can be 0.7 % off: no class of squeeze ends where a dent begins; means
-    of whole particles within 1e-7, of ductile ones within 1e-4, of fragments within 1e-3. Means and
+    of whole particles within 1e-7, of ductile ones within 1e-4, of fragments within 3e-3. Means and
     volumes with ``shallowest``, or of fragments that only rare seats press, count classes as a
     whole: within a few percent, and not known where such dents are rare. Percentiles and the
     largest of particles with a strength are read from counts of classes, within a few percent.
