@@ -333,3 +333,36 @@ def test_outputs_of_particles_that_sink_in_are_known_to_eight_digits(hardness, m
     assert few["mu"][0] != many["mu"][0]  # more nodes are used
     for name in ("mu", "mu_sa_roll", "rolling_share", "hc_sa"):
         assert few[name] == pytest.approx(many[name], rel=1e-8, abs=1e-300), name
+
+
+# ------------------------------------------------- seats so high that the gap is closed
+@pytest.mark.parametrize(
+    ("hardness", "second", "sizes"),
+    [
+        (8e9, 5e9, tb.LogNormal(median=100e-9, gsd=1.4)),
+        (8e9, 5e9, tb.LogNormal(median=300e-9, gsd=2.0)),
+        (5e9, 6e9, tb.LogNormal(median=300e-9, gsd=1.4)),
+        (3e9, 2.9e9, tb.TruncatedGaussian(mean=3e-6, std=1e-6)),
+    ],
+)
+def test_outputs_in_closed_gaps_are_known_to_eight_digits(hardness, second, sizes, monkeypatch):
+    """Small particles are squeezed by many times their size: what changes there is split too."""
+    from thirdbody.contact import particle_averages
+
+    debris = tb.Material(E=2e11, nu=0.3, H=hardness)
+    steel = tb.Material(E=205e9, nu=0.3, H=min(second, 5e9))
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel.replace(H=second)),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(material=debris, areal_density=1e9, diameter=sizes),
+        outputs=(tb.outputs.Friction(tau_ss=4e8, tau_sa=2e8), tb.outputs.Dents()),
+    )
+    loads = [3e-5, 3e-3, 1e-2, 2e-2]
+    few = tb.solve(case, F_star=loads).outputs
+    monkeypatch.setattr(particle_averages, "SIZE_NODES", 30)
+    monkeypatch.setattr(particle_averages, "SPOT_NODES", (42, 36))
+    many = tb.solve(case, F_star=loads).outputs
+    names = ("mu_sa", "mu_sa_roll", "mu_plough_1", "dent_depth_1", "dent_width_1", "dent_volume_1")
+    assert any(few[name][-1] != many[name][-1] for name in names)  # more nodes are used
+    for name in names:
+        assert few[name] == pytest.approx(many[name], rel=1e-8), name

@@ -163,3 +163,38 @@ def test_the_split_of_areas_adds_up_between_equal_surfaces():
     got = own_columns(contact, {}, "d", np.linspace(20e-9, 500e-9, 7))
     np.testing.assert_allclose(got["A_sa"], got["A_sa2"], rtol=1e-13)
     assert np.all(got["A_sa"] > 0)
+
+
+# ---------------------------------------------------------------- how much lies in one layer
+def crowded(fragments, density, **strength):
+    weak = STRENGTH.replace(fragments=fragments, **strength)
+    dust = broken_contact("log-normal").particles.replace(strength=weak, areal_density=density)
+    return broken_contact(particles=dust, particle_law=tb.particle.Series(seat="rough"))
+
+
+def test_fragments_that_are_gone_take_no_area():
+    """Round as they came, particles and what is left of them never cover more than before."""
+    before = crowded("gone", 1e12).particles.coverage
+    layers = [
+        interface(crowded("gone", 1e12, sigma_0=sigma)).particles.in_one_layer
+        for sigma in (1e3, 67e6, 1e13)
+    ]
+    assert np.all(np.diff(layers) > 0)
+    assert layers[0] < 0.5 * layers[-1]
+    assert layers[-1] == pytest.approx(before, rel=1e-6)
+    kept = interface(crowded("footprint", 1e12, sigma_0=1e3)).particles.in_one_layer
+    assert kept == pytest.approx(before, rel=1e-6)
+
+
+@pytest.mark.parametrize("fragments", ["gone", "footprint", "all"])
+def test_both_engines_refuse_the_same_crowds(fragments):
+    """Only fragments that all lie in one layer can cover more than the particles did."""
+    contact = crowded(fragments, 4e12, sigma_0=1e3)
+    outcomes = []
+    for fewest in (1, 1000):
+        try:
+            state_columns(contact, pressure=[1e6, 5e6], fewest=fewest)
+            outcomes.append("solved")
+        except tb.InvalidValue:
+            outcomes.append("refused")
+    assert outcomes == ["refused" if fragments == "all" else "solved"] * 2

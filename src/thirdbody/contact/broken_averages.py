@@ -119,6 +119,16 @@ class BrokenAverage(SizeAverage):
         bottom = np.array([self.bottom])
         self.floor = self.average(bottom, self.top - bottom)[0]
 
+    @cached_property
+    def closed_area(self) -> float:
+        """Area of all that is there where the gap closes, side by side, as round as it came.
+
+        Pieces that are gone take none; what spreads as it is squashed may lie over others.
+        """
+        gap = np.array([[self.bottom]])
+        pieces = self.pieces(gap, self.top - gap, nodes=self.panel_nodes, squeezes=self.squeezes)
+        return 0.25 * math.pi * self.particle.breadth * float(np.sum(pieces.number * pieces.x**2))
+
     # ------------------------------------------------------------------ sizes
     def _least(self) -> float:
         """Size below which nothing bears: of particles, or the smallest pieces of theirs."""

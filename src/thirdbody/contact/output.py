@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = ["AbstractOutput", "Column", "changes"]
 
-SQUEEZES = np.geomspace(1e-6, 2.0, 300)
+SQUEEZES = np.concatenate([np.geomspace(1e-6, 2.0, 300), np.geomspace(2.0, 64.0, 73)[1:]])
 """Where changes of a particle's kind are looked for: δ/x."""
 ROUNDS, FINER = 5, 100
 """A change is narrowed down so many times, each time so many times finer."""
@@ -52,8 +52,8 @@ def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> 
     Returns
     -------
     list of float
-        Every ε between 1e-6 and 2 [1] at which that number changes, to 1e-10 of the spacing of the
-        300 first looked at; two changes between neighbours of these are not seen.
+        Every ε between 1e-6 and 64 [1] at which that number changes, to 1e-10 of the spacing of the
+        371 first looked at; two changes between neighbours of these are not seen.
 
     Examples
     --------

@@ -288,6 +288,8 @@ class SizeAverage:
         weight: Array | float,
     ) -> ParticleSpots:
         """Spots of all particles in gaps (M, 1), each gap counted with its weight."""
+        if len(gap) and gap.min() < 0 and not isinstance(self.sizes, Monodisperse):
+            splits = [*splits, *CLOSED_SQUEEZES]
         x, delta, number = _drop_empty_nodes(*self.of_sizes(gap, rise, splits, SIZE_NODES))
         return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
 
@@ -496,7 +498,7 @@ class SeatAverage:
         lowest = mean_gap.min() - NORMAL_REACH * self.width
         if lowest < average.bottom:
             # loads no longer change there, but depths do
-            ends = average.gaps_at(splits)
+            ends = np.concatenate([average.gaps_at(splits), self._closed_gaps(splits)])
             ends = np.append(ends[(ends > lowest) & (ends < average.bottom)], [lowest, 0.0])
             edges = _distinct(np.sort(np.append(np.minimum(ends, average.bottom), average.bottom)))
             edges = _cut(edges[edges >= lowest], SPOT_WIDTHS * self.width)
@@ -510,6 +512,17 @@ class SeatAverage:
         share = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
         spots = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
         return average.laid_out(spots, gaps, mean_gap, self.width)
+
+    def _closed_gaps(self, splits: Sequence[float]) -> Array:
+        """Negative gaps, dense near none, and where splits cross the bulk of the sizes.
+
+        A squeeze above 1 is one of sizes in proportion to the gap: sums over sizes then change
+        as fast as these lie close together, however wide the seat is.
+        """
+        low, high = self.average.sizes.ppf(np.array([1e-9, 1 - 1e-9]))
+        pieces = [x for x in self.average.sizes.pieces if low <= x <= high]
+        near = -SPOT_WIDTHS * self.width * 0.5 ** np.arange(CLOSED)
+        return np.concatenate([near, *(np.multiply(pieces, 1 - eps) for eps in splits if eps > 1)])
 
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
         """Some columns with two derivatives: (N, len(columns), 3)."""
@@ -534,4 +547,8 @@ SEAT_NODES = (14, 10)
 SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.6, 10
 """The same for spots, whose sums need 1e-9 of the load; width of their panels over that of the seat
 under particles of one size, and over that of seat and sizes together; nodes of sizes."""
+CLOSED = 2
+"""Panels over gaps that are closed halve so often towards none, from as wide as elsewhere."""
+CLOSED_SQUEEZES = (1.25, 2.0, 5.0, 17.0)
+"""Squeezes of sizes in closed gaps between which what they do is smooth: x = −g/(ε − 1)."""
 WIDEST = 1e5

@@ -116,7 +116,8 @@ class ParticleSum(ABC):
     stretch: float = np.inf
     """Range of d [m] in which spots of many states are few enough to be laid out together."""
     in_one_layer: float = 0.0
-    """Part of the nominal area that fragments and whole particles cover where the gap closes."""
+    """Part of the nominal area that particles which break and their fragments would cover side by
+    side where the gap closes, each as round as it came; fragments that are gone cover none."""
     marks: Array | tuple[float, ...] = ()
     """Separations d [m] between which load and shadow are smooth, where the law knows them."""
 
@@ -202,6 +203,12 @@ class Part:
         return isinstance(one, BrokenAverage)
 
     @property
+    def closed_area(self) -> float:
+        """Part of the nominal area that its pieces cover where the gap closes, if they break."""
+        one = self.average.particles
+        return self.factor * one.closed_area if isinstance(one, BrokenAverage) else 0.0
+
+    @property
     def resolution(self) -> float:
         """Step of d [m] fine enough for loads that rise and fall; else infinite."""
         if not self.breaks:
@@ -272,9 +279,7 @@ class SeatedParticles(ParticleSum):
         self.monotone = not any(component.breaks for component in parts)
         self.resolution = min((component.resolution for component in parts), default=np.inf)
         self.stretch = min((component.stretch for component in parts), default=np.inf)
-        self.in_one_layer = sum(
-            component.factor * component.average.floor[6] for component in parts if component.breaks
-        )
+        self.in_one_layer = sum(component.closed_area for component in parts)
 
     @property
     def marks(self) -> Array:  # type: ignore[override]

@@ -45,6 +45,11 @@ RARE = 1e-2
 FEW = 14
 """Dents in an area below which its deepest one is a matter of chance: of ln 2/0.05 dents and fewer
 the deepest is shallower than what 5 % exceed, in half of all cases."""
+HALF, WHOLE, DEEPEST = 0.5, 1.0, 64.0
+"""Depths over half a particle, and over all of it, from which on dents are of another kind; the
+largest squeeze at which they are looked for."""
+DISCS = (1 / 3, 1 - 1e-3)
+"""Squeezes from which on a ductile particle is a disc, and as thin as one becomes."""
 MOST_RUNS = 100
 """Times that a dent may turn from growing to shrinking as one particle is squeezed. Laws have few
 such turns, a difference of nearly equal numbers has thousands."""
@@ -87,9 +92,12 @@ class Dents(AbstractOutput):
     These are the dents of one placement of the particles; every fresh set of particles adds its own
     (`thirdbody.effects.single.dent.dents_after`). Numbers, percentiles and the largest of whole
     particles and of brittle ones are within 1e-6 of their exact values, but for soft particles of
-    one size, whose number can be 0.7 % off: no class of squeeze ends where a dent begins; means of
-    fragments within 1e-3; percentiles and the largest of particles with a strength are read from
-    counts of classes, within a few percent. Depths are at full load with a gap that does not give
+    one size, whose number can be 0.7 % off: no class of squeeze ends where a dent begins; means
+    of whole particles within 1e-7, of ductile ones within 1e-4, of fragments within 3e-3. Means and
+    volumes with ``shallowest``, or of fragments that only rare seats press, count classes as a
+    whole: within a few percent, and not known where such dents are rare. Percentiles and the
+    largest of particles with a strength are read from counts of classes, within a few percent.
+    Depths are at full load with a gap that does not give
     way, the recovery fit is one for spheres (from memory, see
     `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the radius of the
     particle are counted besides as embedded: such particles may stay (assumption).
@@ -497,19 +505,22 @@ class Dents(AbstractOutput):
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
-        """Squeezes at which a side reaches half the radius."""
+        """Squeezes at which a side reaches half the radius, and the thickness; of discs."""
         from scipy.optimize import brentq
 
-        def half(eps: float, side: int) -> float:
-            spots = probe(np.array([eps]))
-            deep = spots.depths if self.debris == "hard" else spots.sinks
-            return float((2 * deep[side] - spots.half)[0, 0])
+        def depth_beyond(log_eps: float, side: int, share: float) -> float:
+            spots = probe(np.exp([log_eps]))
+            deep = (spots.depths if self.debris == "hard" else spots.sinks)[side][0, 0]
+            return float(deep - share * (spots.half if share < 1 else spots.x)[0, 0])
 
-        return [
-            float(brentq(half, 1e-9, 3.0, args=(side,), xtol=1e-15))
+        low, high = math.log(1e-9), math.log(DEEPEST)
+        squeezes = [
+            math.exp(brentq(depth_beyond, low, high, args=(side, share), xtol=1e-15))
             for side in (0, 1)
-            if half(3.0, side) > 0
+            for share in (HALF, WHOLE)
+            if depth_beyond(high, side, share) > 0
         ]
+        return [*squeezes, *DISCS] if self.debris == "ductile" else squeezes
 
 
 def _solid(material: Material) -> Material:

@@ -288,6 +288,8 @@ class Numbers:
             check_grounded(contact, found)
         self.inside = np.zeros((1, 1))
         """What particles that break have inside, if any do."""
+        self.layer = np.zeros(self.count)
+        """Bound of the part of the area that fragments cover in one layer."""
         self.centre = 0.0
         """Mean asperity height over the datum of d [m]."""
         if found:
@@ -414,7 +416,22 @@ class Numbers:
         rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * squared
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
+        if one.strength is not None:
+            self._need_one_layer(rows)
         self._add_sides(rows, p, changed, law, varied, grit)
+
+    def _need_one_layer(self, rows: Array) -> None:
+        """Refuse contacts whose fragments might cover more than the area, in one layer.
+
+        Those which cover no more than their parents cannot. Of others there is no more volume
+        than of the particles, in fragments larger than κ x_c.
+        """
+        with np.errstate(divide="ignore"):
+            finest = rows[:, f.HIGH] / (rows[:, f.RATIO] * rows[:, f.UNBROKEN])
+        grows = rows[:, f.KEPT] > rows[:, f.RATIO]
+        self.layer = self.layer + np.where(grows, rows[:, f.COVERAGE] * (1 + finest), 0.0)
+        if np.any(self.layer >= 1):
+            raise NotCompiled("some fragments may be jammed")  # counted one contact at a time
 
     def _add_sides(
         self, rows: Array, p: int, changed: Particles, law: Any, varied: Any, grit: Any
