@@ -88,7 +88,7 @@ class ByHand:
             )  # fmt: skip
             moved = abs(found.h_T / self.film - 1)
             self.film = found.h_T
-            if moved < 1e-8:
+            if moved < 1e-6:
                 break
         return [SLIP * self.area * found.state.outputs[f"wear_{i}"] for i in (1, 2)]
 
