@@ -42,8 +42,16 @@ def wear_columns(pressure: float, coefficients: tuple[float, float, float]) -> d
     >>> bool(found["wear"].max() > 1.5 * found["wear"][-1])
     True
     """
-    steel = tb.materials["S45C"]
+    parts = _wear_parts(pressure)
     f_ab, f_roll, K_ss = coefficients
+    wear = K_ss * parts["wear_ss"] + f_ab * parts["wear_groove"] + f_roll * parts["wear_roll"]
+    return {"wear": wear, "rolling": parts["rolling_share"], "share": parts["share"]}
+
+
+@cache
+def _wear_parts(pressure: float) -> dict[str, Array]:
+    """Wear by asperities, grooves and tracks, each over its coefficient, and both shares."""
+    steel = tb.materials["S45C"]
     contact = tb.Contact(
         surfaces=tb.MaterialPair(steel, steel.replace(H=2.5e9)),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
@@ -54,7 +62,7 @@ def wear_columns(pressure: float, coefficients: tuple[float, float, float]) -> d
         ),
         outputs=(
             tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6),
-            tb.outputs.Wear(K_ss=K_ss, K_sa=0.0, f_ab=f_ab, f_roll=f_roll, renewal=100.0),
+            tb.outputs.Wear(K_ss=1.0, K_sa=0.0, f_ab=1.0, f_roll=1.0, renewal=100.0),
         ),
     )
     states = [
@@ -64,11 +72,11 @@ def wear_columns(pressure: float, coefficients: tuple[float, float, float]) -> d
         )
         for density in DENSITIES
     ]
-    return {
-        "wear": np.array([state.outputs["wear"] for state in states], dtype=float),
-        "rolling": np.array([state.outputs["rolling_share"] for state in states], dtype=float),
-        "share": np.array([state.particle_load_share for state in states], dtype=float),
+    columns = {
+        name: np.array([state.outputs[name] for state in states], dtype=float)
+        for name in ("wear_ss", "wear_groove", "wear_roll", "rolling_share")
     }
+    return columns | {"share": np.array([state.particle_load_share for state in states])}
 
 
 def _all_columns() -> list[dict[str, Array]]:
