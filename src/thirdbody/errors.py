@@ -4,7 +4,8 @@ A message says what, where, what is allowed, and the likely cause.
 
 - `ThirdBodyError`: the base of every error, to catch them all
 - `InvalidValue`: an input has no meaning; it holds each `Problem`, which has a kind, a `Mistake`
-- `WrongKind`: an `InvalidValue`, of arguments that a signature refuses
+- `WrongKind`: an `InvalidValue` and `TypeError`, of arguments that a signature refuses
+- `UnknownMaterial`: an `InvalidValue` and `KeyError`, of a name that no material has
 - `NoEquilibrium`: no separation carries the load
 - `NoTransition`: the contact mode does not change
 - `RangeWarning`: a model is used beyond its range; it holds a `Note`, which says by how much
@@ -33,6 +34,7 @@ __all__ = [
     "RangeWarning",
     "SlowWarning",
     "ThirdBodyError",
+    "UnknownMaterial",
     "WrongKind",
 ]
 
@@ -412,8 +414,7 @@ class NoEquilibrium(ThirdBodyError, RuntimeError):
     Examples
     --------
     >>> import thirdbody as tb
-    >>> from thirdbody.equilibrium.status import Status
-    >>> tb.errors.NoEquilibrium("the load is too small", Status.TOO_LITTLE).status.word
+    >>> tb.errors.NoEquilibrium("the load is too small", tb.results.Status.TOO_LITTLE).status.word
     'no_equilibrium_below'
     """
 
@@ -426,8 +427,27 @@ class NoTransition(ThirdBodyError, RuntimeError):
     """The contact mode does not change inside the loads searched."""
 
 
-class WrongKind(InvalidValue):
-    """Error for arguments that a signature refuses; an outer function may know better names."""
+class WrongKind(InvalidValue, TypeError):
+    """Error for arguments that a signature refuses; an outer function may know better names.
+
+    It is a `TypeError` too, as Python raises for such a call.
+    """
+
+
+class UnknownMaterial(InvalidValue, KeyError):
+    """A name that no material of the library has; a `KeyError` too, as of a dict.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> try:
+    ...     tb.materials["S45"]
+    ... except tb.errors.UnknownMaterial as error:
+    ...     print(error.problems[0].meant)
+    S45C
+    """
+
+    __str__ = Exception.__str__
 
 
 class NotCompiled(Exception):

@@ -21,7 +21,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict, get_args
 
 from ..errors import Clause, InvalidValue, Mistake, NotCompiled, Note, Problem, tell_of_range
-from .arguments import FAILURES, names_arguments, refuse_misfits
+from .arguments import FAILURES, NamesArguments, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
 from .notebook import Card, Row, Shown, words_of
@@ -55,6 +55,7 @@ def quantity(
     le: float | None = None,
     hint: str = "",
     usual: float | None = None,
+    whole: bool = False,
 ) -> Any:
     """A dataclass field that holds one finite number in SI.
 
@@ -71,12 +72,16 @@ def quantity(
     usual : float, optional
         Lengths up to it, and pressures from it on, are no slip; `USUAL_LENGTH` by default, and as
         for a modulus.
+    whole : bool, optional
+        Whether it counts things: 60.5 is refused.
     """
     about = Quantity(
         symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint
     )
     if usual is not None:
         about["usual"] = usual
+    if whole:
+        about["whole"] = True
     return field(default=default, metadata={"quantity": about})
 
 
@@ -144,6 +149,8 @@ def problem_with(about: Range, value: Any) -> Clause | None:
         cause = hint_on(about, number)
         hint = "; " + cause if cause else ""
         return Mistake.RANGE.clause(f"must be {allowed_range(about)}" + hint)
+    if about.get("whole") and not number.is_integer():
+        return Mistake.KIND.clause("must be a whole number")
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 
@@ -300,7 +307,7 @@ BARE = (float, str, bool, type(None))
 """Types of values that are neither masked nor huge, and carry no unit."""
 
 
-class Value(Shown):
+class Value(Shown, NamesArguments):
     """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
 
     __slots__ = ()
@@ -355,6 +362,8 @@ class Value(Shown):
                 raise
         if problems:
             raise InvalidValue(*(_problem_of_class(owner, problem) for problem in problems))
+        if self._tells_of_slips:
+            warn_of_slips(self)
 
     def _problems(self) -> list[str]:
         """Mistakes that concern several fields at once; subclasses override.

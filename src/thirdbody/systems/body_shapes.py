@@ -62,7 +62,9 @@ class Body(Value, ABC):
 
 
 def _bodies() -> Any:
-    return quantity("Z", "1", "contacts that share the force equally", default=1.0, ge=1)
+    return quantity(
+        "Z", "1", "contacts that share the force equally", default=1.0, ge=1, whole=True
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -145,9 +145,17 @@ class Connector(Value):
     )
     surfaces: MaterialPair
     particles: tuple[Particles, ...]
-    contacts: float = quantity("n", "1", "contacts in series", default=1.0, ge=1, le=1e6)
+    contacts: float = quantity(
+        "n", "1", "contacts in series", default=1.0, ge=1, le=1e6, whole=True
+    )
     parallel: float = quantity(
-        "m", "1", "spots of each contact of which one is enough", default=1.0, ge=1, le=100
+        "m",
+        "1",
+        "spots of each contact of which one is enough",
+        default=1.0,
+        ge=1,
+        le=100,
+        whole=True,
     )
     wipe: float = quantity("s", "m", "way along the flat after touch", default=0.0, ge=0)
     pushed_aside: float | None = quantity(
@@ -165,16 +173,6 @@ class Connector(Value):
 
     def _problems(self) -> list[str]:
         out: list[str] = []
-        for name in ("contacts", "parallel"):
-            if getattr(self, name) % 1:
-                out.append(
-                    Problem(
-                        name,
-                        "must be a whole number",
-                        f"{getattr(self, name):g}",
-                        code=Mistake.KIND,
-                    )
-                )
         names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
         for name in self.conducting:
             if name not in (*names, BY_MATERIAL):
