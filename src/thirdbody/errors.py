@@ -343,6 +343,25 @@ def note_data(note: str) -> dict[str, object]:
     }
 
 
+def problem_data(problem: Problem) -> dict[str, str | None]:
+    """A mistake taken apart for JSON, in the words of study files.
+
+    >>> found = Problem("sigma", Mistake.RANGE.clause("must be > 0"), "-1", owner="roughness")
+    >>> problem_data(found)["code"], problem_data(found)["path"], problem_data(found)["allowed"]
+    ('range', 'roughness.sigma', 'must be > 0')
+    """
+    here = problem.put_in_words(in_study)
+    return {
+        "code": str(here.code),
+        "path": here.place,
+        "value": here.value,
+        "allowed": str(here.rule).lstrip(":,= "),
+        "hint": str(here.hint),
+        "meant": problem.meant,
+        "sentence": str(here),
+    }
+
+
 def place_note(note: str, place: str) -> Note:
     """The note of an answer at a place that is named first, such as a critical load.
 

@@ -94,7 +94,7 @@ class NamesArguments:
         """An instance whose fields are still empty, unless a name is no argument of the class."""
         if cls.__init__ is object.__init__ and (args or named):
             return object.__new__(cls, *args, **named)  # which says that it takes none
-        names = _argument_names(cls) if named else None
+        names = _argument_names(cls) if named else None  # type: ignore[arg-type]
         if names is not None and not named.keys() <= names:
             refuse_misfits(TypeError(), cls, args, named, where=cls.__name__)
         return object.__new__(cls)

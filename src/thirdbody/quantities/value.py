@@ -33,7 +33,17 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["Choice", "Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
+__all__ = [
+    "Choice",
+    "Value",
+    "choice",
+    "counted",
+    "items_of",
+    "paths_of",
+    "quantity",
+    "sequences",
+    "several",
+]
 
 
 class Choice(TypedDict):
@@ -55,7 +65,6 @@ def quantity(
     le: float | None = None,
     hint: str = "",
     usual: float | None = None,
-    whole: bool = False,
 ) -> Any:
     """A dataclass field that holds one finite number in SI.
 
@@ -72,16 +81,28 @@ def quantity(
     usual : float, optional
         Lengths up to it, and pressures from it on, are no slip; `USUAL_LENGTH` by default, and as
         for a modulus.
-    whole : bool, optional
-        Whether it counts things: 60.5 is refused.
     """
     about = Quantity(
         symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint
     )
     if usual is not None:
         about["usual"] = usual
-    if whole:
-        about["whole"] = True
+    return field(default=default, metadata={"quantity": about})
+
+
+def counted(
+    symbol: str,
+    meaning: str,
+    *,
+    default: object = MISSING,
+    ge: float | None = None,
+    le: float | None = None,
+) -> Any:
+    """A dataclass field that holds how many there are of something: a whole number."""
+    about = Quantity(
+        symbol=symbol, unit="1", meaning=meaning, gt=None, ge=ge, lt=None, le=le, hint="",
+        whole=True,
+    )  # fmt: skip
     return field(default=default, metadata={"quantity": about})
 
 

@@ -390,8 +390,8 @@ def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
 
 def number(about: Quantity) -> Key:
     """Key of a number in SI inside the range of its quantity; text has a unit."""
-    limits = {LIMITS[key]: limit for key, limit in limits_of(about).items()}
-    schema: dict[str, object] = {"type": ["number", "string"]} | limits
+    schema: dict[str, object] = {"type": ["number", "string"]}
+    schema |= {LIMITS[key]: limit for key, limit in limits_of(about).items()}
     if about.get("whole"):
         schema["multipleOf"] = 1
     return Key(partial(read_number, about), schema=schema)
