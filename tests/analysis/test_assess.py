@@ -39,6 +39,7 @@ from thirdbody.views import assess_page, plot
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "assess.toml"
 FEW = ["--set", "uncertainty.samples=64"]
+SMALL = FEW[1:]
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
@@ -243,6 +244,41 @@ def test_inputs_that_move_nothing_are_not_ranked(monkeypatch):
 
 
 # ---------------------------------------------------------------- several loads
+def ranked(**changes):
+    """The sentences on the inputs of a page whose operating load, or number, is another."""
+    vary = changes.pop("vary", {"roughness.sigma": (80e-9, 120e-9)})
+    page = assess(DUSTY, vary=vary, samples=64, **changes)
+    (part,) = (part for part in page.sections() if part.title == "Inputs that matter")
+    return page, " ".join(part.sentences)
+
+
+def test_a_critical_load_far_away_that_ranks_the_inputs_is_told_with_its_load():
+    near, words = ranked(F_star=1e-5)
+    critical = near.propagation.nominal[near.decisive]
+    at = value_of(critical * DUSTY.E_ss, "Pa")
+    assert at not in words
+    far, words = ranked(F_star=critical / 30)
+    nominal = far.propagation.nominal
+    assert far.decisive == near.decisive == "F_cr1"
+    assert f" {number(nominal['F/F_cr1'], 3)} times F_cr1 " in words
+    assert at in words
+
+
+def test_a_number_of_particles_without_a_range_is_told_as_held_fixed():
+    name = "particles.areal_density"
+    page, words = ranked(F_star=1e-5)
+    assert page.fixed_numbers == (name,)
+    assert name in words
+    vary = {name: tb.Uncertain.lognormal(median=DUSTY.particles.areal_density, gsd=1.5)}
+    page, words = ranked(F_star=1e-5, vary=vary)
+    assert page.fixed_numbers == ()
+    assert page.fixed_numbers_words() == ""
+    several = assess_study(load_study(EXAMPLE, ["load.pressure=[1e6, 5e6]", *SMALL]))
+    assert not any(name in words for words in several.sections()[0].sentences)
+    held = replace(several, pages=(ranked(F_star=1e-5)[0], *several.pages[1:]))
+    assert any(name in words for words in held.sections()[0].sentences)
+
+
 def bare(*settings):
     """The example without ranges."""
     study = load_study(EXAMPLE, settings)
