@@ -673,6 +673,24 @@ def test_the_cost_of_the_samples_is_told_before_them_and_how_far_they_are(monkey
     assert parts[0] < 0.2 < 0.9 < parts[-1]
 
 
+@pytest.mark.skipif(not available(), reason="where numba is installed")
+def test_what_outputs_cost_is_in_the_cost_that_is_told_first(monkeypatch):
+    monkeypatch.setattr(progress, "LONG", 0.0)
+    told = []
+
+    class Told(progress.Stages):
+        def cost(self, *items):
+            told.append(items)
+
+    load_alone = {"surfaces.first.H": (4e9, 6e9)}
+    contact = DUSTY.replace(outputs=(tb.outputs.Friction(tau_ss=5e8, tau_sa=5e8),))
+    assess(contact, vary=load_alone, F_star=1e-5, samples=64, progress=Told("assess"))
+    (states, with_outputs) = told[0]
+    assert states[::2] == (64 + 6 * 64, "states")
+    assert with_outputs[::2] == (64, "states with outputs")
+    assert with_outputs[1] > states[1] > 0
+
+
 def test_the_figure_of_bands_ends_where_an_end_of_a_band_would_be_crowded():
     """Loads that nobody asked for make no warning; what the model does not know is not drawn."""
     steel = tb.materials["S45C"]
