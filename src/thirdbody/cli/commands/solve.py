@@ -59,7 +59,7 @@ MEANS = {
 }
 """What the heads of the states mean."""
 DROP = ("A_ss", "A_sa", "d/sigma", "d", "particles' area", "F*")
-"""Columns in the order in which they go where the width is small."""
+"""Columns in the order in which they go where the width is small; the others go below then."""
 
 Columns = dict[str, Callable[[int], str]]
 """Heads of columns, and the cell of a state."""
@@ -162,7 +162,7 @@ def _some_states(columns: Columns, total: int) -> Table:
     rows = [[cell(i) for cell in columns.values()] for i in some(total)]
     rare = f"; {RARE}: {MOST_MEET_NONE}" * any(RARE in row for row in rows)
     legend = MEANS | {"mode": MEANS["mode"] + rare}
-    table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=legend)
+    table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=legend, wrap=True)
     for row in rows:
         table.add_row(*row)
     return table
