@@ -24,7 +24,7 @@ from refusals import refuses
 import thirdbody as tb
 from thirdbody import study
 from thirdbody.equilibrium.status import WORDS, Status
-from thirdbody.errors import Mistake
+from thirdbody.errors import Mistake, code_of
 from thirdbody.quantities import files
 from thirdbody.quantities.say import number, percent
 
@@ -59,7 +59,7 @@ def test_schema_is_a_schema():
 
 
 TABLE = "squeezed by more than 0.15 of their radius on each side"
-CHI = "from 0.005 on particles carried 3 to 4 % less"
+CHI = "pressed point by point, stood"
 WARNED = {name: [TABLE] for name in ("additive", "assess", "explicit", "oil_film")}
 WARNED |= {
     name: [CHI, TABLE]
@@ -360,6 +360,19 @@ def test_warnings_are_one_line_each_on_standard_error():
     assert more.startswith(f"note: {len(every) - 3} more warning")
     whole = process("solve", DUSTY, "--json", "--verbose", *crowded)
     assert sorted(whole.stderr.splitlines()) == sorted(every)
+
+
+def test_a_note_on_particles_that_carry_next_to_nothing_waits_for_verbose():
+    """The friction of their faces changes their load by a third, and the whole by a part of 1e-5."""
+    few = ("--set", "particles.areal_density=1e7 / m^2", "--set", "load.pressure=[5e7, 1e8]")
+    state = study.load_study(DUSTY, few[1::2]).solve()
+    assert 0 < state.particle_load_share.max() < 1e-3
+    assert "squeezed" in map(code_of, state.warnings)
+    short, whole = run("solve", DUSTY, *few), run("solve", DUSTY, *few, "--verbose")
+    assert "squeezed" not in short.codes
+    assert short.remarks
+    assert "squeezed" in whole.codes
+    assert "squeezed" in run("solve", DUSTY).codes
 
 
 def test_likely_slips_are_told_even_when_the_study_fails():

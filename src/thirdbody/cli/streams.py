@@ -11,6 +11,7 @@ import contextlib
 import errno
 import importlib.util
 import json
+import math
 import os
 import shutil
 import stat
@@ -33,6 +34,7 @@ from ..errors import (
     NoEquilibrium,
     NoTransition,
     Problem,
+    code_of,
     in_study,
     note_of,
     problem_data,
@@ -82,6 +84,9 @@ MOST_IN_A_SHEET = 2**20 - 1
 """Rows of a sheet below its head."""
 STDOUT = Path("-")
 """What stands for standard output where a file may be named."""
+SLIGHT = 1e-3
+"""Effect on the whole answer below which a note on a part of it is not shown by itself: some digits
+finer than the model is known."""
 USAGE_ERROR: type[Exception] = typer.BadParameter.__mro__[1]
 """What is raised where a command line does not parse; typer names only a case of it."""
 LEAST = 40
@@ -299,13 +304,26 @@ def warn(message: Warning | str, *_: object, **__: object) -> None:
     _print_beside(_wrap_line(f"warning: {sentence}"))
 
 
-def warn_of(notes: Iterable[str]) -> None:
+def warn_of(notes: Iterable[str], shares: Mapping[str, float] | None = None) -> None:
     """Print the notes of an answer: those that matter most, and how many more there are.
 
     What was said of the inputs counts among the most that are shown; the worst is always shown.
+
+    Parameters
+    ----------
+    notes : iterable of str
+    shares : mapping, optional
+        Of codes whose effect is on a part of the answer alone, how large that part is [1]: a note
+        whose effect on the whole is below `SLIGHT` is shown only where all are.
     """
+    parts = shares or {}
     worst = rank_notes(notes)
-    shown = worst if SHOWS_ALL.get() else worst[: max(MOST_SHOWN - WARNINGS.get(), 1)]
+    telling = [
+        note
+        for note in worst
+        if not getattr(note, "effect", math.inf) * parts.get(code_of(note), math.inf) < SLIGHT
+    ]
+    shown = worst if SHOWS_ALL.get() else telling[: max(MOST_SHOWN - WARNINGS.get(), 1)]
     for note in shown:
         warn(note)
     if left := len(worst) - len(shown):

@@ -509,7 +509,7 @@ def _range(
 ) -> object:
     if reader.every_way:
         keys = {**keys, "points": keys["points"]._replace(required=False)}
-    elif renamed := range_meant(data):
+    elif isinstance(data, dict) and (renamed := range_meant(data)):
         if keys["points"].required:
             renamed.setdefault("points", 10)
         else:

@@ -59,8 +59,8 @@ def _vary(sampled: bool, reader: Reader, path: str, data: object) -> object:
     """The inputs that may vary, in tables like those of the file."""
     if reader.every_way:
         return {"type": "object"}  # the inputs of whatever study it is
-    bare = isinstance(data, dict) and {"from", "to"} <= data.keys()
-    if meant := range_meant(data) or (data if bare else {}):
+    bare = data if isinstance(data, dict) and {"from", "to"} <= data.keys() else {}
+    if meant := range_meant(data) or bare:
         rule = "is a range, but does not say of which input"
         hint = f"write vary.roughness.sigma = {in_toml(meant)}, by the name of an input"
         reader.mistakes.append(Problem(path, rule, hint=hint, code=Mistake.MISSING))

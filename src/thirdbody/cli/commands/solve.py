@@ -90,7 +90,7 @@ def command(options: Options) -> None:
     files.need(force=options.force)
     with heartbeat("solve"):
         result = run_study(study)
-    warn_of((*result.oil_notes, *result.run_warnings))
+    warn_of((*result.oil_notes, *result.run_warnings), _shares(result))
     if not result.solved_states:  # no file without a number
         files = TableFiles(json=STDOUT if options.json == STDOUT else None)
     files.write(
@@ -107,6 +107,17 @@ def command(options: Options) -> None:
         for sentence in result.force_sentences:
             terminal().print(sentence)
     result.need_state()
+
+
+def _shares(result: StudyResult) -> dict[str, float]:
+    """Parts of the load that notes of these codes are about: the largest that particles carry.
+
+    Nothing where the answer is of single particles, that is of [body] or of outputs.
+    """
+    if result.forces or result.study.contact.outputs or not result.solved_states:
+        return {}
+    shares = [float(result.states.particle_load_share[i]) for i in result.solved_states]
+    return {"squeezed": max(shares)}
 
 
 def _sheets(result: StudyResult) -> list[Sheet]:
