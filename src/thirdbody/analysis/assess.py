@@ -320,8 +320,8 @@ class _Work:
         states = count * len(held) + CRITICAL_COST * self.critical
         items = [(states, seconds, "states")]
         if outputs and not alone:
-            each = _seconds_of_outputs(contact, load, held[0], points)
-            items.append((outputs, each, "states with outputs"))
+            dearer = _seconds_of_outputs(contact, load, held[0], points)
+            items.append((outputs, dearer, "states with outputs"))
         self.progress.cost(*items)
 
     def first(self, load: str, held: Sequence[float], states: Sequence[object]) -> None:

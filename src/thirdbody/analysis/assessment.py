@@ -286,7 +286,7 @@ class Assessment(Shown, Record):
                 f"{percent(first)} of the spread of {self.called}"
                 + (" (of its logarithm)." if self.decisive in CRITICAL else ".")
             )
-        sentences += filter(None, (self._far(), self.fixed_numbers_words()))
+        sentences += filter(None, (self._distance_words(), self.fixed_numbers_words()))
         head = (
             *("input", "value", "5 %", "95 %"),
             *(f"{self.called} at {end}" for end in ("5 %", "95 %")),
@@ -310,7 +310,7 @@ class Assessment(Shown, Record):
             return f"{self.decisive}, the critical load nearest to this load"
         return f"the {self.called}"
 
-    def _far(self) -> str:
+    def _distance_words(self) -> str:
         """That the critical load which ranks the inputs is far from the operating load."""
         margin = self.propagation.nominal.get(f"F/{self.decisive}", math.nan)
         if self.decisive not in CRITICAL or not 0 < margin < math.inf:

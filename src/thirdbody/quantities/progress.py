@@ -168,8 +168,8 @@ class Stages:
         whole = sum(count * seconds for count, seconds, _ in items)
         if whole > LONG and not self.said:
             self.said, self.promised = True, whole
-            each = (f"{count:,} {what}, {seconds:.2g} s each" for count, seconds, what in items)
-            self.tell(f"about {', and '.join(each)}: some {duration(whole)}")
+            costs = (f"{count:,} {what}, {seconds:.2g} s each" for count, seconds, what in items)
+            self.tell(f"about {', and '.join(costs)}: some {duration(whole)}")
 
     def tell(self, sentence: str) -> None:
         """A first result, or what the work costs, on standard error."""

@@ -90,7 +90,7 @@ class Table:
         named = [self.heads.index(head) for head in self.drop if head in self.heads]
         return [*named, *(i for i in reversed(range(1, len(self.heads))) if i not in named)]
 
-    def _kept(self, every: list[int], room: int) -> list[int]:
+    def _columns_to_show(self, every: list[int], room: int) -> list[int]:
         """Columns that are shown side by side or below: without as many of ``drop`` as must go."""
         kept, going = every, [self.heads.index(head) for head in self.drop if head in self.heads]
         while going and len(kept) > 1 and self._fit_columns(kept, room)[0] != kept:
@@ -123,7 +123,7 @@ class Table:
     # ------------------------------------------------------------------ on the screen
     def __rich_console__(self, console: object, options: Any) -> Any:
         every = list(range(len(self.heads)))
-        kept = self._kept(every, options.max_width) if self.wrap else every
+        kept = self._columns_to_show(every, options.max_width) if self.wrap else every
         shown, widths, gap = self._fit_columns(kept, options.max_width)
         yield self._draw_table(shown, widths, gap)
         while self.wrap and (rest := [i for i in kept if i not in shown]):

@@ -37,7 +37,7 @@ __all__ = [
     "Choice",
     "Value",
     "choice",
-    "counted",
+    "count_field",
     "items_of",
     "paths_of",
     "quantity",
@@ -90,20 +90,20 @@ def quantity(
     return field(default=default, metadata={"quantity": about})
 
 
-def counted(
+def count_field(
     symbol: str,
     meaning: str,
     *,
     default: object = MISSING,
     ge: float | None = None,
     le: float | None = None,
-) -> Any:
+) -> float:
     """A dataclass field that holds how many there are of something: a whole number."""
     about = Quantity(
         symbol=symbol, unit="1", meaning=meaning, gt=None, ge=ge, lt=None, le=le, hint="",
         whole=True,
     )  # fmt: skip
-    return field(default=default, metadata={"quantity": about})
+    return field(default=default, metadata={"quantity": about})  # type: ignore[return-value]
 
 
 def several(unit: str, meaning: str, *, default: object = MISSING) -> Any:

@@ -36,10 +36,10 @@ answer it shows
     >>> problem_of_other_file(Path("a.toml"), b"[surfaces]") is None
     True
     """
-    found = _kind_and_reader(path, content)
-    if found is None:
+    kind_and_reader = _kind_and_reader(path, content)
+    if kind_and_reader is None:
         return None
-    kind, reader = found
+    kind, reader = kind_and_reader
     rule = f"{path} is {kind} and no study file"
     return Problem("", rule, hint=reader.format(path), code=Mistake.UNREADABLE)
 

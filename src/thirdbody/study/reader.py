@@ -559,8 +559,8 @@ def range_meant(data: object) -> dict[str, object]:
         if name is not None:
             out[key] = data[name]
     meant = {"from", "to"} <= out.keys() and not {"from", "to", "points"} >= data.keys()
-    known = {"spacing", *MEANT, *itertools.chain(*MEANT.values())}
-    if not meant or not data.keys() <= known or {"spacing", *MEANT} >= data.keys():
+    every_name = {"spacing", *MEANT, *itertools.chain(*MEANT.values())}
+    if not meant or not data.keys() <= every_name or {"spacing", *MEANT} >= data.keys():
         return {}
     return out | {key: data[key] for key in ("spacing",) if key in data}
 

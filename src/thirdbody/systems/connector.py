@@ -36,7 +36,7 @@ from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..quantities.say import value_of
 from ..quantities.units import say
-from ..quantities.value import Value, counted, items_of, quantity
+from ..quantities.value import Value, count_field, items_of, quantity
 from .contact_probability import (
     CELLS,
     MOST_CELLS,
@@ -145,8 +145,8 @@ class Connector(Value):
     )
     surfaces: MaterialPair
     particles: tuple[Particles, ...]
-    contacts: float = counted("n", "contacts in series", default=1.0, ge=1, le=1e6)
-    parallel: float = counted(
+    contacts: float = count_field("n", "contacts in series", default=1.0, ge=1, le=1e6)
+    parallel: float = count_field(
         "m", "spots of each contact of which one is enough", default=1.0, ge=1, le=100
     )
     wipe: float = quantity("s", "m", "way along the flat after touch", default=0.0, ge=0)
