@@ -238,8 +238,9 @@ def test_inputs_that_move_nothing_are_not_ranked(monkeypatch):
     assert not page.moved
     assert all(math.isnan(part) for part in page.matter.values())
     (inputs,) = (part for part in page.sections() if part.title == "Inputs that matter")
-    (sentence,) = inputs.sentences
+    sentence, fixed = inputs.sentences
     assert "F_cr1" in sentence
+    assert fixed == page.fixed_numbers_words()
     assert len(assess_page.pictures(page)) == 1
 
 

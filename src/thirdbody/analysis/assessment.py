@@ -313,7 +313,8 @@ class Assessment(Shown, Record):
     def _distance_words(self) -> str:
         """That the critical load which ranks the inputs is far from the operating load."""
         margin = self.propagation.nominal.get(f"F/{self.decisive}", math.nan)
-        if self.decisive not in CRITICAL or not 0 < margin < math.inf:
+        ranks = self.moved and self.decisive in CRITICAL
+        if not ranks or not 0 < margin < math.inf:
             return ""
         if 1 / FAR <= margin <= FAR:
             return ""
