@@ -85,8 +85,7 @@ MOST_IN_A_SHEET = 2**20 - 1
 STDOUT = Path("-")
 """What stands for standard output where a file may be named."""
 SLIGHT = 1e-3
-"""Effect on the whole answer below which a note on a part of it is not shown by itself: some digits
-finer than the model is known."""
+"""Effect on the whole answer below which a note on a part of it is not shown by itself."""
 USAGE_ERROR: type[Exception] = typer.BadParameter.__mro__[1]
 """What is raised where a command line does not parse; typer names only a case of it."""
 LEAST = 40
