@@ -4,7 +4,8 @@ A message says what, where, what is allowed, and the likely cause.
 
 - `ThirdBodyError`: the base of every error, to catch them all
 - `InvalidValue`: an input has no meaning; it holds each `Problem`, which has a kind, a `Mistake`
-- `WrongKind`: an `InvalidValue`, of arguments that a signature refuses
+- `WrongKind`: an `InvalidValue` and `TypeError`, of arguments that a signature refuses
+- `UnknownMaterial`: an `InvalidValue` and `KeyError`, of a name that no material has
 - `NoEquilibrium`: no separation carries the load
 - `NoTransition`: the contact mode does not change
 - `RangeWarning`: a model is used beyond its range; it holds a `Note`, which says by how much
@@ -33,6 +34,7 @@ __all__ = [
     "RangeWarning",
     "SlowWarning",
     "ThirdBodyError",
+    "UnknownMaterial",
     "WrongKind",
 ]
 
@@ -341,6 +343,25 @@ def note_data(note: str) -> dict[str, object]:
     }
 
 
+def problem_data(problem: Problem) -> dict[str, str | None]:
+    """A mistake taken apart for JSON, in the words of study files.
+
+    >>> found = Problem("sigma", Mistake.RANGE.clause("must be > 0"), "-1", owner="roughness")
+    >>> problem_data(found)["code"], problem_data(found)["path"], problem_data(found)["allowed"]
+    ('range', 'roughness.sigma', 'must be > 0')
+    """
+    here = problem.put_in_words(in_study)
+    return {
+        "code": str(here.code),
+        "path": here.place,
+        "value": here.value,
+        "allowed": str(here.rule).lstrip(":,= "),
+        "hint": str(here.hint),
+        "meant": problem.meant,
+        "sentence": str(here),
+    }
+
+
 def place_note(note: str, place: str) -> Note:
     """The note of an answer at a place that is named first, such as a critical load.
 
@@ -412,8 +433,7 @@ class NoEquilibrium(ThirdBodyError, RuntimeError):
     Examples
     --------
     >>> import thirdbody as tb
-    >>> from thirdbody.equilibrium.status import Status
-    >>> tb.errors.NoEquilibrium("the load is too small", Status.TOO_LITTLE).status.word
+    >>> tb.errors.NoEquilibrium("the load is too small", tb.results.Status.TOO_LITTLE).status.word
     'no_equilibrium_below'
     """
 
@@ -426,8 +446,27 @@ class NoTransition(ThirdBodyError, RuntimeError):
     """The contact mode does not change inside the loads searched."""
 
 
-class WrongKind(InvalidValue):
-    """Error for arguments that a signature refuses; an outer function may know better names."""
+class WrongKind(InvalidValue, TypeError):
+    """Error for arguments that a signature refuses; an outer function may know better names.
+
+    It is a `TypeError` too, as Python raises for such a call.
+    """
+
+
+class UnknownMaterial(InvalidValue, KeyError):
+    """A name that no material of the library has; a `KeyError` too, as of a dict.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> try:
+    ...     tb.materials["S45"]
+    ... except tb.errors.UnknownMaterial as error:
+    ...     print(error.problems[0].meant)
+    S45C
+    """
+
+    __str__ = Exception.__str__
 
 
 class NotCompiled(Exception):

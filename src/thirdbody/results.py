@@ -4,6 +4,7 @@ You receive these and rarely make one; they stand here for annotations, for ``is
 and for their pages in the reference. Each has columns with symbol, unit and meaning.
 
 - `Equilibrium`: of `solve`, the solved states
+- `Status`: what became of a state, the enumeration behind `Equilibrium.status_code`
 - `Transitions`: of `transitions`, critical loads; `Critical`: one of them; `TurningPoint`: three
 - `Assessment`: of `assess`, how sure the answer is, on one page
 - `Sensitivity`: of `sensitivity`, derivatives with respect to inputs
@@ -22,6 +23,7 @@ from .analysis.design.design import Best
 from .analysis.sensitivity import Sensitivity
 from .analysis.uncertainty.propagation import Propagation
 from .equilibrium.columns import Equilibrium
+from .equilibrium.status import Status
 from .equilibrium.transitions import Critical, Transitions, TurningPoint
 from .explicit.ensemble import Ensemble
 from .explicit.state import ExplicitState
@@ -44,6 +46,7 @@ __all__ = [
     "MixedFilm",
     "Propagation",
     "Sensitivity",
+    "Status",
     "StudyResult",
     "Transitions",
     "TurningPoint",

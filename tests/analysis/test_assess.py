@@ -39,6 +39,7 @@ from thirdbody.views import assess_page, plot
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "assess.toml"
 FEW = ["--set", "uncertainty.samples=64"]
+SMALL = FEW[1:]
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 
 
@@ -237,12 +238,48 @@ def test_inputs_that_move_nothing_are_not_ranked(monkeypatch):
     assert not page.moved
     assert all(math.isnan(part) for part in page.matter.values())
     (inputs,) = (part for part in page.sections() if part.title == "Inputs that matter")
-    (sentence,) = inputs.sentences
+    sentence, fixed = inputs.sentences
     assert "F_cr1" in sentence
+    assert fixed == page.fixed_numbers_words()
     assert len(assess_page.pictures(page)) == 1
 
 
 # ---------------------------------------------------------------- several loads
+def ranked(**changes):
+    """The sentences on the inputs of a page whose operating load, or number, is another."""
+    vary = changes.pop("vary", {"roughness.sigma": (80e-9, 120e-9)})
+    page = assess(DUSTY, vary=vary, samples=64, **changes)
+    (part,) = (part for part in page.sections() if part.title == "Inputs that matter")
+    return page, " ".join(part.sentences)
+
+
+def test_a_critical_load_far_away_that_ranks_the_inputs_is_told_with_its_load():
+    near, words = ranked(F_star=1e-5)
+    critical = near.propagation.nominal[near.decisive]
+    at = value_of(critical * DUSTY.E_ss, "Pa")
+    assert at not in words
+    far, words = ranked(F_star=critical / 30)
+    nominal = far.propagation.nominal
+    assert far.decisive == near.decisive == "F_cr1"
+    assert f" {number(nominal['F/F_cr1'], 3)} " in words
+    assert at in words
+
+
+def test_a_number_of_particles_without_a_range_is_told_as_held_fixed():
+    name = "particles.areal_density"
+    page, words = ranked(F_star=1e-5)
+    assert page.fixed_numbers == (name,)
+    assert name in words
+    vary = {name: tb.Uncertain.lognormal(median=DUSTY.particles.areal_density, gsd=1.5)}
+    page, words = ranked(F_star=1e-5, vary=vary)
+    assert page.fixed_numbers == ()
+    assert page.fixed_numbers_words() == ""
+    several = assess_study(load_study(EXAMPLE, ["load.pressure=[1e6, 5e6]", *SMALL]))
+    assert not any(name in words for words in several.sections()[0].sentences)
+    held = replace(several, pages=(ranked(F_star=1e-5)[0], *several.pages[1:]))
+    assert any(name in words for words in held.sections()[0].sentences)
+
+
 def bare(*settings):
     """The example without ranges."""
     study = load_study(EXAMPLE, settings)
@@ -635,6 +672,24 @@ def test_the_cost_of_the_samples_is_told_before_them_and_how_far_they_are(monkey
     parts = [part for part, _ in shown]
     assert parts == sorted(parts)
     assert parts[0] < 0.2 < 0.9 < parts[-1]
+
+
+@pytest.mark.skipif(not available(), reason="where numba is installed")
+def test_what_outputs_cost_is_in_the_cost_that_is_told_first(monkeypatch):
+    monkeypatch.setattr(progress, "LONG", 0.0)
+    told = []
+
+    class Told(progress.Stages):
+        def cost(self, *items):
+            told.append(items)
+
+    load_alone = {"surfaces.first.H": (4e9, 6e9)}
+    contact = DUSTY.replace(outputs=(tb.outputs.Friction(tau_ss=5e8, tau_sa=5e8),))
+    assess(contact, vary=load_alone, F_star=1e-5, samples=64, progress=Told("assess"))
+    (states, with_outputs) = told[0]
+    assert states[::2] == (64 + 6 * 64, "states")
+    assert with_outputs[0] == 64
+    assert with_outputs[1] > states[1] > 0
 
 
 def test_the_figure_of_bands_ends_where_an_end_of_a_band_would_be_crowded():

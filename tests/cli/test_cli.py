@@ -13,6 +13,7 @@ import time
 from importlib import import_module, resources
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import patch
 
 import jsonschema
 import numpy as np
@@ -22,7 +23,8 @@ from refusals import refuses
 
 import thirdbody as tb
 from thirdbody import study
-from thirdbody.errors import Mistake
+from thirdbody.equilibrium.status import WORDS, Status
+from thirdbody.errors import Mistake, code_of
 from thirdbody.quantities import files
 from thirdbody.quantities.say import number, percent
 
@@ -57,7 +59,7 @@ def test_schema_is_a_schema():
 
 
 TABLE = "squeezed by more than 0.15 of their radius on each side"
-CHI = "from 0.005 on particles carried 3 to 4 % less"
+CHI = "pressed point by point, stood"
 WARNED = {name: [TABLE] for name in ("additive", "assess", "explicit", "oil_film")}
 WARNED |= {
     name: [CHI, TABLE]
@@ -203,12 +205,68 @@ def wrong(tmp_path):
 def test_mistakes_go_to_standard_error_one_line_each(wrong, more):
     result = run("solve", wrong, *more)
     assert result.exit_code == 2
-    assert result.stdout == ""
+    assert bool(result.stdout) is bool(more)
     lines = result.stderr.splitlines()
     assert len(lines) == 3
     assert all(line.startswith("error: ") for line in lines)
     for place in ("surfaces.second.nu = 0.6", "roughness.sigma = ", "particle_law.saet"):
         assert any(line.startswith(f"error: {place}") for line in lines)
+
+
+def test_mistakes_are_taken_apart_in_json(wrong):
+    result = run("solve", wrong, "--json")
+    answer = strict(result.stdout)
+    jsonschema.validate(answer, SCHEMA)
+    problems = {each["path"]: each for each in answer["problems"]}
+    assert {place: each["code"] for place, each in problems.items()} == {
+        "surfaces.second.nu": "range",
+        "roughness.sigma": "unit",
+        "particle_law.saet": "unknown",
+    }
+    assert problems["surfaces.second.nu"]["value"] == "0.6"
+    assert problems["particle_law.saet"]["meant"] == "seat"
+    assert [f"error: {each['sentence']}" for each in answer["problems"]] == (
+        result.stderr.splitlines()
+    )
+
+
+def test_the_schema_knows_the_codes_of_all_mistakes():
+    items = SCHEMA["properties"]["problems"]["items"]
+    unsolved = {word for code, word in enumerate(WORDS) if code != Status.OK}
+    codes = {str(each) for each in Mistake} | unsolved | {"no_transition"}
+    assert set(items["properties"]["code"]["enum"]) == codes
+
+
+def test_a_load_without_an_equilibrium_is_told_once_in_json():
+    """Where states are printed their status says it; else it stands in the place of an answer."""
+    few = run("solve", DUSTY, "--json", "--set", "load.F_star=5e6")
+    assert few.exit_code == 3
+    assert "problems" not in strict(few.stdout)
+    with patch.object(study, "run_study", side_effect=tb.errors.NoTransition("none")):
+        none = run("solve", DUSTY, "--json")
+    assert none.exit_code == 3
+    (problem,) = strict(none.stdout)["problems"]
+    assert (problem["code"], problem["sentence"]) == ("no_transition", "none")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("solve", DUSTY, "--json", "out.txt"),
+        ("solve", "--json", "out.txt", DUSTY),
+        ("solve", DUSTY, "--json", "out"),
+        ("laws", "--json", "laws.json"),
+    ],
+)
+def test_a_name_that_json_does_not_take_is_told_with_what_writes_a_file(arguments):
+    done = run(*arguments)
+    assert done.mistakes == [(Mistake.FORM, "")]
+    (problem,) = done.problems
+    name = arguments[arguments.index("--json") + 1]
+    assert f"--json > {name}" in problem.hint
+    assert (f"--json {Path(name).with_suffix('.json')}" in problem.hint) is (
+        "laws" not in arguments
+    )
 
 
 @pytest.mark.check
@@ -241,8 +299,11 @@ def test_no_traceback_in_a_process_of_its_own(wrong, tmp_path):
 def test_wrong_usage_exits_2(arguments):
     result = run(*arguments)
     assert result.exit_code == 2
-    assert result.stdout == ""
     assert result.stderr
+    if "--json" in arguments:
+        assert list(strict(result.stdout)) == ["problems"]
+    else:
+        assert result.stdout == ""
 
 
 def test_no_equilibrium_exits_3():
@@ -299,6 +360,19 @@ def test_warnings_are_one_line_each_on_standard_error():
     assert more.startswith(f"note: {len(every) - 3} more warning")
     whole = process("solve", DUSTY, "--json", "--verbose", *crowded)
     assert sorted(whole.stderr.splitlines()) == sorted(every)
+
+
+def test_a_note_on_particles_that_carry_next_to_nothing_waits_for_verbose():
+    """The friction of their faces changes their load by a third, and the whole by a part of 1e-5."""
+    few = ("--set", "particles.areal_density=1e7 / m^2", "--set", "load.pressure=[5e7, 1e8]")
+    state = study.load_study(DUSTY, few[1::2]).solve()
+    assert 0 < state.particle_load_share.max() < 1e-3
+    assert "squeezed" in map(code_of, state.warnings)
+    short, whole = run("solve", DUSTY, *few), run("solve", DUSTY, *few, "--verbose")
+    assert "squeezed" not in short.codes
+    assert short.remarks
+    assert "squeezed" in whole.codes
+    assert "squeezed" in run("solve", DUSTY).codes
 
 
 def test_likely_slips_are_told_even_when_the_study_fails():

@@ -4,6 +4,7 @@ import os
 import threading
 
 import pytest
+from command_line import refused
 from refusals import refuses
 
 from thirdbody.errors import InvalidValue, Mistake
@@ -21,6 +22,38 @@ R = "2.8 um"
 pressure = "5 MPa"
 """
 EVERY = ["solve", "sweep", "film", "explicit", "assess", "design", "report", "compare", "table"]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [
+        ("a.png", b"\x89PNG\r\n\x1a\n\0\0", "PNG"),
+        ("a.json", b'{"inputs": {}, "states": {}}', "--json"),
+        ("a.json", b'{"curve": {}, "units": {}}', "thirdbody surface"),
+        ("a.json", b"[1, 2]", ""),
+        ("a.xlsx", b"PK\x03\x04...", "workbook"),
+        ("part.x3p", b"PK\x03\x04...", "thirdbody surface part.x3p"),
+        ("part.sur", b"\x01\0\x02", "thirdbody surface part.sur"),
+        ("a.html", b"<!DOCTYPE html><html></html>", "HTML"),
+        ("a.csv", b"status,h [m]\nok,1", "states"),
+        ("oil.csv", b"time,code\n1 h,18/16/13", "--reports oil.csv"),
+    ],
+)
+def test_a_file_that_is_no_study_is_told_what_it_is(tmp_path, monkeypatch, name, content, says):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / name).write_bytes(content)
+    for command in ("solve", "film"):
+        done = refused(command, name)
+        (problem,) = done.problems
+        assert problem.code is (Mistake.UNREADABLE if says else Mistake.FORM)
+        assert name in problem
+        assert says in problem
+
+
+def test_a_study_is_read_whatever_its_name(tmp_path):
+    for name in ("study.json", "study.csv", "study.svg.toml"):
+        (tmp_path / name).write_text("# status, of a study\n" + STUDY, encoding="utf-8")
+        assert run("solve", tmp_path / name).exit_code == 0
 
 
 def test_a_file_may_have_so_many_bytes_and_no_more(tmp_path):

@@ -3,6 +3,7 @@
 import csv
 import errno
 import importlib.util
+import json
 import os
 import zipfile
 
@@ -12,12 +13,13 @@ from command_line import refused
 import thirdbody
 from thirdbody.cli import streams
 from thirdbody.errors import Mistake
+from thirdbody.results import Status
 
 from .test_cli import EXAMPLES, run
 
-ADDITIVE, FILM, SWEEP = (
+ADDITIVE, FILM, SWEEP, DEBRIS = (
     next(path for path in EXAMPLES if path.stem == stem)
-    for stem in ("additive", "oil_film", "sweep")
+    for stem in ("additive", "oil_film", "sweep", "dust_and_debris")
 )
 LIBRARY = {"xlsx": "openpyxl", "parquet": "pyarrow"}
 COMMANDS = [
@@ -37,6 +39,16 @@ def read(path):
 
     names = load_workbook(path, read_only=True).sheetnames
     return pandas.read_excel(path, sheet_name="States" if "States" in names else "Table")
+
+
+def test_the_last_column_of_states_is_the_code_of_their_status(tmp_path):
+    table = tmp_path / "t.csv"
+    done = run("solve", DEBRIS, "--set", "load.pressure=[1e6, 1e16]", "--csv", table, "--json")
+    head, *rows = csv.reader(table.open(encoding="utf-8"))
+    assert head[-1] == "status_code"
+    codes = [int(row[-1]) for row in rows]
+    assert codes == json.loads(done.stdout)["states"]["status_code"]
+    assert codes == [Status.OK, Status.TOO_MUCH]
 
 
 @pytest.mark.check

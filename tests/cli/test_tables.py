@@ -10,7 +10,9 @@ from typer.testing import CliRunner
 from thirdbody import cli, load_study
 from thirdbody.analysis.inputs import words_of
 from thirdbody.analysis.uncertainty import samples
+from thirdbody.cli.commands.solve import DROP
 from thirdbody.equilibrium.columns import PLASTIC_SHARE
+from thirdbody.quantities.say import percent
 from thirdbody.quantities.tables import Table
 
 from .test_cli import DUSTY, EXAMPLES
@@ -100,6 +102,18 @@ def test_columns_go_in_their_order_and_are_named():
     assert "Not shown" not in run(130, "solve", DUSTY)
 
 
+@pytest.mark.parametrize("width", [40, 50, 70])
+def test_who_carries_the_load_and_the_mode_stand_at_every_width(width):
+    state = load_study(DUSTY).solve()
+    text = run(width, "solve", DUSTY)
+    table = text[: text.index("Not shown")]
+    shares = [percent(float(share)) for share in np.atleast_1d(state.particle_load_share)]
+    assert any(f" {share} " in table for share in shares)
+    assert re.search(r" (p-s|hybrid|s-s)\s*$", table, re.M)
+    (gone,) = re.findall(r"too narrow: (.*?); --json", " ".join(text.split()))[:1]
+    assert set(re.split(", | and ", gone)) <= {*DROP}
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_every_cell_shown_stands_whole(seed):
     rng = np.random.default_rng(seed)
@@ -123,7 +137,7 @@ def test_every_cell_shown_stands_whole(seed):
     gone = set() if told is None else set(re.split(", | and ", told[1]))
     for i, head in enumerate(heads):
         assert all((row[i] in shown) == (head not in gone) for row in cells)
-    assert not (wrap and gone)
+    assert not (wrap and gone - set(drop))
     # nothing stays that was to go before what went
     order = [*drop, *(head for head in reversed(heads[1:]) if head not in drop)]
     assert gone == set(order[: len(gone)])

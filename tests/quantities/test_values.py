@@ -13,7 +13,7 @@ import oracle
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from refusals import warns_of
+from refusals import Mistake, refuses, warns_of
 from twins import decades, horng_twins, roughnesses, series_twins
 
 import thirdbody as tb
@@ -442,3 +442,50 @@ def test_a_hint_fits_the_sign_of_a_number(value, hint):
     assert said == "must be > 0 and < 1e+09 [N]" + f"; {hint}" * bool(hint)
     signed = quantity("F", "N", "force", gt=-10, hint="kN are '5 kN'").metadata["quantity"]
     assert problem_with(signed, -20.0).endswith("kN are '5 kN'")
+
+
+# ------------------------------------------------------------------------------ arguments
+MISSPELT = [
+    (lambda: dust(diametre=1e-7), "Particles.diametre", "diameter"),
+    (lambda: contact(surface=1), "Contact.surface", "surfaces"),
+    (lambda: tb.Roughness(sigm=1e-7, R=2.8e-6), "Roughness.sigm", "sigma"),
+    (lambda: tb.films.Oil(eta=0.04, alfa=2e-8), "Oil.alfa", "alpha"),
+    (lambda: tb.asperity.ZMC(K=0.4), "ZMC.K", "k"),
+    (lambda: tb.outputs.Friction(tau=1e6), "Friction.tau", None),
+    (lambda: tb.surfaces.Topography(height=np.zeros((4, 4))), "Topography.height", "heights"),
+    (lambda: tb.Uncertain(knd="normal"), "Uncertain.knd", "kind"),
+]
+"""Calls with a misspelt argument, its place, and the argument that was meant."""
+
+
+@pytest.mark.parametrize(("make", "place", "meant"), MISSPELT, ids=[row[1] for row in MISSPELT])
+def test_a_misspelt_argument_of_a_class_is_told_as_one_of_a_function(make, place, meant):
+    with refuses(Mistake.UNKNOWN, place, meant=meant) as told:
+        make()
+    assert isinstance(told.value, TypeError)
+
+
+def test_a_class_of_ones_own_may_take_any_argument_and_one_without_any_takes_none():
+    class Free(tb.asperity.GW):
+        def __init__(self, **options):
+            object.__setattr__(self, "options", options)
+
+        __slots__ = ("options",)
+
+    assert Free(anything=3).options == {"anything": 3}
+    with pytest.raises(TypeError):
+        tb.outputs.AbstractOutput(anything=3)
+
+
+# ------------------------------------------------------------------------------ oils
+def test_a_viscosity_that_no_oil_has_is_told_once():
+    with warns_of("unit of eta", effect=math.inf, says="60 mPa s") as told:
+        oil = tb.films.Oil(eta=60, alpha=2e-8)
+        oil.replace(alpha=1.5e-8)
+    assert len(told) == 1
+
+
+def test_usual_oils_are_told_of_nothing():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tb.films.Oil(eta=0.06, alpha=2e-8, eyring_stress=5e6).replace(eta=9.9)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.errors import Mistake
 from thirdbody.quantities.value import Value, choice, quantity
 from thirdbody.study import DISTRIBUTIONS, HEIGHTS, LOADS, check, load_study, run_study, whole
 from thirdbody.study.reader import Table, table_of
@@ -1194,3 +1195,32 @@ def test_sizes_beside_a_code_are_answered_with_the_code(problems):
     begin, end = GOOD.index("[particles]") + len("[particles]\n"), GOOD.index("[load]")
     found = problems(text=GOOD[:begin] + kept + GOOD[end:])
     only(found, "particles.mean", "particles.iso4406")
+
+
+# ------------------------------------------------------------------ ranges of other programs
+RANGES = [
+    ('roughness.sigma = {start = "80 nm", stop = "120 nm", num = 3}', "roughness.sigma", "3"),
+    ('roughness.sigma = {low = "80 nm", high = "120 nm", steps = 7}', "roughness.sigma", "7"),
+    ('"roughness.sigma" = {min = "80 nm", max = "120 nm"}', "roughness.sigma", "10"),
+]
+"""Entries of [sweep.vary] in words of other programs, their input, and how many values it takes."""
+
+
+@pytest.mark.parametrize(("entry", "name", "points"), RANGES)
+def test_a_range_in_words_of_other_programs_is_told_once_with_its_right_form(
+    problems, write, entry, name, points
+):
+    (problem,) = problems(text=f"{GOOD}[sweep.vary]\n{entry}\n")
+    assert (problem.code, problem.place) == (Mistake.UNKNOWN, f"sweep.vary.{name}")
+    right = f'{{ from = "80 nm", to = "120 nm", points = {points} }}'
+    assert right in problem.hint
+    assert load_study(write(text=f"{GOOD}[sweep.vary]\n{name} = {right}\n")).sweep is not None
+
+
+@pytest.mark.parametrize(
+    "entry", ["{start = 1, stop = 5, num = 3}", "{from = 1, to = 5, points = 3}"]
+)
+def test_a_range_of_no_input_is_told_once(problems, entry):
+    (problem,) = problems(text=f"{GOOD}[sweep]\nvary = {entry}\n")
+    assert (problem.code, problem.place) == (Mistake.MISSING, "sweep.vary")
+    assert "{ from = 1, to = 5, points = 3 }" in problem.hint

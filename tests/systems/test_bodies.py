@@ -170,8 +170,10 @@ def test_a_film_between_the_bodies():
     shared = study("body.bodies=4", more=oil)
     assert shared.film.load == 2.5
     assert run_film(shared)["states"]["pressure"] == [pytest.approx(shared.values[0], rel=1e-9)]
-    with refuses(Mistake.MISSING, "film"):
+    with refuses(Mistake.SHAPE, "load.force", says="1 N"):
         study("load.force=[1, 2]", more=oil)
+    with refuses(Mistake.MISSING, "film"):
+        study('body={kind="flat", area="1 cm^2"}', more=oil)
 
 
 @pytest.mark.parametrize(

@@ -226,6 +226,24 @@ def test_mistakes(change, refusal):
         BEARING.replace(**change)
 
 
+COUNTED = [
+    (BallScrew, dict(diameter=6e-3, pitch_diameter=40e-3, lead=10e-3, balls=60), "balls"),
+    (LinearGuide, dict(diameter=4e-3, rows=2, balls=12), "balls"),
+    (LinearGuide, dict(diameter=4e-3, rows=2, balls=12), "rows"),
+    (Gear, dict(pinion_teeth=20, wheel_teeth=60, module=2e-3, face_width=2e-2), "pinion_teeth"),
+    (Gear, dict(pinion_teeth=20, wheel_teeth=60, module=2e-3, face_width=2e-2), "wheel_teeth"),
+    (BallInGroove, dict(diameter=6e-3, bodies=60), "bodies"),
+]
+"""Bodies of which some parts are counted."""
+
+
+@pytest.mark.parametrize(("kind", "options", "name"), COUNTED)
+def test_what_is_counted_is_a_whole_number(kind, options, name):
+    with refuses(Mistake.KIND, f"{kind.__name__}.{name}", value="60.5"):
+        kind(**options | {name: 60.5})
+    assert getattr(kind(**options), name) == options[name]
+
+
 # ------------------------------------------------------------------ rollers
 ROLLER = RollerBearing(
     bore=25e-3, outer_diameter=52e-3, roller_diameter=7.5e-3, length=7.5e-3, rollers=12,

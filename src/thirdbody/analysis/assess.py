@@ -184,14 +184,14 @@ def assess_each(
     count = 0 if none else power_of_two(enough(contact, samples, vary))
     work = _Work(progress, contact, vary or _usual(contact), count)
     work.first(load, held, states)
+    outputs = min(count, MOST_OUTPUTS) * len(held) if contact.outputs else 0
     if held and not none:
-        work.price(contact, vary, load, held, count)
+        work.price(contact, vary, load, held, count, outputs)
     bands: Iterator[Propagation] = iter(())
     if held and none:
         bands = iter(certain(contact, load, held))
     elif held:
         at: Any = held if len(held) > 1 else held[0]
-        outputs = min(count, MOST_OUTPUTS) * len(held) if contact.outputs else 0
         with work.show_part(count, count * len(held) + EVALUATED * work.critical, outputs):
             propagation = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
         work.second(propagation)
@@ -233,7 +233,8 @@ class _Outputs:
             self.start, self.first = now, self.done
         elif not self.said and now > self.start + SURE:
             seconds = (now - self.start) / (self.done - self.first)
-            if (whole := seconds * self.total) > LONG:
+            whole = seconds * self.total
+            if whole > max(LONG, FAR_OFF * self.progress.promised):
                 self.progress.tell(
                     f"about {self.total:,} states with outputs, {number(seconds, 2)} s each: some "
                     f"{duration(whole)}"
@@ -291,8 +292,9 @@ class _Work:
         load: str,
         held: Sequence[float],
         count: int,
+        outputs: int,
     ) -> None:
-        """Tell what the samples will take, from what few of them do, where that is long.
+        """Tell what samples, and those with outputs, will take, from what few of them do, if long.
 
         Of contacts that are bound one by one the first few tell it.
         """
@@ -300,7 +302,8 @@ class _Work:
             return
         drawn = drawn_inputs(contact, vary, load, held[0])
         few = ALONE if (alone := costly(contact, vary)) else LEAST
-        contact, inputs = carrying(contact, drawn.points(points_of(few, len(vary), 0, 0)))
+        points = drawn.points(points_of(few, len(vary), 0, 0))
+        bare, inputs = carrying(contact, points)
         loads = inputs.pop(load, np.full(few, held[0]))
         seconds = math.inf
         for _ in range(2):  # by the first the engine may be loaded
@@ -308,14 +311,18 @@ class _Work:
             try:
                 if not alone:
                     with roughly():
-                        columns_at(contact, load, loads, inputs, few)
-                elif np.any(own_columns(contact, inputs, load, loads)["doubt"] != ""):
+                        columns_at(bare, load, loads, inputs, few)
+                elif np.any(own_columns(bare, inputs, load, loads)["doubt"] != ""):
                     return
             except NotCompiled:
                 return
             seconds = min(seconds, (time.monotonic() - start) / few)
         states = count * len(held) + CRITICAL_COST * self.critical
-        self.progress.cost(states, seconds, "states")
+        items = [(states, seconds, "states")]
+        if outputs and not alone:
+            dearer = _seconds_of_outputs(contact, load, held[0], points)
+            items.append((outputs, dearer, "states with outputs"))
+        self.progress.cost(*items)
 
     def first(self, load: str, held: Sequence[float], states: Sequence[object]) -> None:
         """The mode at each load, before anything is varied."""
@@ -336,6 +343,25 @@ class _Work:
                     )
 
 
+def _seconds_of_outputs(
+    contact: Contact, load: str, value: float, points: Mapping[str, Array]
+) -> float:
+    """Seconds that a state with outputs takes, after the first ones, by which all may be loaded."""
+    seconds = 0.0
+    for first in (0, ALONE):
+        some = slice(first, first + ALONE)
+        start = time.monotonic()
+        try:
+            few = {name: values[some] for name, values in points.items()}
+            columns_at(contact, load, value, few, ALONE, outputs=True)
+        except (InvalidValue, NoEquilibrium, NotCompiled):
+            return seconds
+        seconds = (time.monotonic() - start) / ALONE
+    return seconds
+
+
+FAR_OFF = 1.5
+"""Times of what was promised from which on it is promised anew."""
 SLOPES, HALVED = 8, 2
 """Contacts of the derivatives with one input, and of the mean search for a change of mode."""
 ALONE, CRITICAL_COST, EVALUATED = 2, 6, 20

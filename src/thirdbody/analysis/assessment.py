@@ -286,6 +286,7 @@ class Assessment(Shown, Record):
                 f"{percent(first)} of the spread of {self.called}"
                 + (" (of its logarithm)." if self.decisive in CRITICAL else ".")
             )
+        sentences += filter(None, (self._distance_words(), self.fixed_numbers_words()))
         head = (
             *("input", "value", "5 %", "95 %"),
             *(f"{self.called} at {end}" for end in ("5 %", "95 %")),
@@ -308,6 +309,35 @@ class Assessment(Shown, Record):
                 )
             return f"{self.decisive}, the critical load nearest to this load"
         return f"the {self.called}"
+
+    def _distance_words(self) -> str:
+        """That the critical load which ranks the inputs is far from the operating load."""
+        margin = self.propagation.nominal.get(f"F/{self.decisive}", math.nan)
+        ranks = self.moved and self.decisive in CRITICAL
+        if not ranks or not 0 < margin < math.inf:
+            return ""
+        if 1 / FAR <= margin <= FAR:
+            return ""
+        critical = self.propagation.nominal[self.decisive]
+        load = value_of(critical * self.propagation.contact.E_ss, "Pa")
+        return (
+            f"{self.decisive} is far from this load, which is {times(margin)} {self.decisive} "
+            f"({load}): the ranking is of the inputs at {load}, and does not say what decides here."
+        )
+
+    @property
+    def fixed_numbers(self) -> tuple[str, ...]:
+        """Inputs that say how many particles there are and have no range."""
+        return tuple(name for name in self.exact if name.endswith(".areal_density"))
+
+    def fixed_numbers_words(self) -> str:
+        """That bands and ranking leave out what the number of particles moves."""
+        if not (names := self.fixed_numbers):
+            return ""
+        return (
+            "The number of particles was held fixed, so that probabilities, bands and "
+            f"rankings leave out what it moves: give {join_words(names)} a range to take it in."
+        )
 
     def _may_be_nearer(self, other: str) -> bool:
         """Whether a critical load outside the loads that are searched may be the nearest."""

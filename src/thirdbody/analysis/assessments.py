@@ -137,6 +137,8 @@ class Assessments(Record):
         said += self.notes
         if not self._uncertain:
             said.append(NO_RANGES)
+        elif words := self.pages[0].fixed_numbers_words():
+            said.append(words)
         drop = ("F*", "over F_cr2", "particles' load")
         return Section("Mode at each load", tuple(head), tuple(rows), tuple(said), drop)
 

@@ -11,6 +11,7 @@ import contextlib
 import errno
 import importlib.util
 import json
+import math
 import os
 import shutil
 import stat
@@ -20,6 +21,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -32,8 +34,10 @@ from ..errors import (
     NoEquilibrium,
     NoTransition,
     Problem,
+    code_of,
     in_study,
     note_of,
+    problem_data,
     rank_notes,
 )
 from ..quantities.say import plural, unbroken
@@ -72,12 +76,18 @@ SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
 """Whether a command shows every note."""
 WARNINGS: ContextVar[int] = ContextVar("warnings", default=0)
 """How many notes a command has shown."""
+PRINTS_JSON: ContextVar[bool] = ContextVar("prints_json", default=False)
+"""Whether a command still has to print its JSON object."""
 HELD: ContextVar[list[str] | None] = ContextVar("held", default=None)
 """Lines for standard error that wait for the answer; None where none waits."""
 MOST_IN_A_SHEET = 2**20 - 1
 """Rows of a sheet below its head."""
 STDOUT = Path("-")
 """What stands for standard output where a file may be named."""
+SLIGHT = 1e-3
+"""Effect on the whole answer below which a note on a part of it is not shown by itself."""
+USAGE_ERROR: type[Exception] = typer.BadParameter.__mro__[1]
+"""What is raised where a command line does not parse; typer names only a case of it."""
 LEAST = 40
 """Width that messages are wrapped to at least."""
 
@@ -88,6 +98,7 @@ class Commands(TyperGroup):
     def invoke(self, ctx: Any) -> object:
         with warnings.catch_warnings():
             warnings.showwarning = warn
+            PRINTS_JSON.set(False)
             try:
                 with interruptible():
                     answer = super().invoke(ctx)
@@ -95,9 +106,14 @@ class Commands(TyperGroup):
                 return answer
             except InvalidValue as error:
                 complain(error.problems)
+                print_problems(map(problem_data, error.problems))
                 raise typer.Exit(BAD_INPUT) from None
+            except USAGE_ERROR as error:  # its sentence is printed where the command line ends
+                print_problems([problem_data(problem_of_usage(error))])
+                raise
             except (NoEquilibrium, NoTransition) as error:
                 complain([str(error)])
+                print_problems([_without_answer(error)])
                 raise typer.Exit(NO_ANSWER) from None
             except (KeyboardInterrupt, SystemError) as error:
                 # a compiled function in which it arrives makes it a SystemError
@@ -117,7 +133,10 @@ class Command(TyperCommand):
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         named = any("--json" in parameter.opts and not getattr(parameter, "is_flag", True)
                     for parameter in self.params)  # fmt: skip
-        return super().parse_args(ctx, with_json_file(args) if named else args)
+        words = with_json_file(args) if named else args
+        PRINTS_JSON.set("--json" in words or f"--json={STDOUT}" in words)
+        refuse_json_name(args, named=named)
+        return super().parse_args(ctx, words)
 
 
 def with_json_file(args: Sequence[str]) -> list[str]:
@@ -141,6 +160,30 @@ def with_json_file(args: Sequence[str]) -> list[str]:
             word = f"--json={file}"
         out.append(word)
     return out
+
+
+def refuse_json_name(args: Sequence[str], *, named: bool) -> None:
+    """Refuse what follows ``--json`` where it is a name for a file that would hold the JSON.
+
+    A study or a measured surface may stand there: a TOML file, or any that exists.
+    """
+    for option, name in pairwise(args):
+        if option == "--":
+            return
+        end = Path(name).suffix.lower()
+        if option != "--json" or name.startswith("-") or end == ".toml":
+            continue
+        if not end and not (named and any(word.endswith(".toml") for word in args)):
+            continue  # a word that a command searches for
+        if (named and end == ".json") or Path(name).exists():
+            continue
+        hint = f"into a file: --json > {name}"
+        if named:
+            hint += f", or --json {Path(name).with_suffix('.json')}"
+        rule = "prints, and takes a file that ends in .json only" if named else "prints"
+        raise InvalidValue(
+            Problem("", f"--json {name}: --json {rule}", hint=hint, code=Mistake.FORM)
+        )
 
 
 def open_closed_streams() -> None:
@@ -232,6 +275,27 @@ def complain(sentences: Iterable[str]) -> None:
                 print(_wrap_line(f"error: {line}"), file=sys.stderr)
 
 
+def print_problems(problems: Iterable[Mapping[str, object]]) -> None:
+    """The JSON object of a command that has no answer, where it has printed none."""
+    if PRINTS_JSON.get():
+        print_json({"problems": list(problems)})
+        sys.stdout.flush()
+
+
+def problem_of_usage(error: Exception) -> Problem:
+    """The mistake in a command line that does not parse."""
+    code = Mistake.UNKNOWN if hasattr(error, "option_name") else Mistake.FORM
+    message = getattr(error, "format_message", error.__str__)()
+    return Problem("", message, code=code)
+
+
+def _without_answer(error: NoEquilibrium | NoTransition) -> dict[str, object]:
+    """Why there is no answer, with the word of its status, as a mistake is taken apart."""
+    kind = "no_transition" if isinstance(error, NoTransition) else "no_equilibrium"
+    code = getattr(getattr(error, "status", None), "word", kind)
+    return problem_data(Problem("", in_study(str(error)))) | {"code": code}
+
+
 def warn(message: Warning | str, *_: object, **__: object) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
     WARNINGS.set(WARNINGS.get() + 1)
@@ -239,13 +303,26 @@ def warn(message: Warning | str, *_: object, **__: object) -> None:
     _print_beside(_wrap_line(f"warning: {sentence}"))
 
 
-def warn_of(notes: Iterable[str]) -> None:
+def warn_of(notes: Iterable[str], shares: Mapping[str, float] | None = None) -> None:
     """Print the notes of an answer: those that matter most, and how many more there are.
 
     What was said of the inputs counts among the most that are shown; the worst is always shown.
+
+    Parameters
+    ----------
+    notes : iterable of str
+    shares : mapping, optional
+        Of codes whose effect is on a part of the answer alone, how large that part is [1]: a note
+        whose effect on the whole is below `SLIGHT` is shown only where all are.
     """
+    parts = shares or {}
     worst = rank_notes(notes)
-    shown = worst if SHOWS_ALL.get() else worst[: max(MOST_SHOWN - WARNINGS.get(), 1)]
+    telling = [
+        note
+        for note in worst
+        if not getattr(note, "effect", math.inf) * parts.get(code_of(note), math.inf) < SLIGHT
+    ]
+    shown = worst if SHOWS_ALL.get() else telling[: max(MOST_SHOWN - WARNINGS.get(), 1)]
     for note in shown:
         warn(note)
     if left := len(worst) - len(shown):
@@ -291,6 +368,7 @@ def remark(sentence: str, *, counts: bool = False) -> None:
 
 def print_json(data: object) -> None:
     """An answer as JSON, on standard output."""
+    PRINTS_JSON.set(False)
     print(json.dumps(data, indent=1, allow_nan=False))
 
 
@@ -385,6 +463,7 @@ class TableFiles(NamedTuple):
                 made[self.json] = partial(Path.write_bytes, data=f"{said}\n".encode())
         write_together(made)
         if said is not None and self.json == STDOUT:
+            PRINTS_JSON.set(False)
             print(said)
 
 

@@ -11,7 +11,7 @@ from ..laws.particle import AbstractParticleLaw, Series
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
-from ..quantities.value import Value, items_of, warn_of_slips
+from ..quantities.value import Value, items_of
 from .output import AbstractOutput, problems_of
 
 __all__ = ["Contact"]
@@ -72,7 +72,6 @@ class Contact(Value):
             object.__setattr__(self, "outputs", (self.outputs,))
         object.__setattr__(self, "outputs", items_of(self.outputs))
         Value.__post_init__(self)
-        warn_of_slips(self)
 
     def _problems(self) -> list[str]:
         kinds: dict[str, tuple[type, str]] = {

@@ -110,7 +110,7 @@ class Equilibrium(_ContactRecord):
     engine: str = "numpy"
     """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
     status_code: int | NDArray[np.int8] = 0
-    """`thirdbody.equilibrium.status.Status` of each state, of which `status` is the sentence."""
+    """`thirdbody.results.Status` of each state, of which `status` is the sentence."""
 
     @property
     def scales(self) -> dict[str, float]:

@@ -37,7 +37,7 @@ CLOSE_HARD = 0.005
 
 AREA = "area"
 """What the codes of notes on the real area begin with."""
-FIELD = 'the asperity law "field" was within 7 % there'
+FIELD = 'take the asperity law "field", which was within 7 % there'
 POINTS = "explicit.solve (thirdbody explicit) presses it point by point"
 
 
@@ -153,13 +153,14 @@ def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list
     if hard and most > CLOSE_HARD:
         low, high = f"{hard[0]:.2g}", f"{hard[-1]:.2g}"
         where = low if low == high else f"{low} to {high}"
+        near = hard[-1] <= 0.31
+        less, apart = ("3 to 4 %", "0.06 to 0.26") if near else ("19 to 30 %", "0.05 to 0.72")
         what = (
-            f"A_t reaches {most:.3g} at chi = H/(E* g) = {where} (g: RMS slope): pressed point by "
-            f"point, from {CLOSE_HARD:g} on particles carried 3 to 4 % less than this model says "
-            "at chi = 0.31 and 19 to 30 % less at 0.4 and 0.7, and surfaces were 0.06 to 0.26 and "
-            "0.05 to 0.72 sigma further apart"
+            f"A_t reaches {most:.3g} at chi = H/(E* g) = {where} (g: RMS slope). Such surfaces, "
+            f"pressed point by point, stood {apart} sigma further apart, and their particles "
+            f"carried {less} less than this model says"
         )
-        effect, action = 0.04 if hard[-1] <= 0.31 else 0.3, FIELD
+        effect, action = 0.04 if near else 0.3, FIELD
         out.append(Note(what, code=f"{AREA}.hard", effect=effect, action=action))
     if ratios[-1] >= ELASTIC and most > CLOSE:
         what = (

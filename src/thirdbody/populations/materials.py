@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, Problem, UnknownMaterial
 from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
 from ..quantities.nearest import Guess, guess, nearest_word
@@ -491,12 +491,6 @@ def _ranges(where: str, ranges: object, problems: list[str]) -> dict[str, list[f
             else:
                 out[key] = [low, high]
     return out
-
-
-class UnknownMaterial(InvalidValue, KeyError):
-    """A name that the library does not hold."""
-
-    __str__ = Exception.__str__
 
 
 materials = MaterialLibrary()

@@ -15,7 +15,7 @@ import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache, wraps
 from numbers import Real
-from typing import Any, Literal, TypeVar, get_origin
+from typing import Any, Literal, Self, TypeVar, get_origin
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from .nearest import guess
 
 __all__ = [
     "FAILURES",
+    "NamesArguments",
     "misfits",
     "names_arguments",
     "need_one",
@@ -74,6 +75,37 @@ def names_arguments(function: F) -> F:
             raise
 
     return with_names  # type: ignore[return-value]
+
+
+class NamesArguments:
+    """Base of classes whose constructors name an argument that they do not take.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> tb.Roughness(sigm=1e-7, R=2.8e-6)
+    Traceback (most recent call last):
+    thirdbody.errors.WrongKind: Roughness.sigm = 1e-07 is no argument; did you mean sigma?
+    """
+
+    __slots__ = ()
+
+    def __new__(cls, *args: object, **named: object) -> Self:
+        """An instance whose fields are still empty, unless a name is no argument of the class."""
+        if cls.__init__ is object.__init__ and (args or named):
+            return object.__new__(cls, *args, **named)  # which says that it takes none
+        names = _argument_names(cls) if named else None  # type: ignore[arg-type]
+        if names is not None and not named.keys() <= names:
+            refuse_misfits(TypeError(), cls, args, named, where=cls.__name__)
+        return object.__new__(cls)
+
+
+@cache
+def _argument_names(kind: type) -> frozenset[str] | None:
+    """Names that the constructor of a class takes; None where it takes any."""
+    parameters = inspect.signature(kind).parameters.values()
+    takes_any = any(one.kind is one.VAR_KEYWORD for one in parameters)
+    return None if takes_any else frozenset(one.name for one in parameters)
 
 
 def need_one(name: str, value: object, *options: str | int) -> None:

@@ -129,7 +129,7 @@ class Stages:
 
     def __init__(self, title: str):
         self.title, self.name, self.begun = title, "", -1
-        self.expected, self.said = 0, False
+        self.expected, self.said, self.promised = 0, False, 0.0
         self.seen = self.start = self.counted_from = time.monotonic()
         self.uncounted = 0
         """When something was shown last, the work began that takes so long, and from when on
@@ -153,7 +153,7 @@ class Stages:
             self.counted_from, self.uncounted = time.monotonic(), 1
         if self.expected and not self.said and done >= MEASURED:
             seconds = (time.monotonic() - self.counted_from) / (done - self.uncounted)
-            self.cost(self.expected, seconds, "contacts")
+            self.cost((self.expected, seconds, "contacts"))
             self.said = True
         self.report_progress(done, total)
 
@@ -163,13 +163,13 @@ class Stages:
             words = f"{done:,} of about {max(done, total):,} {what}".rstrip()
             self.show(min(done / max(total, 1), 1.0), words)
 
-    def cost(self, count: int, seconds: float, what: str) -> None:
-        """Report the cost of so many items of so many seconds, once, if it is long."""
-        if seconds * count > LONG and not self.said:
-            self.said = True
-            self.tell(
-                f"about {count:,} {what}, {seconds:.2g} s each: some {duration(seconds * count)}"
-            )
+    def cost(self, *items: tuple[int, float, str]) -> None:
+        """Report what all items cost, so many of so many seconds each, once, if it is long."""
+        whole = sum(count * seconds for count, seconds, _ in items)
+        if whole > LONG and not self.said:
+            self.said, self.promised = True, whole
+            costs = (f"{count:,} {what}, {seconds:.2g} s each" for count, seconds, what in items)
+            self.tell(f"about {', and '.join(costs)}: some {duration(whole)}")
 
     def tell(self, sentence: str) -> None:
         """A first result, or what the work costs, on standard error."""

@@ -46,7 +46,8 @@ class Table:
     legend : mapping, optional
         What heads mean: told below, of the columns shown.
     wrap : bool, optional
-        What does not fit goes on below, with the first column again; nothing is left out.
+        What does not fit goes on below, with the first column again; only columns of ``drop`` are
+        left out.
     """
 
     def __init__(
@@ -89,6 +90,14 @@ class Table:
         named = [self.heads.index(head) for head in self.drop if head in self.heads]
         return [*named, *(i for i in reversed(range(1, len(self.heads))) if i not in named)]
 
+    def _columns_to_show(self, every: list[int], room: int) -> list[int]:
+        """Columns that are shown side by side or below: without as many of ``drop`` as must go."""
+        kept, going = every, [self.heads.index(head) for head in self.drop if head in self.heads]
+        while going and len(kept) > 1 and self._fit_columns(kept, room)[0] != kept:
+            gone = going.pop(0)
+            kept = [i for i in kept if i != gone]
+        return kept
+
     def _fit_columns(self, shown: list[int], room: int) -> tuple[list[int], list[int], int]:
         """Columns that fit the width, their widths, and the gap between them."""
         needs = {i: self._needs(i) for i in shown}
@@ -114,10 +123,11 @@ class Table:
     # ------------------------------------------------------------------ on the screen
     def __rich_console__(self, console: object, options: Any) -> Any:
         every = list(range(len(self.heads)))
-        shown, widths, gap = self._fit_columns(every, options.max_width)
+        kept = self._columns_to_show(every, options.max_width) if self.wrap else every
+        shown, widths, gap = self._fit_columns(kept, options.max_width)
         yield self._draw_table(shown, widths, gap)
-        while self.wrap and (rest := [i for i in every if i not in shown]):
-            now, widths, gap = self._fit_columns([0, *rest], options.max_width)
+        while self.wrap and (rest := [i for i in kept if i not in shown]):
+            now, widths, gap = self._fit_columns([kept[0], *rest], options.max_width)
             if len(now) == 1:
                 break
             yield self._draw_table(now, widths, gap)

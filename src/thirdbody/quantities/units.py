@@ -45,6 +45,7 @@ class Range(TypedDict):
     lt: float | None
     le: float | None
     hint: str
+    whole: NotRequired[bool]
 
 
 class Quantity(Range):

@@ -21,7 +21,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict, get_args
 
 from ..errors import Clause, InvalidValue, Mistake, NotCompiled, Note, Problem, tell_of_range
-from .arguments import FAILURES, names_arguments, refuse_misfits
+from .arguments import FAILURES, NamesArguments, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
 from .notebook import Card, Row, Shown, words_of
@@ -33,7 +33,17 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["Choice", "Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
+__all__ = [
+    "Choice",
+    "Value",
+    "choice",
+    "count_field",
+    "items_of",
+    "paths_of",
+    "quantity",
+    "sequences",
+    "several",
+]
 
 
 class Choice(TypedDict):
@@ -78,6 +88,22 @@ def quantity(
     if usual is not None:
         about["usual"] = usual
     return field(default=default, metadata={"quantity": about})
+
+
+def count_field(
+    symbol: str,
+    meaning: str,
+    *,
+    default: object = MISSING,
+    ge: float | None = None,
+    le: float | None = None,
+) -> float:
+    """A dataclass field that holds how many there are of something: a whole number."""
+    about = Quantity(
+        symbol=symbol, unit="1", meaning=meaning, gt=None, ge=ge, lt=None, le=le, hint="",
+        whole=True,
+    )  # fmt: skip
+    return field(default=default, metadata={"quantity": about})  # type: ignore[return-value]
 
 
 def several(unit: str, meaning: str, *, default: object = MISSING) -> Any:
@@ -144,6 +170,8 @@ def problem_with(about: Range, value: Any) -> Clause | None:
         cause = hint_on(about, number)
         hint = "; " + cause if cause else ""
         return Mistake.RANGE.clause(f"must be {allowed_range(about)}" + hint)
+    if about.get("whole") and not number.is_integer():
+        return Mistake.KIND.clause("must be a whole number")
     return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 
@@ -300,7 +328,7 @@ BARE = (float, str, bool, type(None))
 """Types of values that are neither masked nor huge, and carry no unit."""
 
 
-class Value(Shown):
+class Value(Shown, NamesArguments):
     """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
 
     __slots__ = ()
@@ -355,6 +383,8 @@ class Value(Shown):
                 raise
         if problems:
             raise InvalidValue(*(_problem_of_class(owner, problem) for problem in problems))
+        if self._tells_of_slips:
+            warn_of_slips(self)
 
     def _problems(self) -> list[str]:
         """Mistakes that concern several fields at once; subclasses override.

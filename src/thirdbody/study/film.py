@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvalidValue, Mistake, Note, Problem
+from ..quantities.say import value_of
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
@@ -132,7 +133,18 @@ def on_body(
         problems.append(
             Problem("film.speed", f"{rule}: {_keys()['speed'].about}", code=Mistake.MISSING)
         )
-    if missing:
+    if missing and shape is not None and forces is not None and len(forces) > 1:
+        shown = value_of(float(forces[0]), "N")
+        hint = f'give one, e.g. --set load.force="{shown}", or film.{" and film.".join(missing)}'
+        problems.append(
+            Problem(
+                "load.force",
+                f"holds {len(forces)} forces, and a film between the bodies of [body] takes one",
+                hint=hint,
+                code=Mistake.SHAPE,
+            )
+        )
+    elif missing:
         problems.append(
             Problem(
                 "film",

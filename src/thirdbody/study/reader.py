@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -16,6 +17,7 @@ from ..errors import InvalidValue, Mistake, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import guess
+from ..quantities.say import join_words
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
 from ..quantities.value import (
     SLIP,
@@ -390,8 +392,10 @@ def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
 
 def number(about: Quantity) -> Key:
     """Key of a number in SI inside the range of its quantity; text has a unit."""
-    limits = {LIMITS[key]: limit for key, limit in limits_of(about).items()}
-    schema = {"type": ["number", "string"]} | limits
+    schema: dict[str, object] = {"type": ["number", "string"]}
+    schema |= {LIMITS[key]: limit for key, limit in limits_of(about).items()}
+    if about.get("whole"):
+        schema["multipleOf"] = 1
     return Key(partial(read_number, about), schema=schema)
 
 
@@ -505,6 +509,15 @@ def _range(
 ) -> object:
     if reader.every_way:
         keys = {**keys, "points": keys["points"]._replace(required=False)}
+    elif isinstance(data, dict) and (renamed := range_meant(data)):
+        if keys["points"].required:
+            renamed.setdefault("points", 10)
+        else:
+            renamed.pop("points", None)
+        rule = f"is no range: {join_words(sorted(set(data) - set(renamed)))} are no keys of one"
+        hint = f"write {path.rpartition('.')[2]} = {in_toml(renamed)}"
+        reader.mistakes.append(Problem(path, rule, hint=hint, code=Mistake.UNKNOWN))
+        data, keys = renamed, {**keys, "points": keys["points"]._replace(required=False)}
     spacing = get(data, "spacing")
     log = (_spacings(about)[0] if spacing is None else spacing) == "log"
     problems = _problems_of_ends(about, path, data, log)
@@ -520,6 +533,41 @@ def _range(
         return space(low, high, values["points"])
 
     return reader.table(path, data, keys, build)
+
+
+MEANT = {
+    "from": ("start", "begin", "low", "lower", "min"),
+    "to": ("stop", "end", "high", "upper", "max"),
+    "points": ("num", "n", "number", "count", "steps", "values"),
+}
+"""Keys of a range, and how other programs call them."""
+
+
+def range_meant(data: object) -> dict[str, object]:
+    """A range whose keys are named as in other programs, in the keys of this one; else nothing.
+
+    >>> range_meant({"start": 1, "stop": 5, "num": 3})
+    {'from': 1, 'to': 5, 'points': 3}
+    >>> range_meant({"from": 1, "to": 5, "points": 3}), range_meant({"low": 1})
+    ({}, {})
+    """
+    if not isinstance(data, dict):
+        return {}
+    out: dict[str, object] = {}
+    for key, others in MEANT.items():
+        name = next((name for name in (key, *others) if name in data), None)
+        if name is not None:
+            out[key] = data[name]
+    meant = {"from", "to"} <= out.keys() and not {"from", "to", "points"} >= data.keys()
+    every_name = {"spacing", *MEANT, *itertools.chain(*MEANT.values())}
+    if not meant or not data.keys() <= every_name or {"spacing", *MEANT} >= data.keys():
+        return {}
+    return out | {key: data[key] for key in ("spacing",) if key in data}
+
+
+def in_toml(table: Mapping[str, object]) -> str:
+    """A table in one line, as a study file has it."""
+    return f"{{ {', '.join(f'{key} = {say(value)}' for key, value in table.items())} }}"
 
 
 def _problems_of_ends(about: Quantity, path: str, data: Any, log: bool) -> list[Problem]:

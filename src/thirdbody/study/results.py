@@ -211,12 +211,17 @@ class StudyResult(_Result):
         )
 
     def table(self) -> tuple[Columns, dict[str, str]]:
-        """Columns of the states, then those of each of several populations, and their units."""
+        """Columns of the states, of each of several populations, and the code of the status.
+
+        Then their units.
+        """
         columns, units = self._states(), {name: about(name).unit for name in self.states.columns()}
         for population in self.states.populations:
             for name, values in population.columns().items():
                 columns[f"{population.name}: {name}"] = plain_data(values)
                 units[f"{population.name}: {name}"] = population.about(name).unit
+        columns[CODE] = self.states.status_code.tolist()
+        units[CODE] = ""
         return columns, units
 
     def _states(self) -> Columns:

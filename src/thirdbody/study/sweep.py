@@ -14,7 +14,7 @@ from ..analysis.sweep.reduction import KEYS
 from ..contact.contact import Contact
 from ..contact.output import every_column
 from ..equilibrium.columns import COLUMNS
-from ..errors import InvalidValue, Mistake
+from ..errors import InvalidValue, Mistake, Problem
 from ..numerics.sampling import DESIGNS
 from .inputs import Input, field_of, inputs_of
 from .reader import (
@@ -25,7 +25,9 @@ from .reader import (
     amounts,
     count,
     get,
+    in_toml,
     is_span,
+    range_meant,
     switch,
     word,
     words,
@@ -57,6 +59,12 @@ def _vary(sampled: bool, reader: Reader, path: str, data: object) -> object:
     """The inputs that may vary, in tables like those of the file."""
     if reader.every_way:
         return {"type": "object"}  # the inputs of whatever study it is
+    bare = data if isinstance(data, dict) and {"from", "to"} <= data.keys() else {}
+    if meant := range_meant(data) or bare:
+        rule = "is a range, but does not say of which input"
+        hint = f"write vary.roughness.sigma = {in_toml(meant)}, by the name of an input"
+        reader.mistakes.append(Problem(path, rule, hint=hint, code=Mistake.MISSING))
+        data = {}
     tables: dict[str, list[Input]] = {}
     for one_input in inputs_of(reader.whole):
         tables.setdefault(one_input.table, []).append(one_input)

@@ -13,6 +13,7 @@ from ..quantities.files import read_bytes
 from ..quantities.nearest import nearest_word
 from ..quantities.say import join_words
 from ..quantities.units import say
+from .other_files import problem_of_other_file
 from .reader import rivals
 
 __all__ = ["heading_of", "override", "read", "setting_in_words", "value_of"]
@@ -22,6 +23,8 @@ def read(path: Path) -> dict[str, object]:
     """The tables of a file; InvalidValue says why it cannot be read, with the line."""
     try:
         content = read_bytes(path, "a study file")
+        if problem := problem_of_other_file(path, content):
+            raise InvalidValue(problem)
         text = content.decode("utf-8-sig")
     except FileNotFoundError:
         meant = nearest_word(path.name, [p.name for p in _toml_files(path)], cutoff=0.75)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..errors import Mistake, Problem
-from ..quantities.value import Value, choice, quantity
+from ..quantities.value import Value, choice, count_field, quantity
 from .conjunctions import Hertz, Line, Point
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class Body(Value, ABC):
 
 
 def _bodies() -> Any:
-    return quantity("Z", "1", "contacts that share the force equally", default=1.0, ge=1)
+    return count_field("Z", "contacts that share the force equally", default=1.0, ge=1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

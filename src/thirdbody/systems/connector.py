@@ -36,7 +36,7 @@ from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..quantities.say import value_of
 from ..quantities.units import say
-from ..quantities.value import Value, items_of, quantity
+from ..quantities.value import Value, count_field, items_of, quantity
 from .contact_probability import (
     CELLS,
     MOST_CELLS,
@@ -145,9 +145,9 @@ class Connector(Value):
     )
     surfaces: MaterialPair
     particles: tuple[Particles, ...]
-    contacts: float = quantity("n", "1", "contacts in series", default=1.0, ge=1, le=1e6)
-    parallel: float = quantity(
-        "m", "1", "spots of each contact of which one is enough", default=1.0, ge=1, le=100
+    contacts: float = count_field("n", "contacts in series", default=1.0, ge=1, le=1e6)
+    parallel: float = count_field(
+        "m", "spots of each contact of which one is enough", default=1.0, ge=1, le=100
     )
     wipe: float = quantity("s", "m", "way along the flat after touch", default=0.0, ge=0)
     pushed_aside: float | None = quantity(
@@ -165,16 +165,6 @@ class Connector(Value):
 
     def _problems(self) -> list[str]:
         out: list[str] = []
-        for name in ("contacts", "parallel"):
-            if getattr(self, name) % 1:
-                out.append(
-                    Problem(
-                        name,
-                        "must be a whole number",
-                        f"{getattr(self, name):g}",
-                        code=Mistake.KIND,
-                    )
-                )
         names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
         for name in self.conducting:
             if name not in (*names, BY_MATERIAL):

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import Mistake, Problem
 from ..quantities.carried import takes_units
-from ..quantities.value import choice, quantity
+from ..quantities.value import choice, count_field, quantity
 from .body_shapes import BallInGroove, Body, Ring
 from .conjunctions import Hertz, Line, Point
 from .load_sharing import BALLS, ROLLERS, RadialShare, share_radial_load
@@ -213,7 +213,7 @@ class BallBearing(RadialBearing):
     bore: float = quantity("d", "m", "bore of the bearing", gt=0, usual=1.0)
     outer_diameter: float = quantity("D", "m", "outer diameter of the bearing", gt=0, usual=2.0)
     ball_diameter: float = quantity("D_w", "m", "diameter of a ball", gt=0, usual=1.0)
-    balls: float = quantity("Z", "1", "number of balls", ge=3)
+    balls: float = count_field("Z", "number of balls", ge=3)
     inner_conformity: float = quantity(
         "f_i", "1", "groove radius over ball diameter, inner ring", default=0.52, gt=0.5, le=10
     )
@@ -348,7 +348,7 @@ class RollerBearing(RadialBearing):
     outer_diameter: float = quantity("D", "m", "outer diameter of the bearing", gt=0, usual=2.0)
     roller_diameter: float = quantity("D_w", "m", "diameter of a roller", gt=0, usual=1.0)
     length: float = quantity("l", "m", "length of the contact", gt=0, usual=1.0)
-    rollers: float = quantity("Z", "1", "number of rollers", ge=3)
+    rollers: float = count_field("Z", "number of rollers", ge=3)
     clearance: float = quantity("P_d", "m", "internal clearance in operation", default=0.0)
     shaft_speed: float | None = quantity(
         "ω", "rad/s", "speed of the shaft", default=None, gt=0, hint="write '3000 rpm'"
@@ -426,12 +426,6 @@ def _misfits(
     elif count * size > math.pi * bearing.pitch_diameter:
         rule = f"of {size:g} m do not fit on a circle of {bearing.pitch_diameter:g} m"
         out.append(Problem(f"{what}s", rule, f"{count:g}", owner=kind, code=Mistake.BEYOND))
-    if count != round(count):
-        out.append(
-            Problem(
-                f"{what}s", "must be a whole number", f"{count:g}", owner=kind, code=Mistake.KIND
-            )
-        )
     if abs(bearing.clearance) > 0.1 * size:
         rule = f"must be within a tenth of the {what}, {0.1 * size:g} [m]"
         value = f"{bearing.clearance:g}"
@@ -538,7 +532,7 @@ class BallScrew(Body):
         "d_m", "m", "diameter of the circle of balls", gt=0, usual=10.0
     )
     lead: float = quantity("P_h", "m", "way per turn", gt=0, usual=1.0)
-    balls: float = quantity("Z", "1", "loaded balls of a nut", ge=1)
+    balls: float = count_field("Z", "loaded balls of a nut", ge=1)
     contact_angle: float = quantity(
         "β",
         "rad",
@@ -664,8 +658,8 @@ class LinearGuide(Body):
     """
 
     diameter: float = quantity("D", "m", "diameter of a ball", gt=0, usual=1.0)
-    rows: float = quantity("n_r", "1", "rows that the force presses", ge=1)
-    balls: float = quantity("Z", "1", "loaded balls of a row", ge=1)
+    rows: float = count_field("n_r", "rows that the force presses", ge=1)
+    balls: float = count_field("Z", "loaded balls of a row", ge=1)
     contact_angle: float = quantity(
         "β",
         "rad",
@@ -753,8 +747,8 @@ class Gear(Body):
     (5.13, 611)
     """
 
-    pinion_teeth: float = quantity("z_1", "1", "teeth of the pinion", ge=5)
-    wheel_teeth: float = quantity("z_2", "1", "teeth of the wheel", ge=5)
+    pinion_teeth: float = count_field("z_1", "teeth of the pinion", ge=5)
+    wheel_teeth: float = count_field("z_2", "teeth of the wheel", ge=5)
     module: float = quantity("m_n", "m", "normal module", gt=0)
     face_width: float = quantity("b", "m", "width of the teeth", gt=0, usual=1.0)
     pressure_angle: float = quantity(

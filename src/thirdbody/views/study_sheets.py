@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.evaluation import bodies_of
+from ..equilibrium.columns import CODE
 from ..equilibrium.modes import FAINT
 from ..equilibrium.words import (
     critical_load,
@@ -303,4 +304,4 @@ def _meanings_of_states(result: StudyResult) -> dict[str, str]:
             f"{population.name}: {name}": population.about(name).meaning
             for name in population.columns()
         }
-    return out
+    return out | {CODE: "number of the status, 0 where the state is solved"}

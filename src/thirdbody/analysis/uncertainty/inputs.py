@@ -12,7 +12,7 @@ import numpy as np
 
 from ...contact.contact import Contact
 from ...errors import Clause, InvalidValue, Mistake, Problem
-from ...quantities.arguments import is_empty
+from ...quantities.arguments import NamesArguments, is_empty
 from ...quantities.carried import takes_units
 from ...quantities.record import Record
 from ...quantities.uncertain import are_correlated, is_uncertain
@@ -41,7 +41,7 @@ KINDS = {
 
 # -------------------------------------------------------------------------- one input
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Uncertain(Record):
+class Uncertain(NamesArguments, Record):
     """What is known of one input: its distribution, in SI.
 
     Parameters

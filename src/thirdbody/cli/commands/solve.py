@@ -59,7 +59,7 @@ MEANS = {
 }
 """What the heads of the states mean."""
 DROP = ("A_ss", "A_sa", "d/sigma", "d", "particles' area", "F*")
-"""Columns in the order in which they go where the width is small."""
+"""Columns in the order in which they go where the width is small; the others go below then."""
 
 Columns = dict[str, Callable[[int], str]]
 """Heads of columns, and the cell of a state."""
@@ -90,7 +90,7 @@ def command(options: Options) -> None:
     files.need(force=options.force)
     with heartbeat("solve"):
         result = run_study(study)
-    warn_of((*result.oil_notes, *result.run_warnings))
+    warn_of((*result.oil_notes, *result.run_warnings), _shares(result))
     if not result.solved_states:  # no file without a number
         files = TableFiles(json=STDOUT if options.json == STDOUT else None)
     files.write(
@@ -107,6 +107,17 @@ def command(options: Options) -> None:
         for sentence in result.force_sentences:
             terminal().print(sentence)
     result.need_state()
+
+
+def _shares(result: StudyResult) -> dict[str, float]:
+    """Parts of the load that notes of these codes are about: the largest that particles carry.
+
+    Nothing where the answer is of single particles, that is of [body] or of outputs.
+    """
+    if result.forces or result.study.contact.outputs or not result.solved_states:
+        return {}
+    shares = [float(result.states.particle_load_share[i]) for i in result.solved_states]
+    return {"squeezed": max(shares)}
 
 
 def _sheets(result: StudyResult) -> list[Sheet]:
@@ -162,7 +173,7 @@ def _some_states(columns: Columns, total: int) -> Table:
     rows = [[cell(i) for cell in columns.values()] for i in some(total)]
     rare = f"; {RARE}: {MOST_MEET_NONE}" * any(RARE in row for row in rows)
     legend = MEANS | {"mode": MEANS["mode"] + rare}
-    table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=legend)
+    table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=legend, wrap=True)
     for row in rows:
         table.add_row(*row)
     return table

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from ...errors import InvalidValue, Mistake, Note, Problem
-from ...quantities.arguments import need_one
+from ...quantities.arguments import NamesArguments, need_one
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, signed_number, value_of
 from ..ellipticity import Ellipticity
@@ -60,7 +60,7 @@ PER_OCTAVE = 0.1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Topography:
+class Topography(NamesArguments):
     """Heights on a regular grid, form removed, as `from_topography` reads them.
 
     Cut-offs are those of a Gaussian filter that passes one half of a wave of that length
