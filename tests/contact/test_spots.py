@@ -336,6 +336,7 @@ def test_outputs_of_particles_that_sink_in_are_known_to_eight_digits(hardness, m
 
 
 # ------------------------------------------------- seats so high that the gap is closed
+@pytest.mark.spread(4)
 @pytest.mark.parametrize(
     ("hardness", "second", "sizes"),
     [

@@ -437,7 +437,8 @@ def test_bad_input_writes_nothing(tmp_path, monkeypatch, arguments, code, says):
     (problem,) = done.problems
     assert problem.code is code
     assert says in problem
-    assert not done.stdout
+    (written,) = json.loads(done.stdout)["problems"]
+    assert written["code"] == code
     assert all(line.startswith(("error:", "warning:")) for line in done.stderr.splitlines())
     assert not list(tmp_path.iterdir())
 

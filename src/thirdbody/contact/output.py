@@ -37,6 +37,8 @@ SQUEEZES = np.concatenate([np.geomspace(1e-6, 2.0, 300), np.geomspace(2.0, 64.0,
 """Where changes of a particle's kind are looked for: δ/x."""
 ROUNDS, FINER = 5, 100
 """A change is narrowed down so many times, each time so many times finer."""
+APART = 4
+"""So many changes lie between two squeezes that are looked at, at most."""
 
 
 def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> list[float]:
@@ -53,7 +55,8 @@ def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> 
     -------
     list of float
         Every ε between 1e-6 and 64 [1] at which that number changes, to 1e-10 of the spacing of the
-        371 first looked at; two changes between neighbours of these are not seen.
+        371 first looked at; changes between neighbours of these are seen where they lie further
+        apart than a hundredth of their distance, and what is changed is not changed back.
 
     Examples
     --------
@@ -68,12 +71,14 @@ def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> 
 
     jumps = np.flatnonzero(np.diff(kinds_at(SQUEEZES)))
     low, high = SQUEEZES[jumps], SQUEEZES[jumps + 1]
-    steps, row = np.linspace(0.0, 1.0, FINER + 1), np.arange(len(jumps))
+    steps = np.linspace(0.0, 1.0, FINER + 1)
     for _ in range(ROUNDS if len(jumps) else 0):
         eps = low[:, None] + (high - low)[:, None] * steps
-        kinds = kinds_at(eps)
-        first = np.argmax(kinds != kinds[:, :1], axis=1)
-        low, high = eps[row, first - 1], eps[row, first]
+        row, step = np.nonzero(np.diff(kinds_at(eps), axis=1))
+        few = np.bincount(row, minlength=len(eps))[row] <= APART  # more are noise: the first of it
+        first = np.diff(row, prepend=-1) > 0
+        row, step = row[few | first], step[few | first]
+        low, high = eps[row, step], eps[row, step + 1]
     return [float(eps) for eps in high]
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.output import AbstractOutput, Column
+from ..contact.output import AbstractOutput, Column, changes
 from ..errors import InvalidValue, Mistake, Note, Problem
 from ..laws.base import SERIES
 from ..laws.particle.series import Series
@@ -505,7 +505,7 @@ class Dents(AbstractOutput):
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
-        """Squeezes at which a side reaches half the radius, and the thickness; of discs."""
+        """Squeezes at which a dent begins, is half the radius deep and the thickness; of discs."""
         from scipy.optimize import brentq
 
         def depth_beyond(log_eps: float, side: int, share: float) -> float:
@@ -520,7 +520,26 @@ class Dents(AbstractOutput):
             for share in (HALF, WHOLE)
             if depth_beyond(high, side, share) > 0
         ]
+        if self.debris == "brittle":  # fragments dent, not particles of one size
+            return squeezes
+        squeezes += changes(probe, self._kinds)
         return [*squeezes, *DISCS] if self.debris == "ductile" else squeezes
+
+    def _kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
+        """In which surfaces there are dents, as a number, whether squashed particles or not."""
+        assert spots.material is not None
+        kinds = np.zeros(spots.x.shape, dtype=np.intp)
+        for side in (0, 1):
+            for squashed in (False, True):
+                dent = dent_of(
+                    spots,
+                    side=side,
+                    particle=spots.material,
+                    debris=self.debris,
+                    squashed=squashed,
+                )
+                kinds = 2 * kinds + (dent.diameter > 0)
+        return kinds
 
 
 def _solid(material: Material) -> Material:

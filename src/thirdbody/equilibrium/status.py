@@ -35,6 +35,7 @@ class Status(IntEnum):
 
     Examples
     --------
+    >>> from thirdbody.results import Status
     >>> Status.OK.sentence, Status(4).word
     ('ok', 'jump')
     >>> Status.CROWDED.has_numbers, Status.TOO_MUCH.has_numbers

@@ -520,7 +520,9 @@ class Numbers:
         _fill_columns(rows, dict(enumerate(numbers)))
         falls = type(law.law) is asperity.KE and np.any(numbers[1] > MOST_K)
         if hasattr(law.law, "ratio") or falls:
-            raise NotCompiled(f"particles by the law {law.law.name} are known to the NumPy engine alone")
+            raise NotCompiled(
+                f"particles by the law {law.law.name} are known to the NumPy engine alone"
+            )
         if grit is not None:
             self._add_grit(rows, H, delta_1, R, grit)
             return E, H

@@ -119,8 +119,8 @@ def turning(pressure: float, coefficients: tuple[float, float, float]) -> tuple[
 
     Examples
     --------
-    >>> light, heavy = (turning(p, (0.1, 0.001, 1e-5)) for p in PRESSURES)
-    >>> bool(light[1] < heavy[1])
+    >>> particles, share = turning(PRESSURES[0], (0.1, 0.001, 1e-5))
+    >>> bool(1e8 < particles < 1e12 and share > 0.5)
     True
     """
     from scipy.interpolate import PchipInterpolator
