@@ -4,6 +4,7 @@ A page writes a fence ``{generated} NAME`` where a part shall stand.
 """
 
 import dataclasses
+import enum
 import inspect
 import re
 
@@ -314,6 +315,8 @@ def columns():
             continue
         declared = declared_columns(kind) if dataclasses.is_dataclass(kind) else {}
         others = {key: say for key, say in attributes_of(kind).items() if key not in declared}
+        if issubclass(kind, enum.Enum):
+            others = {member.name: f"{member.value}: {member.sentence}" for member in kind}
         first = inspect.cleandoc(kind.__doc__).splitlines()[0]
         lines += [f"## `{name}`", "", markdown_of(first), ""]
         if declared:
