@@ -291,7 +291,7 @@ class Note(str):
 
     def __new__(
         cls, what: str, *, code: str = "", effect: float = math.nan, action: str = ""
-    ) -> Note:
+    ) -> Self:
         sentence = what + "; " + action if action else what
         self = super().__new__(cls, sentence)
         self.code, self.effect, self.action = code, effect, action
@@ -369,8 +369,41 @@ def place_note(note: str, place: str) -> Note:
     >>> str(here), here.code, here.effect
     ('at F_cr1, A_t reaches 0.3', 'area', 0.17)
     """
-    sentence = f"at {place}, " + Advice(str(note), in_study(note))
-    return Note(sentence, code=code_of(note), effect=getattr(note, "effect", math.nan))
+    return PlacedNote(note, place)
+
+
+class PlacedNote(Note):
+    """A note of an answer at a place; see `place_note`."""
+
+    place: str
+    plain: str
+    """What is said there."""
+
+    def __new__(cls, note: str, place: str) -> PlacedNote:
+        sentence = f"at {place}, " + Advice(str(note), in_study(note))
+        effect = getattr(note, "effect", math.nan)
+        self = super().__new__(cls, sentence, code=code_of(note), effect=effect)
+        self.plain, self.place = note, place
+        return self
+
+    def __getnewargs_ex__(self) -> tuple[tuple[str, str], dict[str, object]]:  # type: ignore[override]
+        return (self.plain, self.place), {}
+
+
+def gather_places(notes: Iterable[str]) -> list[str]:
+    """Notes, of which those that say the same of several places name all of these.
+
+    >>> gather_places([place_note("A_t reaches 0.3", name) for name in ("F_cr1", "F_cr2")])
+    ['at F_cr1 and F_cr2, A_t reaches 0.3']
+    """
+    out: dict[str, str] = {}
+    for note in notes:
+        plain = note.plain if isinstance(note, PlacedNote) else note
+        before = out.get(plain)
+        if isinstance(note, PlacedNote) and isinstance(before, PlacedNote):
+            note = PlacedNote(plain, f"{before.place} and {note.place}")
+        out[plain] = note
+    return list(out.values())
 
 
 def rank_notes(notes: Iterable[str]) -> list[str]:

@@ -20,7 +20,17 @@ from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import OWN_SPOTS, vary_contact
-from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, RangeWarning, note_of
+from ..errors import (
+    InvalidValue,
+    Mistake,
+    NoEquilibrium,
+    NotCompiled,
+    Note,
+    RangeWarning,
+    gather_places,
+    note_of,
+    tell_of_range,
+)
 from ..quantities.carried import takes_units
 from ..quantities.progress import LONG, SURE, Cost, Stages, count_contacts, duration, solving
 from ..quantities.say import number, percent, span, value_of
@@ -198,7 +208,7 @@ def assess_each(
         bands = (propagation.at_load(i) for i in range(len(held)))
     progress(PARTS[1])
     slopes: dict[str, dict[str, float]] = {}
-    with work.show_part(work.ends):
+    with work.show_part(work.ends), _notes_once():
         out = [
             _page(title, next(bands), state, notes, slopes) if isinstance(state, _Own) else state
             for state in states
@@ -348,15 +358,14 @@ def _seconds_of_outputs(
 ) -> float:
     """Seconds that a state with outputs takes, after the first ones, by which all may be loaded."""
     seconds = 0.0
-    for first in (0, ALONE):
-        some = slice(first, first + ALONE)
+    for first, last in itertools.pairwise((0, ALONE, ALONE + TOGETHER)):
+        few = {name: values[first:last] for name, values in points.items()}
         start = time.monotonic()
         try:
-            few = {name: values[some] for name, values in points.items()}
-            columns_at(contact, load, value, few, ALONE, outputs=True)
+            columns_at(contact, load, value, few, last - first, outputs=True)
         except (InvalidValue, NoEquilibrium, NotCompiled):
             return seconds
-        seconds = (time.monotonic() - start) / ALONE
+        seconds = (time.monotonic() - start) / (last - first)
     return seconds
 
 
@@ -364,9 +373,10 @@ FAR_OFF = 1.5
 """Times of what was promised from which on it is promised anew."""
 SLOPES, HALVED = 8, 2
 """Contacts of the derivatives with one input, and of the mean search for a change of mode."""
-ALONE, CRITICAL_COST, EVALUATED = 2, 6, 20
-"""States of costly contacts by which those of all are priced, what the critical loads of a sample
-take, in states, and at how many they are found, most of one contact side by side."""
+ALONE, TOGETHER, CRITICAL_COST, EVALUATED = 2, 24, 6, 20
+"""States of costly contacts by which those of all are priced; states with outputs, so many that
+they are solved as many are; what the critical loads of a sample take, in states, and at how many
+they are found, most of one contact side by side."""
 EACH_COSTLY = 10
 """As EACH, where each contact takes tables of its own."""
 
@@ -388,6 +398,20 @@ def _own_state(contact: Contact, load: str, value: float) -> _Own | NoEquilibriu
     texts = dict.fromkeys(note_of(item.message) for item in heard)
     notes = [f"Warning: {text}." for text in texts]
     return _Own(str(state.mode), notes + about_fragments(contact, as_load(load, value)))
+
+
+@contextmanager
+def _notes_once() -> Iterator[None]:
+    """Say what is said of several critical loads once, of all of them, when it is over."""
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", RangeWarning)
+        yield
+    for item in heard:
+        if not issubclass(item.category, RangeWarning):
+            warnings.warn_explicit(item.message, item.category, item.filename, item.lineno)
+    notes = [note_of(item.message) for item in heard if issubclass(item.category, RangeWarning)]
+    for note in gather_places(notes):
+        tell_of_range(note)
 
 
 def _page(
