@@ -1206,6 +1206,15 @@ RANGES = [
 """Entries of [sweep.vary] in words of other programs, their input, and how many values it takes."""
 
 
+@pytest.mark.parametrize("entry", ['"roughness.sigma" = [1e-7]', "roughness.sigma = [1e-7]"])
+def test_an_input_that_stands_in_sweep_itself_is_sent_to_the_table_of_those_that_vary(
+    problems, entry
+):
+    (problem,) = problems(text=f"{GOOD}[sweep]\n{entry}\n")
+    assert problem.code is Mistake.UNKNOWN
+    assert "[sweep.vary]" in problem.hint
+
+
 @pytest.mark.parametrize(("entry", "name", "points"), RANGES)
 def test_a_range_in_words_of_other_programs_is_told_once_with_its_right_form(
     problems, write, entry, name, points

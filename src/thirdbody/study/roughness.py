@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.finish import STATED, Finish, assumption_sentence, processes
 from ..populations.measured.topography import FORMS, from_topography
 from ..populations.roughness import Roughness
@@ -109,7 +109,8 @@ def _read_drawing(reader: Reader, path: str, data: dict[str, object]) -> object:
                 )
             ) from None
         used = {name: getattr(roughness, name) for name in KNOWN_BETTER}
-        reader.assumed.append(f"{path}: {assumption_sentence(faces, used)}")
+        what = f"{path}: {assumption_sentence(faces, used)}"
+        reader.assumed.append(Note(what, code=f"{path}.process"))
         return roughness
 
     return reader.table(path, data, keys, build)
