@@ -100,7 +100,9 @@ class Known:
             return not_known(f" here: it goes with {tag} = {' or '.join(homes)}"), None
         meant = nearest_option(key, keys_here)
         if path == "sweep" and meant is None and ("." in key or _is_table(value)):
-            return not_known(hint="inputs that vary stand in a table of their own, [sweep.vary]"), None
+            return not_known(
+                hint="inputs that vary stand in a table of their own, [sweep.vary]"
+            ), None
         homes = [table for table, keys in self.keys.items() if key in keys and table != path]
         numbered = [table for table in homes if re.fullmatch(rf"{re.escape(path)}\.\d+", table)]
         if numbered:
