@@ -93,7 +93,7 @@ def test_lever_of_the_rolling_sphere():
 
 def test_rear_half_follows_from_recovery():
     s = np.geomspace(0.1, 1e4, 40)
-    assert np.allclose(
+    np.testing.assert_allclose(
         rear_support(s), 1 - residual_depth(1.0, depth_over_yield=s), rtol=0, atol=1e-15
     )
     assert rear_support(54.0) == pytest.approx(1 - (1 - 54**-0.28) * (1 - 54**-0.69), rel=1e-14)

@@ -113,7 +113,7 @@ def test_a_preload_far_above_the_load_is_carried_by_all():
     found = share_radial_load(1.0, bodies=9, stiffness=1e10, clearance=-20e-6)
     even = 1e10 * (10e-6) ** 1.5
     assert found.carrying == 9
-    assert np.allclose(found.loads, even, rtol=1e-2)
+    np.testing.assert_allclose(found.loads, even, rtol=1e-2)
     assert found.balance == pytest.approx(1, rel=1e-6)
 
 

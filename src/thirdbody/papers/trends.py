@@ -249,7 +249,7 @@ def area_panel(readings: Mapping[str, Reading], name: str) -> Panel:
     trends = [(reading, reading.trend()) for reading in readings.values()]
     drawn: list[Array] = []
     for reading, trend in trends:
-        if not any(np.allclose(trend.bare_area, curve) for curve in drawn):
+        if not any(np.allclose(trend.bare_area, curve, atol=0.0) for curve in drawn):
             drawn.append(trend.bare_area)
             label = f"bare: {reading.inputs['surface']}"
             lines.append(Line(label, trend.pressure, trend.bare_area, -1, len(drawn) - 1))

@@ -94,7 +94,7 @@ def test_births_are_the_slope_of_the_debris_over_the_numbers(filmed):
     kind = loop.setting.debris[0]
     mine = slice(kind * loop.classes, (kind + 1) * loop.classes)
     bred = loop.volumes[mine] @ rates.births[mine]
-    assert np.allclose(bred, np.maximum(volume, 0.0), rtol=1e-12)
+    np.testing.assert_allclose(bred, np.maximum(volume, 0.0), rtol=1e-12)
 
 
 # ------------------------------------------------------------------ accounts

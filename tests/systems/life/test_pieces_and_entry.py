@@ -20,7 +20,7 @@ QUARTERS = SizeClasses.covering(smallest=0.25e-6, largest=64e-6)
 
 def test_halves_fall_four_classes_down_and_are_eight():
     B = daughters(QUARTERS, ratio=0.5)
-    assert np.allclose(np.diag(B, 4), 8.0, rtol=1e-12)
+    np.testing.assert_allclose(np.diag(B, 4), 8.0, rtol=1e-12)
     assert np.count_nonzero(B) == QUARTERS.count - 4
 
 
@@ -28,14 +28,14 @@ def test_halves_fall_four_classes_down_and_are_eight():
 def test_breaking_keeps_volume_and_number(ratio):
     B, v = daughters(QUARTERS, ratio=ratio), QUARTERS.volumes
     whole = np.flatnonzero(v * ratio**3 > v[0])
-    assert np.allclose((v @ B)[whole], v[whole], rtol=1e-12)
-    assert np.allclose(B.sum(axis=0)[whole], ratio**-3, rtol=1e-12)
+    np.testing.assert_allclose((v @ B)[whole], v[whole], rtol=1e-12)
+    np.testing.assert_allclose(B.sum(axis=0)[whole], ratio**-3, rtol=1e-12)
 
 
 def test_what_all_breaks_goes_on_until_nothing_breaks():
     b = np.array([0.0] * 8 + [1.0] * 24)
     C = break_up(b, classes=QUARTERS, ratio=0.5)
-    assert np.allclose(QUARTERS.volumes @ C, QUARTERS.volumes, rtol=1e-12)
+    np.testing.assert_allclose(QUARTERS.volumes @ C, QUARTERS.volumes, rtol=1e-12)
     assert C[7, 31] == pytest.approx(8**6, rel=1e-12)
 
 
