@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 from refusals import Mistake, refuses
 from scipy import integrate
