@@ -53,10 +53,14 @@ roughness.Q = [1]
 roughness.sigma = ["1 GPa"]
 """
 
+SEARCH = ["thirdbody.analysis.design.design", "thirdbody.analysis.design.search"]
+"""Modules of the search of designs, a short one of which goes the way of a long one."""
 SCRIPT = """
-import json, sys
+import importlib, json, sys
 from typer.testing import CliRunner
 from thirdbody import cli
+design, search = map(importlib.import_module, json.loads(sys.argv[1]))
+search.STARTS, search.STEPS, design.GRID = 2, 5, 8
 for words in json.load(sys.stdin):
     done = CliRunner().invoke(cli.app, words, env={"COLUMNS": "100"})
     assert done.exit_code in (0, 2), (words, done.stderr, done.exception)
@@ -83,7 +87,7 @@ def answers(tmp_path, commands, seeds=SEEDS):
         (folder / "sampled.toml").write_text(SAMPLED, "utf-8")
         (folder / "wrong.toml").write_text(WRONG, "utf-8")
         running[seed] = subprocess.Popen(
-            [sys.executable, "-c", SCRIPT],
+            [sys.executable, "-c", SCRIPT, json.dumps(SEARCH)],
             cwd=folder,
             env=os.environ | {"PYTHONHASHSEED": str(seed), "MPLBACKEND": "Agg"},
             stdin=subprocess.PIPE,
