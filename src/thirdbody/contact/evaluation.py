@@ -231,19 +231,33 @@ def _splits(
     output: AbstractOutput, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
 ) -> tuple[float, ...]:
     """Where q of an output jumps or bends, for particles of one material."""
+    splits = tuple(float(eps) for eps in output.splits(_probe_of(law, surfaces, particle)))
+    return splits + _sink_bends(law, surfaces, particle) if output.follows_sinks else splits
+
+
+@lru_cache(maxsize=256)
+def _sink_bends(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> tuple[float, ...]:
+    """Where the depth of impressions jumps or bends, whichever output asks."""
+
+    def impression_kinds(spots: ParticleSpots) -> NDArray[np.intp]:
+        return 8 * spots.impression_kind(0) + spots.impression_kind(1)
+
+    splits = changes(_probe_of(law, surfaces, particle), impression_kinds)
+    return (*splits, *law.one(surfaces=surfaces, particle=particle).sink_bends)
+
+
+def _probe_of(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> Callable[[Array], ParticleSpots]:
+    """Particles of one material and of unit size at squeezes, one a row."""
 
     def probe(eps: Array) -> ParticleSpots:
         spots = law.probe(eps, surfaces=surfaces, particle=particle)
         return replace(spots, material=particle)
 
-    def impression_kinds(spots: ParticleSpots) -> NDArray[np.intp]:
-        return 8 * spots.impression_kind(0) + spots.impression_kind(1)
-
-    splits = [float(eps) for eps in output.splits(probe)]
-    if output.follows_sinks:
-        splits += changes(probe, impression_kinds)
-        splits += law.one(surfaces=surfaces, particle=particle).sink_bends
-    return tuple(splits)
+    return probe
 
 
 def _laid_out_together(d: Array, contact_interface: Interface) -> Iterator[NDArray[np.intp]]:

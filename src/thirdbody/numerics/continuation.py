@@ -162,8 +162,18 @@ class _Walk:
 
 def _point_at_value(residual: Residual, one: Array, other: Array, value: float) -> Array:
     """The point between two of a branch at which the parameter has a value."""
-    walk = _Walk(residual, first_jacobian(residual, one))
-    direction = (other - one) / np.linalg.norm(other - one)
+    jacobian = first_jacobian(residual, one)
+    walk = _Walk(residual, jacobian)
+    way = other - one
+    share = (value - one[-1]) / way[-1]
+    upright = np.zeros_like(one)
+    upright[-1] = 1.0
+    straight = walk.correct_guess(one + share * way, upright)
+    if straight is not None and 0 <= way @ (straight[0] - one) <= way @ way:
+        return straight[0]
+    # near a fold, where the branch hardly leaves the plane of the value
+    walk.jacobian = jacobian
+    direction = way / np.linalg.norm(way)
     last = one
 
     def excess(share: float) -> float:

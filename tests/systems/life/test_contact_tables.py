@@ -17,7 +17,7 @@ from thirdbody.systems.life.size_classes import SizeClasses
 
 INDEX = {name: i for i, name in enumerate(POWERS)}
 KINDS = [Kind(name="quartz", material=QUARTZ), Kind(name="debris", material=SOFT)]
-STATES = 16
+STATES = 8
 
 
 def mixture(seed, classes=CLASSES):

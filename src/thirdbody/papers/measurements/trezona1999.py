@@ -65,18 +65,13 @@ def _wear_parts(pressure: float) -> dict[str, Array]:
             tb.outputs.Wear(K_ss=1.0, K_sa=0.0, f_ab=1.0, f_roll=1.0, renewal=100.0),
         ),
     )
-    states = [
-        tb.solve(
-            contact.replace(particles=contact.populations[0].replace(areal_density=float(density))),
-            pressure=pressure,
-        )
-        for density in DENSITIES
-    ]
-    columns = {
-        name: np.array([state.outputs[name] for state in states], dtype=float)
-        for name in ("wear_ss", "wear_groove", "wear_roll", "rolling_share")
-    }
-    return columns | {"share": np.array([state.particle_load_share for state in states])}
+    # one layout of the particles for all states
+    states = tb.equilibria.solve_states(
+        contact, pressure=pressure, vary={"particles.areal_density": DENSITIES}
+    )
+    names = ("wear_ss", "wear_groove", "wear_roll", "rolling_share")
+    columns = {name: np.asarray(states[name], dtype=float) for name in names}
+    return columns | {"share": np.asarray(states["particle_load_share"], dtype=float)}
 
 
 def _all_columns() -> list[dict[str, Array]]:
