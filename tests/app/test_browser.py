@@ -37,7 +37,7 @@ from thirdbody.study.one_surface import one_surface  # noqa: E402
 from thirdbody.views import explicit_words  # noqa: E402
 
 pytestmark = pytest.mark.check
-PATIENCE = 60_000
+PATIENCE = 90_000
 FILM = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 AT = 2e-5
 LINES_STAND = """
