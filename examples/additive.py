@@ -33,7 +33,7 @@ size, weight = best.values.values()
 # The map behind the answer: friction, and where too much of the real area is plastic.
 asked = arguments(study)
 pressure, fluid = asked["pressure"], asked["suspension"]
-sizes, weights = np.geomspace(50e-9, 1e-6, 32), np.geomspace(5e-4, 12e-3, 28)
+sizes, weights = np.geomspace(50e-9, 1e-6, 20), np.geomspace(5e-4, 12e-3, 18)
 
 
 def states(diameter, concentration):

@@ -25,7 +25,7 @@ clean = tb.Contact(
 )
 # shear strengths of dry steel and of quartz on steel: assumed, they are measured, not predicted
 friction = tb.outputs.Friction(tau_ss=500e6, tau_sa=500e6)
-sizes = np.geomspace(0.15e-6, 3e-6, 25)  # m
+sizes = np.geomspace(0.15e-6, 3e-6, 13)  # m
 speeds = {0.1: "0.1 m/s", 0.3: "0.3 m/s", 1.0: "1 m/s"}
 
 

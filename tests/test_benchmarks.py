@@ -88,7 +88,7 @@ def test_particles_that_break_are_as_exact_as_the_engine_says(monkeypatch):
     loads, vary = accuracy.inputs_of(contact, names, 50, rng)
     by_all, by_few = (_areas(contact, loads, vary, count, monkeypatch) for count in (None, (6, 12)))
     moved = np.abs(by_few / by_all - 1)
-    chosen = np.argsort(-moved)[:6]
+    chosen = np.argsort(-moved)[:2]
     assert moved[chosen[0]] > 0
     row = accuracy.compared("breaking rough", contact, names, 50, math.inf, chosen)
     assert row.states == 50

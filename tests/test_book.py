@@ -5,12 +5,12 @@ import enum
 import importlib.util
 import re
 import shlex
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 import typer
+from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody.cli import app
@@ -152,9 +152,10 @@ def test_commands_of_the_page_print_what_it_shows(page, tmp_path, monkeypatch):
     for lines, between, shown in CONSOLE.findall(insert_facts(page.read_text("utf-8"))):
         assert "```" not in between, page.name
         for line in lines.splitlines():
-            command = [sys.executable, "-m", *shlex.split(line.removeprefix("$ "))]
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
-            assert done.returncode == 0, done.stderr
+            program, *words = shlex.split(line.removeprefix("$ "))
+            assert program == "thirdbody"
+            done = CliRunner().invoke(app, words)
+            assert done.exit_code == 0, done.stderr
         printed = [line.rstrip() for line in done.stdout.splitlines()]
         kept = iter(printed)
         for line in shown.splitlines():

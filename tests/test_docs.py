@@ -1,6 +1,7 @@
 """The book: its pages run, its links lead somewhere, and its numbers are measured here."""
 
 import contextlib
+import functools
 import importlib
 import importlib.util
 import io
@@ -82,19 +83,27 @@ def test_code_of_the_page_runs(page, tmp_path, monkeypatch):
             printed = None
 
 
+@functools.cache
+def whole_text(page):
+    """A page with its generated parts."""
+    return insert_generated(page.read_text("utf-8"))
+
+
+@functools.cache
+def anchors_of(page):
+    """What links can lead to: headings as the build names them, and labels."""
+    titles = re.findall(r"^#+ (.*)$", whole_text(page), re.M)
+    slugs = {re.sub(r"[^\w\- ]", "", t.lower()).replace(" ", "-").replace("_", "-") for t in titles}
+    return slugs | set(re.findall(r"^\(([\w-]+)\)=$", whole_text(page), re.M))
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_anchors_and_documents_exist(page):
     """Links to headings, {doc} and toctree entries and included files: not checked by Markdown."""
-    text = insert_generated(page.read_text("utf-8"))
+    text = whole_text(page)
     for file, anchor in re.findall(r"\]\(([\w./-]*)#([\w-]+)\)", text):
         target = (page.parent / file) if file else page
-        whole = insert_generated(target.read_text("utf-8"))
-        titles = re.findall(r"^#+ (.*)$", whole, re.M)
-        labels = set(re.findall(r"^\(([\w-]+)\)=$", whole, re.M))
-        slugs = {
-            re.sub(r"[^\w\- ]", "", t.lower()).replace(" ", "-").replace("_", "-") for t in titles
-        }
-        assert anchor in slugs | labels, f"{page.name}: no heading #{anchor} in {target.name}"
+        assert anchor in anchors_of(target), f"{page.name}: no heading #{anchor} in {target.name}"
     for file in re.findall(r"^```\{(?:literal)?include\} (\S+)$", text, re.M):
         assert (page.parent / file).is_file(), f"{page.name}: {file}"
     entries = re.findall(r"\{doc\}`(?:[^`<]*<)?([^`>]+)>?`", text)

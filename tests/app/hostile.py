@@ -1,6 +1,7 @@
 """Studies with script in their texts."""
 
 import copy
+import itertools
 
 from thirdbody.app.examples import example
 
@@ -32,27 +33,43 @@ def hostile(payload):
     return study
 
 
-def wrong(payload):
-    """Studies that are refused, with this text where a word, a name or a key is expected."""
-    base = hostile(payload)
-    for *where, last in (
-        ("surfaces", "first"), ("asperity_law", "name"), ("particle_law", "name"),
-        ("particles", 0, "distribution"), ("particles", 0, "iso4406"), ("particles", 0, "sizes"),
-        ("particles", 0, "mean"), ("particles", 0, payload), ("materials",), (payload,),
-        ("roughness", "topography"), ("roughness", "heights"), ("roughness", "sigma"),
-        ("load", "F_star"), ("outputs", payload), ("uncertainty", "inputs", payload),
-        ("sweep",), ("design",), ("film",), ("film", "load"),
-        ("particles", 0, "as4059"), ("particles", 0, "nas1638"), ("particles", 0, "test_dust"),
-        ("particles", 0, "level"), ("particles", 0, "strength"), ("body",), ("body", payload),
-        ("explicit",), ("explicit", payload), ("roughness", "Ra"), ("roughness", "process"),
-        ("roughness", payload),
-    ):  # fmt: skip
-        study = copy.deepcopy(base)
+def places(payload):
+    """Where a word, a name or a key is expected, in parts that leave each other's mistakes be."""
+    return [
+        [
+            ("surfaces", "first"), ("asperity_law", "name"), ("particle_law", "name"),
+            ("particles", 0, "distribution"), ("particles", 0, "mean"), (payload,),
+            ("roughness", "heights"), ("roughness", "sigma"), ("load", "F_star"),
+            ("outputs", payload), ("sweep",), ("design",), ("film",), ("particles", 0, "strength"),
+            ("body",), ("explicit",), ("roughness", payload),
+        ],
+        [
+            ("particles", 0, "iso4406"), ("particles", 0, payload), ("film", "load"),
+            ("uncertainty", "inputs", payload), ("particles", 0, "level"), ("explicit", payload),
+            ("roughness", "Ra"),
+        ],
+        [("particles", 0, "sizes"), ("materials",), ("roughness", "topography")],
+        [("particles", 0, "as4059"), ("body", payload), ("roughness", "process")],
+        [("particles", 0, "nas1638")],
+        [("particles", 0, "test_dust")],
+    ]  # fmt: skip
+
+
+def wrong_at(payload, *there):
+    """A study with this text at each of these places."""
+    study = hostile(payload)
+    for *where, last in there:
         table = study
         for step in where:
             table = table[step] if isinstance(table, list) else table.setdefault(step, {})
         table[last] = payload
-        yield ".".join(map(str, (*where, last))), study
+    return study
+
+
+def wrong(payload):
+    """Studies that are refused, each with one text of the wrong kind, and its place."""
+    for place in itertools.chain(*places(payload)):
+        yield ".".join(map(str, place)), wrong_at(payload, place)
 
 
 def several():
@@ -66,4 +83,5 @@ def several():
         for n, text in enumerate(PAYLOADS)
     ]
     study["title"] = " ".join(PAYLOADS)
+    study["load"] = {"F_star": study["load"]["F_star"] | {"points": 12}}
     return study

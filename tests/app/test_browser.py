@@ -23,8 +23,7 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
 
 sys.path.insert(0, str(Path(__file__).parent))
-from browser import chromium, ended, served  # noqa: E402
-from hostile import PAYLOADS, several, wrong  # noqa: E402
+from hostile import PAYLOADS, places, several, wrong_at  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.fields import engineering  # noqa: E402
@@ -55,25 +54,6 @@ STUDY = example() | {
     "uncertainty": {"inputs": {"roughness.sigma": {"low": "95 nm", "high": "105 nm"}}},
     "outputs": {"counts": {}, "friction": {"m_ss": 0.2, "m_sa": 0.3}},
 }
-
-
-@pytest.fixture(scope="module")
-def address():
-    """A page of its own, on a free port."""
-    server, found = served()
-    yield found
-    ended(server)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        found = chromium(playwright)
-        if found is None:
-            pytest.skip("no chromium found, neither the system's nor playwright's: make browser")
-        made = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 @pytest.fixture(scope="module")
@@ -446,6 +426,7 @@ def a_surface_is_pressed(page):
 
 
 def a_design_is_found(page):
+    drawn(page, "design")  # without a click
     page.locator('[data-work="design"]').click()
     drawn(page, "design")
     said = fact(page, "design")
@@ -841,36 +822,34 @@ def test_texts_of_a_link_are_shown_as_text(visit):
 def test_mistakes_of_a_link_are_told_as_text(shared, address, tmp_path):
     """Opened where a text could end the script that the page comes with, else come back to."""
     page, failed = shared
-    for number in range(len(list(wrong("")))):
-        payload = PAYLOADS[(number + 3) % len(PAYLOADS)]
-        where, study = list(wrong(payload))[number]
+    first = next(number for number, text in enumerate(PAYLOADS) if "</script>" in text)
+    for number, payload in enumerate(PAYLOADS[first:] + PAYLOADS[:first]):
+        together = places(payload)[number % len(places(payload))]
+        link = to_link(wrong_at(payload, *together))
+        _, problems, _ = look(from_link(dict(parse_qsl(link))["study"]), tmp_path)  # in its order
+        for place in together:
+            assert {*look(wrong_at(payload, place), tmp_path)[1]} <= {*problems}, place
         if "</script>" in payload:
-            page.goto(f"{address}/?{to_link(study)}")
+            page.goto(f"{address}/?{link}")
         else:
-            travelled(page, to_link(study))
-        _, problems, _ = look(study, tmp_path)
+            travelled(page, link)
         page.locator('[data-said="page"]', has_text=as_shown("; ".join(problems))).wait_for()
         page.locator(".problem", has_text="__hit").first.wait_for()
-        assert not page.evaluate(HARM), where
+        assert not page.evaluate(HARM), together
     assert not failed
 
 
 def test_an_address_made_to_do_harm_is_told_as_text(visit):
     page = visit()
     for payload in PAYLOADS:
-        # each shows another tab than the last
-        for names, there in (
-            (("study", "files"), "curves"),
-            (("at", "surface"), "take_away"),
-            (("tab",), None),
-        ):
+        # a study that cannot be read goes before a load that is none; each shows another tab
+        for names, there in ((("study", "files"), "take_away"), (("at", "surface", "tab"), None)):
             query = dict(parse_qsl(to_link(STUDY, AT))) | {"tab": there}
             travelled(page, urlencode(query | dict.fromkeys(names, payload)))
-            shown = {"curves": "Curves", "take_away": "Take away", None: "Interface"}[there]
             when(
                 page,
                 "name => document.querySelector('.q-tab--active').innerText.trim() === name",
-                arg=shown,
+                arg="Take away" if there else "Interface",
             )
             assert not page.evaluate(HARM), (names, payload)
 

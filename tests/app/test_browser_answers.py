@@ -16,13 +16,13 @@ import pytest
 from thirdbody.study import check, run_study
 
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
-sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
+pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
 
 sys.path.insert(0, str(Path(__file__).parent))
-from browser import chromium, ended, served  # noqa: E402
+from browser import ended, served
 
-from thirdbody.app.examples import example  # noqa: E402
-from thirdbody.app.text import to_link  # noqa: E402
+from thirdbody.app.examples import example
+from thirdbody.app.text import to_link
 
 pytestmark = [
     pytest.mark.check,
@@ -41,24 +41,6 @@ BARE = {
     for name in ("first", "second")
 }
 """Materials of no library, which states no range for them."""
-
-
-@pytest.fixture(scope="module")
-def server():
-    process, address = served()
-    yield process, address
-    ended(process)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        found = chromium(playwright)
-        if found is None:
-            pytest.skip("no chromium found, neither the system's nor playwright's: make browser")
-        made = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 @pytest.fixture(scope="module")
@@ -127,6 +109,14 @@ def solvers(pid):
     return found
 
 
+def stop_solvers(pid):
+    """Let those that compute for a server wait; their process ids."""
+    found = solvers(pid)
+    for child in found:
+        os.kill(child, signal.SIGSTOP)
+    return found
+
+
 def kill(pid):
     for child in solvers(pid):
         with contextlib.suppress(ProcessLookupError):
@@ -168,11 +158,14 @@ new MutationObserver(() => {
 def test_a_first_visit_tells_its_answer_apart_from_getting_ready(browser):
     process, address = served()
     try:
+        held = stop_solvers(process.pid)  # which else may be ready before a slow browser asks
         page = browser.new_page()
         page.set_default_timeout(PATIENCE)
         page.add_init_script(WATCH)
         page.goto(address)
         shot(page, "getting-ready")
+        for child in held:
+            os.kill(child, signal.SIGCONT)
         page.locator('[data-fact="time"]', has_text="answered in").wait_for()
         assert "in which the page was getting ready" in fact(page, "time")
         page.locator('[data-said="getting ready"]').wait_for(state="hidden")

@@ -121,45 +121,23 @@ def test_what_is_assumed_to_be_uncertain_is_ten_percent_of_what_stands_there(tmp
 
 
 # ---------------------------------------------------------------------------- in a browser
-sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
+pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
 import sys  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).parent))
-from browser import chromium, ended, served  # noqa: E402
 from test_browser import NAMELESS, UNREADABLE  # noqa: E402
 
 PATIENCE = 120_000
 DRAWN = "name => document.querySelector(`[data-figure='${name}']`)?.data?.length"
 FIRST = {
-    "Outputs": "output counts [1/m^2]",
     "Film": "film shares",
     "Connector": "connector",
     "Wafer": "plate",
-    "Error bars": "bands",
     "Surface": "surface-heights",
     "Before / after": "before shares",
-    "Design": "design",
 }
-"""A figure of the tabs that once had a button before their answer; of Map, Laws and Explicit
-tests/app/test_browser.py sees that they answer without it."""
-
-
-@pytest.fixture(scope="module")
-def address():
-    process, where = served()
-    yield where
-    ended(process)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        found = chromium(playwright)
-        if found is None:
-            pytest.skip("no chromium found, neither the system's nor playwright's: make browser")
-        made = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield made
-        made.close()
+"""A figure of the tabs that once had a button before their answer; of Map, Laws, Explicit,
+Outputs, Error bars and Design tests/app/test_browser.py sees that they answer without it."""
 
 
 @pytest.fixture

@@ -1,7 +1,6 @@
 """The tabs Connector and Wafer: what they show is what the command line prints."""
 
 import os
-import sys
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -60,31 +59,11 @@ def test_a_study_without_the_table_is_answered_for_the_start(tab):
 
 
 # ---------------------------------------------------------------------------- in a browser
-sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
-sys.path.insert(0, str(Path(__file__).parent))
-from browser import chromium, ended, served  # noqa: E402
+pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
 
 from thirdbody.app.text import to_link  # noqa: E402
 
 PATIENCE = 90_000
-
-
-@pytest.fixture(scope="module")
-def address():
-    process, where = served()
-    yield where
-    ended(process)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        found = chromium(playwright)
-        if found is None:
-            pytest.skip("no chromium found, neither the system's nor playwright's: make browser")
-        made = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 import html
 import json
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -10,6 +9,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
@@ -19,6 +19,7 @@ from browser import chromium, ended, served  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.text import to_toml  # noqa: E402
+from thirdbody.cli import app  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
 
 pytestmark = pytest.mark.check
@@ -142,9 +143,8 @@ def command_line(study, folder):
     """What ``thirdbody solve --json`` prints of a study file."""
     file = folder / "study.toml"
     file.write_text(study, encoding="utf-8")
-    command = [sys.executable, "-m", "thirdbody", "solve", str(file), "--json"]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=folder)
-    assert done.returncode == 0, done.stderr
+    done = CliRunner().invoke(app, ["solve", str(file), "--json"])
+    assert done.exit_code == 0, done.stderr
     return done.stdout
 
 
@@ -162,9 +162,8 @@ def first_state(told):
     }
 
 
-def test_the_same_numbers_however_one_comes_back(opened, tmp_path):
-    browser, start = opened
-    server, address = start()
+def numbers_of_a_study(browser, address, tmp_path):
+    """They are the same however one comes back to them; the server starts anew where this yields."""
     page = visited(browser, address)
 
     page.locator(".q-drawer").get_by_text("Roughness", exact=True).click()
@@ -182,7 +181,7 @@ def test_the_same_numbers_however_one_comes_back(opened, tmp_path):
     tab(page, "Interface")
     page.locator('[data-fact="load"]').wait_for()
     page.get_by_text("1×10⁸ m⁻²").first.wait_for()  # what was typed stands beside its slider
-    for slider, presses in (("particles.areal_density", 30), ("roughness.Ra", 7), ("load", 25)):
+    for slider, presses in (("particles.areal_density", 6), ("roughness.Ra", 3), ("load", 8)):
         before = rested(page)
         page.locator(f'[data-slider="{slider}"] .q-slider__track-container').focus()
         for _ in range(presses):
@@ -214,9 +213,7 @@ def test_the_same_numbers_however_one_comes_back(opened, tmp_path):
     told(page, known)
 
     page.evaluate("window.before = true")
-    server.kill()
-    server.wait()
-    start(urlsplit(address).port)
+    yield
     when(page, "() => window.before === undefined")  # of itself
     told(page, known)
 
@@ -238,9 +235,8 @@ def heights_of(page):
     return rested(page)
 
 
-def test_a_measured_surface_is_there_after_a_reload_and_asked_for_after_a_restart(opened, tmp_path):
-    browser, start = opened
-    server, address = start()
+def measured_surface(browser, address, tmp_path):
+    """It is there after a reload, and asked for after the restart where this yields."""
     page = visited(browser, address)
     tab(page, "Surface")
     file = tmp_path / "part.txt"
@@ -287,9 +283,7 @@ def test_a_measured_surface_is_there_after_a_reload_and_asked_for_after_a_restar
     assert downloaded(elsewhere, "states.json") == by_command
 
     page.evaluate("window.before = true")
-    server.kill()
-    server.wait()
-    start(urlsplit(address).port)
+    yield
     when(page, "() => window.before === undefined")  # of itself
     said = '"part.txt" is not a file of this page: drop it on the tab Surface'
     page.locator('[data-said="page"]', has_text=said).wait_for()
@@ -302,6 +296,22 @@ def test_a_measured_surface_is_there_after_a_reload_and_asked_for_after_a_restar
     tab(page, "Take away")
     when(page, "() => document.querySelector('[data-path=python]')?.innerText.length > 9")
     assert downloaded(page, "states.json") == by_command
+
+
+def test_work_is_there_however_one_comes_back(opened, tmp_path):
+    """Two visitors of one server, which is killed and started anew under both."""
+    browser, start = opened
+    server, address = start()
+    stories = [
+        story(browser, address, tmp_path) for story in (numbers_of_a_study, measured_surface)
+    ]
+    for story in stories:
+        next(story)
+    server.kill()
+    server.wait()
+    start(urlsplit(address).port)
+    for story in stories:
+        assert next(story, None) is None
 
 
 def test_by_keyboard_from_opening_to_a_report(opened):

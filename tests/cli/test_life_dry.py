@@ -1,6 +1,7 @@
 """``thirdbody life`` of a dry contact: particles and wear over time from the shell."""
 
 import csv
+import functools
 import json
 import os
 import subprocess
@@ -34,11 +35,29 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.fixture(scope="module")
+def first_hour():
+    """What Python finds of the file, computed when a test first asks for it."""
+    return functools.cache(lambda: run_life(load_life("dry-contact.toml", [SHORT[1]])))
+
+
+@pytest.fixture
+def hour(first_hour, monkeypatch):
+    """The first hour, which commands print as it is instead of computing it again."""
+    found = first_hour()
+
+    def run_same(asked, **_):
+        assert (asked.duration, asked.title) == (found.asked.duration, found.asked.title)
+        return found
+
+    monkeypatch.setattr("thirdbody.study.run_life.run_life", run_same)
+    return found
+
+
 @pytest.mark.check
-def test_a_study_says_what_python_says():
+def test_a_study_says_what_python_says(hour):
     """The file of the template by hand."""
-    asked = load_life("dry-contact.toml", [SHORT[1]])
-    found = run_life(asked)
+    found = hour
     steel, quartz = tb.materials["S45C"], tb.materials["quartz"]
     contact = tb.Contact(
         surfaces=tb.MaterialPair(steel, steel),
@@ -70,10 +89,10 @@ def test_a_study_says_what_python_says():
 
 
 @pytest.mark.check
-def test_the_answer_is_two_sentences_and_fits_80_columns():
+def test_the_answer_is_two_sentences_and_fits_80_columns(hour):
     done = run("life", "dry-contact.toml", *SHORT)
     told = said(done)
-    found = run_life(load_life("dry-contact.toml", [SHORT[1]]))
+    found = hour
     first, second = (" ".join(sentence.split()) for sentence in answer(found))
     head = f"{found.title}, with life.duration = 1 h (thirdbody {tb.__version__})"
     assert told.startswith(f"{head} {first} {second} time")
@@ -87,7 +106,7 @@ def test_the_answer_is_two_sentences_and_fits_80_columns():
 
 
 @pytest.mark.check
-def test_particles_and_those_with_load_stand_on_one_basis():
+def test_particles_and_those_with_load_stand_on_one_basis(hour):
     """Both per mm²: no more bear load than are there; the JSON holds those of the whole contact."""
     done = run("life", "dry-contact.toml", *SHORT, "--json")
     data = json.loads(done.stdout)
@@ -109,7 +128,7 @@ def test_nothing_leaves_where_all_comes_round_again():
 
 
 @pytest.mark.check
-def test_json_csv_and_workbook_hold_the_same_numbers():
+def test_json_csv_and_workbook_hold_the_same_numbers(hour):
     openpyxl = pytest.importorskip("openpyxl", reason="needs the extra thirdbody[xlsx]")
     done = run("life", "dry-contact.toml", *SHORT, "--json", "--csv", "a.csv", "--xlsx", "a.xlsx")
     data = json.loads(done.stdout)

@@ -78,6 +78,7 @@ def solved(run):
     return call
 
 
+@in_this_process
 def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness(run, solved):
     run("new", "ball-screw")
     usual = solved("ball-screw.toml")
@@ -180,6 +181,7 @@ def first_sentences(shown):
     return " ".join(" ".join(lines).split())
 
 
+@in_this_process
 @pytest.mark.check
 def test_dust_or_steel_in_my_bearing_and_would_a_finer_filter_help(run):
     """Three commands; which carries, which dents, how deep, what life loses, what a filter does."""

@@ -31,7 +31,7 @@ contact = tb.Contact(
         tb.outputs.Wear(K_ss=0.0, K_sa=0.0, f_ab=0.1, f_roll=0.001, renewal=1e6),
     ),
 )
-ratios = 1 + np.linspace(0.0, np.sqrt(2.0), 21) ** 2
+ratios = 1 + np.linspace(0.0, np.sqrt(2.0), 13) ** 2
 
 
 def worn(ratio):

@@ -19,11 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
+from scipy import special
 
 import thirdbody as tb
 
 from ..quantities.say import value_of
-from ..views.plot.style import OKABE_ITO
+from ..views.palette import OKABE_ITO
 
 __all__ = ["Section", "section", "to_svg"]
 
@@ -88,12 +89,10 @@ def profile(sigma: float, R: float, alpha: float, width: float, seed: int) -> tu
     """A Gaussian profile with RMS height σ, tip radius R and bandwidth α."""
     m0, m4 = sigma**2, (3 * math.sqrt(math.pi) / (8 * R)) ** 2
     m2 = math.sqrt(m0 * m4 / alpha)
-    from scipy.stats import gamma
-
     # squared wave numbers spread so that <k²> = m2/m0 and <k⁴> = α <k²>²
     shape = 1 / (alpha - 1)
     probability = (np.arange(WAVES) + 0.5) / WAVES
-    k2 = gamma.ppf(probability, shape, scale=m2 / m0 / shape)
+    k2 = special.gammaincinv(shape, probability) * (m2 / m0 / shape)  # quantiles of a gamma law
     k2 *= (m2 / m0) / k2.mean()
     rng = np.random.default_rng(seed)
     phases = rng.uniform(0, 2 * math.pi, WAVES)

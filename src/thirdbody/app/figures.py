@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..quantities.plain_data import plain_data
-from ..views.plot.style import MODE_COLOURS, OKABE_ITO, REGIMES
+from ..views.palette import MODE_COLOURS, OKABE_ITO, REGIMES
 
 __all__ = [
     "AXES",

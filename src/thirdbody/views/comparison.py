@@ -95,7 +95,7 @@ def figure(table: xarray.Dataset, *, at: int | None = None) -> Figure:
 
 def _styles(table: xarray.Dataset) -> dict[str, dict[str, object]]:
     """Look of every law's curve: the own one black, the others told apart by dashes too."""
-    from .plot.style import OKABE_ITO
+    from .palette import OKABE_ITO
 
     colours = [
         OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")
@@ -126,7 +126,7 @@ def _dress(ax: Axes, label: str, x: Array) -> None:
 
 def _regimes(ax: Axes, table: xarray.Dataset, at: int) -> None:
     """One bar a law: the parts of the real area."""
-    from .plot.style import REGIMES
+    from .palette import REGIMES
 
     load = table.A_t.dims[1]
     one = table.isel({load: at})

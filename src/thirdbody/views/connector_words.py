@@ -11,9 +11,10 @@ from ..systems.connector import name_of
 if TYPE_CHECKING:
     from ..study.run_connector import ConnectorResult
 
-__all__ = ["HEADS", "MEANS", "answer", "facts", "once_in", "rows", "uncertainty"]
+__all__ = ["HEADS", "MEANS", "SELDOM", "answer", "facts", "once_in", "rows", "uncertainty"]
 
-RARE, OFTEN = 1e-12, 0.1
+SELDOM, OFTEN = 1e-12, 0.1
+"""How often a contact stays open: from the first on it is drawn, from the second on in per cent."""
 HEADS = ("contact force", "one contact open", "connector open", "fails once in")
 MEANS = {
     "one contact open": "how often dust keeps one contact open",
@@ -32,7 +33,7 @@ def once_in(failure: float) -> str:
     """
     if failure <= 0:
         return "never"
-    if failure < RARE:
+    if failure < SELDOM:
         return "less than once in 10¹² closings"
     if failure >= OFTEN:
         return f"in {percent(failure)} of all closings"
@@ -118,9 +119,9 @@ def rows(result: ConnectorResult) -> list[list[str]]:
     out = []
     for i, force in enumerate(result.force):
         every = float(result.failure_of_all[i])
-        turns = "-" if every < RARE else _count(every)
+        turns = "-" if every < SELDOM else _count(every)
         shown = [
-            percent(float(share), least=RARE) for share in (result.failure_of_contact[i], every)
+            percent(float(share), least=SELDOM) for share in (result.failure_of_contact[i], every)
         ]
         out.append([value_of(float(force), "N"), *shown, turns])
     return out
@@ -130,8 +131,8 @@ def facts(result: ConnectorResult) -> dict[str, str]:
     """Named numbers of the force that is asked for."""
     i = result.places[0]
     return {
-        "connector open": percent(float(result.failure_of_all[i]), least=RARE),
-        "one contact open": percent(float(result.failure_of_contact[i]), least=RARE),
+        "connector open": percent(float(result.failure_of_all[i]), least=SELDOM),
+        "one contact open": percent(float(result.failure_of_contact[i]), least=SELDOM),
         "particles in the way": number(result.in_the_way, 3),
         "force that presses the mean one in": value_of(result.threshold, "N", 3),
         "they lie within": value_of(result.asked.connector.reach, "m", 3),

@@ -9,8 +9,7 @@ import numpy as np
 from ...study.connector import AskedConnector
 from ...study.run_connector import run_connector
 from ...systems.connector import Connector
-from ...views.connector_words import HEADS, answer, facts, rows, uncertainty
-from ...views.plot.questions import SELDOM
+from ...views.connector_words import HEADS, SELDOM, answer, facts, rows, uncertainty
 from ..fields import Field
 from ..figures import figure, line, mark
 from ..question import Question, QuestionTab, Shown

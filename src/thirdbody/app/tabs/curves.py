@@ -12,7 +12,7 @@ from nicegui import ui
 
 from ...equilibrium.words import critical_load, happens
 from ...errors import InvalidValue
-from ...views.plot.style import HATCHES
+from ...views.palette import HATCHES
 from ..figures import (
     AXES,
     MODE_FILLS,

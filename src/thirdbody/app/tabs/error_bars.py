@@ -15,7 +15,7 @@ from ...equilibrium.critical_loads import CRITICAL
 from ...quantities.plain_data import plain_data
 from ...quantities.say import percent, value_of
 from ...study.inputs import inputs_of
-from ...views.plot.style import OKABE_ITO
+from ...views.palette import OKABE_ITO
 from ..fields import engineering, number_of
 from ..figures import (
     AXES,

@@ -18,8 +18,8 @@ from ...study.run import MOST_SPEEDS, run_film_curve
 from ...systems.film_conditions import Entrainment, FilmConditions
 from ...systems.film_formulas import Oil as OilProperties
 from ...views import oil_words
+from ...views.film_regimes import OF_PARTICLES, bands_of
 from ...views.film_words import point, summary
-from ...views.plot.film import OF_PARTICLES, bands_of
 from ..fields import Field, engineering, fields_of, number_field
 from ..figures import GREY, Figure, band, figure, line, log_title, mark
 from ..inputs import Inputs

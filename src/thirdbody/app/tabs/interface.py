@@ -318,7 +318,7 @@ def _caption(drawn: Section, held: float) -> str:
 
 
 def _legend(names: tuple[str, ...]) -> None:
-    from ...views.plot.style import OKABE_ITO
+    from ...views.palette import OKABE_ITO
     from ..cross_section import COLOURS
 
     for i, name in enumerate(names):

@@ -35,11 +35,9 @@ from ...equilibrium.words import MODES
 from ...errors import InvalidValue, Mistake
 from ...quantities.arguments import names_arguments
 from ...quantities.say import number
+from ..palette import HATCHES, MODE_COLOURS, REGIMES, tint
 from .style import (
     AXIS_LABELS,
-    HATCHES,
-    MODE_COLOURS,
-    REGIMES,
     Curve,
     _axes,
     _column,
@@ -48,7 +46,6 @@ from .style import (
     _legend_above,
     _share_axis,
     _styles,
-    _tint,
 )
 
 if TYPE_CHECKING:
@@ -279,7 +276,7 @@ def regimes(
         x,
         parts,
         labels=[name for name, _ in REGIMES.values()],
-        colors=[_tint(colour, 0.75) for _, colour in REGIMES.values()],
+        colors=[tint(colour, 0.75) for _, colour in REGIMES.values()],
         edgecolor="white",
         linewidth=0.8,
     )

@@ -14,7 +14,8 @@ from matplotlib.ticker import MaxNLocator
 from ...errors import InvalidValue, Mistake
 from ...quantities.arguments import names_arguments
 from ...quantities.say import percent, value_of
-from .style import OKABE_ITO, _dress, _tint
+from ..palette import OKABE_ITO, tint
+from .style import _dress
 from .topography import _length_scale
 
 if TYPE_CHECKING:
@@ -192,9 +193,7 @@ def _section(
     surface = section.deformed / 1e-9
     ends = np.array([[along[-1], GROUND], [along[0], GROUND]])
     ground = np.concatenate([np.stack([along, surface], axis=1), ends])
-    ax.add_collection(
-        PolyCollection([ground], color=_tint(OKABE_ITO["black"], 0.25)), autolim=False
-    )
+    ax.add_collection(PolyCollection([ground], color=tint(OKABE_ITO["black"], 0.25)), autolim=False)
     ax.plot(along, section.height / 1e-9, color="black", linewidth=0.8, linestyle="--")
     ax.axhline(h / 1e-9, color=OKABE_ITO["blue"], linewidth=1.5)
     _dress(ax, "$x$ from the particle [nm]", "Height $z$ [nm]", xlog=False)
@@ -204,7 +203,7 @@ def _section(
             Circle(
                 (0.0, section.seat / 1e-9 + size / 2e-9),
                 size / 2e-9,
-                facecolor=_tint(OKABE_ITO["vermilion"], 0.5),
+                facecolor=tint(OKABE_ITO["vermilion"], 0.5),
                 edgecolor=OKABE_ITO["vermilion"],
                 zorder=2,
             )
@@ -225,7 +224,7 @@ def _forces(ax: Axes, force: Array, on_asperities: float) -> None:
     total = float(np.sum(force)) + on_asperities
     _dress(ax, "Share of the load on one particle [%]", "Particles", xlog=False)
     if len(carried):
-        ax.hist(100 * carried / total, bins=30, color=_tint(OKABE_ITO["vermilion"], 0.7))
+        ax.hist(100 * carried / total, bins=30, color=tint(OKABE_ITO["vermilion"], 0.7))
         ax.margins(y=0.25)
         ax.yaxis.set_major_locator(MaxNLocator(integer=True))
         text = (

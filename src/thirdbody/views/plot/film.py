@@ -10,16 +10,18 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from ...errors import InvalidValue, Mistake
-from .style import OKABE_ITO
+from ..film_regimes import OF_PARTICLES, bands_of
+from ..palette import OKABE_ITO
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray
     from matplotlib.axes import Axes
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from ...systems.stribeck import RegimeSpeeds
+    from ..film_regimes import Band
 
 __all__ = ["LINES", "OF_PARTICLES", "REGIME_FILLS", "bands_of", "stribeck"]
 
@@ -43,19 +45,6 @@ LINES: dict[str, dict[str, tuple[str, str, str]]] = {
     },
 }
 """The curves of each panel: column, label, colour, dash."""
-Band = tuple[float, float, str]
-"""From, to and word of a regime."""
-OF_PARTICLES = ("mu_sa", "sa_share", "h_over_x")
-
-
-def bands_of(u: ArrayLike, changes: RegimeSpeeds | Mapping[str, float | None]) -> list[Band]:
-    """Regimes over these speeds [m/s]: from, to and word of each."""
-    speeds = changes if isinstance(changes, Mapping) else changes._asdict()
-    low, high = float(np.min(u)), float(np.max(u))
-    slow = low if speeds["boundary"] is None else min(max(speeds["boundary"], low), high)
-    fast = high if speeds["full"] is None else min(max(speeds["full"], low), high)
-    ends = [(low, slow, "boundary"), (slow, fast, "mixed"), (fast, high, "full film")]
-    return [band for band in ends if band[0] < band[1]]
 
 
 def stribeck(

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...quantities.say import value_of
 from ...systems.plate_over_particle import ATOM
+from ..connector_words import SELDOM
 from .style import _CYCLE, _axes, _dress
 
 if TYPE_CHECKING:
@@ -17,10 +18,8 @@ if TYPE_CHECKING:
     from ...study.run_connector import ConnectorResult
     from ...study.run_plate import PlateResult
 
-__all__ = ["SELDOM", "draw_failures", "draw_heights"]
+__all__ = ["draw_failures", "draw_heights"]
 
-SELDOM = 1e-12
-"""How often a contact stays open, from which on it is drawn."""
 DASHES = ("-", "--", "-.", ":")
 
 

@@ -12,13 +12,13 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, PercentFormatter
 
 from ...equilibrium.columns import Equilibrium
 from ...errors import InvalidValue, Mistake
 from ...quantities.say import SUPERSCRIPTS, value_of
+from ..palette import MODE_COLOURS, OKABE_ITO
 
 if TYPE_CHECKING:
     import xarray
@@ -26,43 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["MODE_COLOURS", "OKABE_ITO"]
 
-OKABE_ITO = {
-    "black": "#000000",
-    "blue": "#0072B2",
-    "vermilion": "#D55E00",
-    "green": "#009E73",
-    "purple": "#CC79A7",
-    "sky": "#56B4E9",
-    "orange": "#E69F00",
-    "yellow": "#F0E442",
-}
-"""Okabe and Ito's palette (Color Universal Design, 2008)."""
-
 _CYCLE = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
 _DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2))]
-
-
-def _tint(colour: str, strength: float) -> tuple[float, float, float]:
-    """The colour thinned with white; strength 1 is the colour itself."""
-    r, g, b = (1 - strength * (1 - channel) for channel in to_rgb(colour))
-    return (r, g, b)
-
-
-MODE_COLOURS = {
-    "p-s": _tint(OKABE_ITO["vermilion"], 0.65),
-    "hybrid": _tint(OKABE_ITO["yellow"], 0.45),
-    "s-s": _tint(OKABE_ITO["sky"], 0.6),
-}
-"""Fill of each contact mode; they differ in lightness as well as in hue."""
-
-REGIMES = {
-    "A_e": ("elastic", OKABE_ITO["sky"]),
-    "A_ep": ("elastoplastic", OKABE_ITO["orange"]),
-    "A_p": ("plastic", OKABE_ITO["vermilion"]),
-}
-
-HATCHES = {"A_e": "", "A_ep": "/", "A_p": "x"}
-"""Of the regimes, in the letters that matplotlib and Plotly share."""
 
 AXIS_LABELS = {
     "F_star": r"Load $F^* = F/(A_n E_{ss})$ [1]",

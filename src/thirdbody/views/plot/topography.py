@@ -13,7 +13,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ...quantities.arguments import names_arguments
 from ...quantities.say import number
-from .style import OKABE_ITO, _dress, _tint
+from ..palette import OKABE_ITO, tint
+from .style import _dress
 
 if TYPE_CHECKING:
     from ...populations.measured.topography import Topography
@@ -69,7 +70,7 @@ def _heights_panel(topography: Topography, ax: Axes) -> None:
     tall, unit_z = _length_scale(float(np.nanmax(np.abs(z))) or 1e-9)
     if topography.dim == 1:
         x = np.arange(len(z)) * topography.spacing[0]
-        ax.plot(x / across, z / tall, color=_tint(OKABE_ITO["blue"], 0.6), linewidth=0.8)
+        ax.plot(x / across, z / tall, color=tint(OKABE_ITO["blue"], 0.6), linewidth=0.8)
         ax.plot(x / across, topography.filtered() / tall, color="black", linewidth=0.8)
         _dress(ax, f"$x$ [{unit}]", f"Height $z$ [{unit_z}]", xlog=False)
         ax.legend(["as sampled", "above the cut-off"], frameon=False, fontsize="small")
@@ -100,7 +101,7 @@ def _mark_cutoff(topography: Topography, ax: Axes, scale: float) -> list[object]
     grey.set_label("not recommended")
     marks: list[object] = [grey]
     if topography.limit is not None:
-        colour = _tint(OKABE_ITO["purple"], 0.6)
+        colour = tint(OKABE_ITO["purple"], 0.6)
         line = ax.axvline(topography.limit / scale, color=colour, linewidth=3.0)
         line.set_label("instrument's limit")
         marks.append(line)
@@ -193,7 +194,7 @@ def _summits_panel(topography: Topography, ax: Axes) -> None:
         heights / scale,
         bins=bins,
         density=True,
-        color=_tint(OKABE_ITO["green"], 0.4),
+        color=tint(OKABE_ITO["green"], 0.4),
         label=f"{what} ({len(heights)})",
     )
     low, high = min(heights.min(), mean - 3.5 * std), max(heights.max(), mean + 3.5 * std)

@@ -14,7 +14,8 @@ from matplotlib.ticker import EngFormatter, FuncFormatter, PercentFormatter
 from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.carried import takes_units
 from ...quantities.say import number, percent, value_of
-from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
+from ..palette import OKABE_ITO, tint
+from .style import AXIS_LABELS, SYMBOLS, _axes, _dress, _legend_above, _share_axis
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -100,7 +101,7 @@ def bands(
             x,
             band[:, low],
             band[:, high],
-            color=_tint(OKABE_ITO["blue"], 0.22 + 0.33 * k / max(pairs - 1, 1)),
+            color=tint(OKABE_ITO["blue"], 0.22 + 0.33 * k / max(pairs - 1, 1)),
             linewidth=0,
             label=f"{percent(share_of_cases)} of cases",
         )
@@ -235,8 +236,8 @@ def tornado(
 def _ends() -> tuple[tuple[str, object, str], ...]:
     """Name, colour and hatch of the part of a bar towards each end of its input."""
     return (
-        ("low end of the input", _tint(OKABE_ITO["blue"], 0.8), ""),
-        ("high end of the input", _tint(OKABE_ITO["orange"], 0.8), "////"),
+        ("low end of the input", tint(OKABE_ITO["blue"], 0.8), ""),
+        ("high end of the input", tint(OKABE_ITO["orange"], 0.8), "////"),
     )
 
 
