@@ -61,8 +61,8 @@ def stribeck(
     -------
     xarray.Dataset
         Every column of `MixedFilm` over ``speed``, each with ``symbol``, ``units`` and
-        ``long_name``, and ``status_code``; the Hersey number ηu/w' of the speeds is the coordinate ``hersey``
-        (ηuR/w for points) [1].
+        ``long_name``, and ``status_code``; the Hersey number ηu/w' of the speeds is the coordinate
+        ``hersey`` (ηuR/w for points) [1].
 
     Raises
     ------
