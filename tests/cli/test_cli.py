@@ -230,6 +230,36 @@ def test_mistakes_are_taken_apart_in_json(wrong):
     )
 
 
+@pytest.mark.parametrize(
+    ("arguments", "code", "path", "value"),
+    [
+        (("solve", DUSTY, "--set", 'roughness.sigma="5 Pa"'), "unit", "roughness.sigma", '"5 Pa"'),
+        (("solve", DUSTY, "--set", "roughness.R=[1, 2]"), "kind", "roughness.R", "[1, 2]"),
+        (("solve", "none.toml"), "unreadable", "none.toml", None),
+        (("solve", "broken.toml"), "form", "broken.toml", None),
+        (("solve",), "form", "STUDY.toml", None),
+        (("solve", DUSTY, "--sett", "title=1"), "unknown", "--sett", None),
+        (("solve", DUSTY, "--set", "title"), "form", "--set", "'title'"),
+        (("solve", DUSTY, "--csv", "none/a.csv"), "unwritable", "none/a.csv", None),
+        (("explicit", DUSTY, "--maps", "some"), "option", "--maps", "some"),
+        (("film", DUSTY), "missing", "film", None),
+        (("slove", DUSTY), "unknown", "slove", None),
+    ],
+)
+def test_a_mistake_in_json_says_where_it_is_and_what_was_written(
+    arguments, code, path, value, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    Path("broken.toml").write_text("title = a b", "utf-8")
+    done = run(*arguments, "--json")
+    (problem,) = strict(done.stdout)["problems"]
+    jsonschema.validate({"problems": [problem]}, SCHEMA)
+    assert done.exit_code == 2
+    assert (problem["code"], problem["path"], problem["value"]) == (code, path, value)
+    if path == "slove":
+        assert problem["meant"] == "solve"
+
+
 def test_the_schema_knows_the_codes_of_all_mistakes():
     items = SCHEMA["properties"]["problems"]["items"]
     unsolved = {word for code, word in enumerate(WORDS) if code != Status.OK}
@@ -260,7 +290,7 @@ def test_a_load_without_an_equilibrium_is_told_once_in_json():
 )
 def test_a_name_that_json_does_not_take_is_told_with_what_writes_a_file(arguments):
     done = run(*arguments)
-    assert done.mistakes == [(Mistake.FORM, "")]
+    assert done.mistakes == [(Mistake.FORM, "--json")]
     (problem,) = done.problems
     name = arguments[arguments.index("--json") + 1]
     assert f"--json > {name}" in problem.hint

@@ -76,18 +76,14 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
             end = next(end for end, named_kind in NAMED.items() if named_kind == kind)
             rule = f"cannot write {path}: that is the name of a {other}, and a {kind} goes into it"
             hint = f"give a name that ends in {end}"
-            problems.append(Problem("", rule, hint=hint, code=Mistake.UNWRITABLE))
         elif why := hindrance(path):
-            problems.append(Problem("", f"cannot write {path}: {why}", code=Mistake.UNWRITABLE))
+            rule, hint = f"cannot write {path}: {why}", ""
         elif not force and not _may_go(path, kind):
-            problems.append(
-                Problem(
-                    "",
-                    f"cannot write {path}: it exists and is no {kind} of thirdbody; give another "
-                    "name, or add --force to replace it",
-                    code=Mistake.UNWRITABLE,
-                )
-            )
+            rule = f"cannot write {path}: it exists and is no {kind} of thirdbody"
+            hint = "give another name, or add --force to replace it"
+        else:
+            continue
+        problems.append(Problem("", rule, hint=hint, code=Mistake.UNWRITABLE, source=str(path)))
     if problems:
         raise InvalidValue(*problems)
 

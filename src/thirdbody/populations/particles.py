@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ..errors import Advice, InvalidValue, Mistake, Problem
-from ..quantities.units import to_si
+from ..quantities.units import say, to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
 from .materials import Material
@@ -420,7 +420,7 @@ def _read_value(name: str, value: float | str, unit: str) -> float:
     try:
         return to_si(value, unit)
     except InvalidValue as error:
-        raise InvalidValue(Problem(name, f"= {error}", code=error.code)) from None
+        raise InvalidValue(Problem(name, f"= {error}", say(value), code=error.code)) from None
 
 
 def _optional(name: str, value: float | str | None, unit: str) -> float | None:

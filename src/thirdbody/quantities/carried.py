@@ -28,6 +28,7 @@ from ..errors import InvalidValue, Mistake, Problem
 from .arguments import FAILURES, refuse_misfits
 from .kinds import kind_needed, kind_of, library_unit, registry
 from .uncertain import is_uncertain
+from .units import say
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
 
@@ -436,7 +437,10 @@ def _argument_in_si(
     try:
         return in_si(value, unit)
     except InvalidValue as error:
-        problems += [Problem(name, f"= {problem}", code=problem.code) for problem in error.problems]
+        problems += [
+            Problem(name, f"= {problem}", say(value), code=problem.code)
+            for problem in error.problems
+        ]
         return value
 
 

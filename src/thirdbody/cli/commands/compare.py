@@ -85,9 +85,7 @@ def command(options: Options) -> None:
     problems: list[str] = []
     if options.at not in PLACES:
         problems.append(
-            Problem(
-                "", f"--at {options.at} must be one of {', '.join(PLACES)}", code=Mistake.OPTION
-            )
+            Problem("--at", f"must be one of {', '.join(PLACES)}", options.at, code=Mistake.OPTION)
         )
     problems += not_a_folder(options.out)
     if problems:

@@ -196,19 +196,19 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
     problems = []
     if format not in FORMATS:
         problems.append(
-            Problem(
-                "", f"--format {format} must be one of {', '.join(FORMATS)}", code=Mistake.OPTION
-            )
+            Problem("--format", f"must be one of {', '.join(FORMATS)}", format, code=Mistake.OPTION)
         )
     if workers < 1:
-        problems.append(Problem("", f"--workers {workers} must be at least 1", code=Mistake.RANGE))
+        problems.append(
+            Problem("--workers", "must be at least 1", str(workers), code=Mistake.RANGE)
+        )
     try:
         loaded_study = load_study(study, settings or ())
         if loaded_study.sweep is None:
             problems.append(
                 Problem(
-                    "",
-                    f"{study} has no table [sweep]: it says what is varied, e.g. "
+                    "sweep",
+                    "is missing: a table [sweep] says what is varied, e.g. "
                     '[sweep.vary] roughness.sigma = ["50 nm", "100 nm"]',
                     code=Mistake.MISSING,
                 )
