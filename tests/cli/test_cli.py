@@ -260,6 +260,15 @@ def test_a_mistake_in_json_says_where_it_is_and_what_was_written(
         assert problem["meant"] == "solve"
 
 
+def test_a_misspelt_table_stands_before_what_follows_from_it(tmp_path):
+    file = tmp_path / "s.toml"
+    text = DUSTY.read_text("utf-8").partition("[load]")[0]
+    file.write_text(f'{text}[load]\nforce = "5 N"\n[film]\nspeed = 1\n[boddy]\nR = 1\n', "utf-8")
+    first, *others = run("solve", file).mistakes
+    assert first == (Mistake.UNKNOWN, "[boddy]")
+    assert others
+
+
 def test_the_schema_knows_the_codes_of_all_mistakes():
     items = SCHEMA["properties"]["problems"]["items"]
     unsolved = {word for code, word in enumerate(WORDS) if code != Status.OK}
