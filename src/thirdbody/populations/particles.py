@@ -85,8 +85,9 @@ class Particles(Value):
             out.append(
                 Problem(
                     "diameter",
-                    "must be a size distribution, e.g. distributions.Monodisperse(mean=300e-9)",
+                    "must be a size distribution",
                     repr(self.diameter),
+                    hint=_sizes_meant(self.diameter),
                     code=Mistake.KIND,
                 )
             )
@@ -414,6 +415,19 @@ class Particles(Value):
         return cleanliness.class_of(
             standard, density=self.areal_density / _gap(gap), diameter=self.diameter
         )
+
+
+def _sizes_meant(diameter: object) -> str:
+    """What to write for a diameter that is one length, or none."""
+    try:
+        size = 0.0 if isinstance(diameter, bool) else to_si(diameter, "m")
+    except InvalidValue:
+        size = 0.0
+    one = f"{size:g}" if 0 < size < math.inf else "300e-9"
+    return (
+        f"write distributions.Monodisperse(mean={one}) [m] for one size, LogNormal(median={one}, "
+        "gsd=1.5) for many"
+    )
 
 
 def _read_value(name: str, value: float | str, unit: str) -> float:
