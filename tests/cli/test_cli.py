@@ -23,6 +23,7 @@ from refusals import refuses
 
 import thirdbody as tb
 from thirdbody import study
+from thirdbody.cli.streams import EXIT_STATUS
 from thirdbody.equilibrium.status import WORDS, Status
 from thirdbody.errors import Mistake, code_of
 from thirdbody.quantities import files
@@ -258,6 +259,20 @@ def test_a_mistake_in_json_says_where_it_is_and_what_was_written(
     assert (problem["code"], problem["path"], problem["value"]) == (code, path, value)
     if path == "slove":
         assert problem["meant"] == "solve"
+
+
+@pytest.mark.parametrize(("option", "name"), [("--csv", "a.xls"), ("--xlsx", "a.xls")])
+def test_a_table_goes_into_no_file_of_old_excel(option, name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (problem,) = run("solve", DUSTY, option, name).problems
+    assert (problem.code, problem.source) == (Mistake.UNWRITABLE, name)
+    assert "--xlsx" in problem.hint or option == "--xlsx"
+    assert not list(tmp_path.iterdir())
+
+
+def test_help_says_what_each_exit_status_means():
+    shown = " ".join(run("--help").stdout.split())
+    assert " ".join(EXIT_STATUS.split()) in shown
 
 
 def test_a_misspelt_table_stands_before_what_follows_from_it(tmp_path):
@@ -664,7 +679,8 @@ COMMANDS = re.findall(r"(?m)^  ([a-z]+) {2,}\S", run("--help").stdout.partition(
 
 def test_help_lists_every_command_in_a_whole_sentence(monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
-    lines = run("--help").stdout.partition("Commands:\n")[2].splitlines()
+    listed = run("--help").stdout.partition("Commands:\n")[2].partition("\n\n")[0]
+    lines = listed.splitlines()
     assert len(lines) == len(COMMANDS) > 15
     assert [line for line in lines if not re.search(r"[^.]\.$|\w \.\.\.$", line)] == []
 

@@ -42,6 +42,8 @@ JSON_KEYS = (
 NAMED = {
     ".csv": "table",
     ".xlsx": "workbook",
+    ".xls": "workbook of old Excel",
+    ".ods": "workbook of LibreOffice",
     ".parquet": "Parquet file",
     ".json": "JSON",
     ".html": "page",
@@ -76,6 +78,8 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
             end = next(end for end, named_kind in NAMED.items() if named_kind == kind)
             rule = f"cannot write {path}: that is the name of a {other}, and a {kind} goes into it"
             hint = f"give a name that ends in {end}"
+            if kind == "table" and other.startswith("workbook"):
+                hint += f", or write a workbook: --xlsx {path.with_suffix('.xlsx')}"
         elif why := hindrance(path):
             rule, hint = f"cannot write {path}: {why}", ""
         elif not force and not _may_go(path, kind):

@@ -2,7 +2,7 @@
 
 Standard output holds the answer and nothing else; progress, warnings and errors go to standard
 error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in the range searched,
-130 interrupted.
+130 interrupted. Of several states one that is solved is enough for 0; see `EXIT_STATUS`.
 """
 
 from __future__ import annotations
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from ..views.workbook import Sheet
 
 __all__ = [
+    "EXIT_STATUS",
     "STDOUT",
     "Command",
     "Commands",
@@ -71,6 +72,11 @@ __all__ = [
 ]
 
 BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
+EXIT_STATUS = (
+    "Exit status: 0 done, also where some of several states are not solved (status and "
+    "status_code of each say so); 2 a mistake in the input; 3 no state is solved, or no "
+    "transition is found; 130 interrupted."
+)
 MOST_SHOWN = 3
 """Notes that are shown where not all are asked for."""
 SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
@@ -195,10 +201,10 @@ def refuse_json_name(args: Sequence[str], *, named: bool) -> None:
             continue  # a word that a command searches for
         if (named and end == ".json") or Path(name).exists():
             continue
-        hint = f"into a file: --json > {name}"
+        hint = f"write --json > {name}"
         if named:
             hint += f", or --json {Path(name).with_suffix('.json')}"
-        rule = "prints, and takes a file that ends in .json only" if named else "prints"
+        rule = "prints where no name that ends in .json follows it" if named else "takes no file"
         raise InvalidValue(
             Problem("--json", f": --json {rule}", name, hint=hint, code=Mistake.FORM)
         )
