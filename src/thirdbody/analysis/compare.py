@@ -159,11 +159,11 @@ class Comparison(Record):
 
     in_dict = (
         VERSION,
-        ("inputs", lambda found: json.loads(found.attrs["inputs"]) | found.given),
-        ("own_law", lambda found: found.attrs["own_law"]),
-        *("laws", ("states", lambda found: found.flat()[0]), "warnings"),
-        ("notes", lambda found: [note_data(warning) for warning in found.warnings]),
-        ("citations", lambda found: found.attrs["citations"].splitlines()),
+        ("inputs", lambda one: json.loads(one.attrs["inputs"]) | {one.load: one.loads[one.load]}),
+        ("own_law", lambda one: one.attrs["own_law"]),
+        *("laws", ("states", lambda one: one.flat()[0]), "warnings"),
+        ("notes", lambda one: [note_data(warning) for warning in one.warnings]),
+        ("citations", lambda one: one.attrs["citations"].splitlines()),
     )
     load: str
     """Which load is given, ``F_star`` [1] or ``pressure`` [Pa]."""
@@ -181,11 +181,6 @@ class Comparison(Record):
     """Own law, hardness, inputs, version, citations, warnings."""
     warnings: tuple[str, ...] = ()
     """What the states of the own law are warned of, one sentence each."""
-
-    @property
-    def given(self) -> dict[str, Array]:
-        """The load that is given, by its name."""
-        return {self.load: self.loads[self.load]}
 
     def flat(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns with a row for each law and load, and their units; None where there is none."""

@@ -102,15 +102,15 @@ LEAST = 40
 class Commands(TyperGroup):
     """Turns errors and warnings of every command into lines on standard error."""
 
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+    def parse_args(self, ctx: object, args: list[str]) -> list[str]:
         PRINTS_JSON.set(asks_for_json(args))
-        return super().parse_args(ctx, args)
+        return super().parse_args(ctx, args)  # type: ignore[arg-type]
 
-    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+    def resolve_command(self, ctx: object, args: list[str]) -> object:  # type: ignore[override]
         try:
-            return super().resolve_command(ctx, args)
+            return super().resolve_command(ctx, args)  # type: ignore[arg-type]
         except USAGE_ERROR:  # its sentence is printed where the command line ends
-            meant = guess(args[0], self.list_commands(ctx))
+            meant = guess(args[0], self.commands)
             problem = Problem(args[0], "is no command", hint=meant, code=Mistake.UNKNOWN)
             print_problems([problem_data(problem)])
             raise

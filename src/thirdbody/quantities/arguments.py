@@ -299,7 +299,7 @@ def misfits(
             for name, value in named.items()
             if name not in signature.parameters
         ]
-        return unknown or _unnamed(signature, args)
+        return unknown or _problem_without_name(signature, args)
     try:
         signature.bind(*args, **named)
     except TypeError:
@@ -331,7 +331,7 @@ def misfits(
     return problems
 
 
-def _unnamed(signature: inspect.Signature, args: tuple[object, ...]) -> list[Problem]:
+def _problem_without_name(signature: inspect.Signature, args: tuple[object, ...]) -> list[Problem]:
     """The problem of the first argument that has no name and needs one; none where none has."""
     parameters = signature.parameters.values()
     in_order = [one for one in parameters if one.kind is not one.KEYWORD_ONLY]
@@ -343,7 +343,7 @@ def _unnamed(signature: inspect.Signature, args: tuple[object, ...]) -> list[Pro
     return [Problem("", rule, hint=f"write {which} here", code=Mistake.MISSING)]
 
 
-def _meaning(field: Any) -> str:
+def _meaning(field: object) -> str:
     """What a field is that declares a quantity."""
     about = getattr(field, "metadata", {}).get("quantity")
     if about is None:
