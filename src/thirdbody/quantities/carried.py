@@ -28,7 +28,6 @@ from ..errors import InvalidValue, Mistake, Problem
 from .arguments import FAILURES, refuse_misfits
 from .kinds import kind_needed, kind_of, library_unit, registry
 from .uncertain import is_uncertain
-from .units import say
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
 
@@ -438,7 +437,7 @@ def _argument_in_si(
         return in_si(value, unit)
     except InvalidValue as error:
         problems += [
-            Problem(name, f"= {problem}", say(value), code=problem.code)
+            Problem(name, f"= {problem}", str(value)[:80], code=problem.code)
             for problem in error.problems
         ]
         return value
