@@ -4,7 +4,10 @@ The functions are found by signature, not by a list. What each needs for a first
 `SAMPLES` and in the signature; a function is tried with each of its arguments wrong in turn.
 """
 
+import copy
 import inspect
+import pickle
+import re
 import warnings
 
 import numpy as np
@@ -132,8 +135,45 @@ def test_a_keyword_that_a_function_has_not_is_answered_with_the_one_meant():
     ):
         with refuses(Mistake.UNKNOWN, place, meant=meant):
             call()
-    with pytest.raises(TypeError, match="positional"):  # Python's own sentence
-        tb.solve(CONTACT, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+
+
+def test_what_is_missing_or_has_no_name_is_said():
+    for call, *places in (
+        (lambda: tb.solve(CONTACT, 5e6), ""),
+        (lambda: tb.solve(CONTACT, True), ""),
+        (lambda: tb.solve(), "contact"),
+        (lambda: tb.design(CONTACT), "vary", "objective"),
+        (lambda: tb.Roughness(1e-7, 2.8e-6), "Roughness"),
+        (lambda: tb.Roughness(sigma=1e-7), "Roughness.R"),
+        (lambda: tb.MaterialPair(STEEL), "MaterialPair.second"),
+    ):
+        with pytest.raises(tb.errors.WrongKind) as refused:
+            call()
+        told = [(one.code, one.place) for one in refused.value.problems]
+        assert told == [(Mistake.MISSING, place) for place in places]
+    with refuses(Mistake.MISSING, "", says="pressure="):
+        tb.solve(CONTACT, 5e6)
+    for value in (CONTACT, tb.Roughness(sigma=1e-7, R=2.8e-6)):  # copies are made without arguments
+        assert pickle.loads(pickle.dumps(value)) == value == copy.deepcopy(value)
+
+
+@pytest.mark.parametrize("module", [tb, tb.systems, tb.systems.life])
+def test_a_misspelt_name_of_a_module_is_answered_with_the_one_meant(module):
+    name = module.__all__[-1]
+    with pytest.raises(AttributeError, match=re.escape(f"did you mean {name}?")):
+        getattr(module, name[:-1] + name[-1] * 2)
+    with pytest.raises(AttributeError, match=r"__wrapped__'$"):
+        _ = module.__wrapped__
+
+
+def test_a_text_in_the_place_of_a_number_or_sizes_is_answered_with_what_to_write():
+    with refuses(Mistake.UNIT, "pressure", says="length"):
+        tb.solve(CONTACT, pressure="5 mm")
+    with refuses(Mistake.KIND, "pressure"):
+        tb.solve(CONTACT, pressure="5 MPa")
+    for size in ("3 um", 3e-6):
+        with refuses(Mistake.KIND, "Particles.diameter", says="Monodisperse(mean=3e-06)"):
+            tb.Particles(material=SILICA, areal_density=1e9, diameter=size)
 
 
 def test_most_public_functions_are_called():
@@ -185,6 +225,7 @@ def test_every_public_function_that_takes_anything_is_marked():
         *(
             "results.Assessment.page",
             "errors.InvalidValue.move_under",
+            "errors.InvalidValue.name_source",
             "errors.Mistake.clause",
         ),  # texts
         *(f"errors.Problem.{key}" for key in ("changed", "move_under", "put_in_words")),

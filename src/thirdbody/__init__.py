@@ -311,7 +311,9 @@ def __getattr__(name: str) -> Any:
     elif name in _HOMES:
         value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
     else:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from .quantities.nearest import no_attribute
+
+        raise no_attribute(__name__, name, (*__all__, *_MODULES, *_HOMES))
     globals()[name] = value
     return value
 

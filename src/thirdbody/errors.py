@@ -172,11 +172,12 @@ class Problem(str):
     Parameters
     ----------
     path : str
-        Dotted place of the mistake in ``owner``; "" where it is not of one place.
+        Dotted place of the mistake in ``owner``; "" where it is not of one place. An option of the
+        command line keeps its dashes.
     rule : str
         What is wrong, or what is allowed, as a clause that follows place and value. One that
         begins with a colon is a sentence of its own, with a comma a list of which this is the
-        first; one that begins with "=" says the value.
+        first; one that begins with "=" says the value itself.
     value : str, optional
         The value, as a reader sees it; None where the rule needs none.
     hint : str, optional
@@ -185,6 +186,9 @@ class Problem(str):
         What ``path`` is a part of: a class, a table of a study file.
     code : Mistake, optional
         Kind of the mistake; that of a ``rule`` that is a `Clause` by default.
+    source : str, optional
+        What holds a mistake that has no place in the inputs, as the rule names it: a file, a word
+        of the command line.
 
     Examples
     --------
@@ -204,6 +208,7 @@ class Problem(str):
     hint: str
     owner: str
     code: Mistake
+    source: str
 
     def __new__(
         cls,
@@ -214,16 +219,18 @@ class Problem(str):
         hint: str = "",
         owner: str = "",
         code: Mistake | None = None,
+        source: str = "",
     ) -> Problem:
         if code is None:
             code = rule.code if isinstance(rule, Clause) else Mistake.UNSAID
         place = ".".join(filter(None, (owner, path)))
-        start = place if value is None else f"{place} = {value}"
+        equals = " " if place.startswith("--") else " = "
+        start = place if value is None or rule[:1] == "=" else f"{place}{equals}{value}"
         blank = " " if start and rule[:1] not in (":", ",") else ""
         rule = rule if start else rule.removeprefix(": ")
         self = super().__new__(cls, f"{start}{blank}{rule}" + (f"; {hint}" if hint else ""))
         self.path, self.rule, self.value, self.hint, self.owner = path, rule, value, hint, owner
-        self.code = code
+        self.code, self.source = code, source
         return self
 
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, object]]:
@@ -353,7 +360,7 @@ def problem_data(problem: Problem) -> dict[str, str | None]:
     here = problem.put_in_words(in_study)
     return {
         "code": str(here.code),
-        "path": here.place,
+        "path": here.place or here.source,
         "value": here.value,
         "allowed": str(here.rule).lstrip(":,= "),
         "hint": str(here.hint),
@@ -434,11 +441,15 @@ class InvalidValue(ThirdBodyError, ValueError):
         The mistakes.
     code : Mistake, optional
         Kind of those that are plain sentences.
+    source : str, optional
+        What holds the mistakes of those.
     """
 
-    def __init__(self, *problems: str, code: Mistake | None = None):
+    def __init__(self, *problems: str, code: Mistake | None = None, source: str = ""):
         self.problems = tuple(
-            problem if isinstance(problem, Problem) else Problem("", problem, code=code)
+            problem
+            if isinstance(problem, Problem)
+            else Problem("", problem, code=code, source=source)
             for problem in problems
         )
         super().__init__("\n".join(problems))
@@ -451,6 +462,10 @@ class InvalidValue(ThirdBodyError, ValueError):
     def move_under(self, owner: str) -> InvalidValue:
         """The same mistakes where what they are a part of goes by another name."""
         return type(self)(*(problem.move_under(owner) for problem in self.problems))
+
+    def name_source(self, source: str | os.PathLike[str]) -> InvalidValue:
+        """The same mistakes, which a file holds."""
+        return type(self)(*(problem.changed(source=str(source)) for problem in self.problems))
 
 
 class NoEquilibrium(ThirdBodyError, RuntimeError):

@@ -223,5 +223,5 @@ def test_what_does_not_fit_the_contact_is_told():
     with refuses(Mistake.CLASH, "Suspension.particle_density"):
         design_study(load_study(EXAMPLE, [several]))
     none = EXAMPLE.with_name("dusty_ball_screw.toml")
-    with refuses(Mistake.MISSING, "", says="[design]"):
+    with refuses(Mistake.MISSING, "design"):
         design_study(load_study(none))

@@ -163,8 +163,8 @@ def test_the_template_is_that_of_its_designation():
         (["new", "ball-bearing", "6505"], Mistake.KIND, "", "did you mean"),
         (["new", "ball-bearing", "52x25x15"], Mistake.ORDER, "", '"52x25x15"'),
         (["new", "ball-screw", "6205"], Mistake.IDLE, "", "measured-surface"),
-        (["film", "b.toml", "--filter", "5:75"], Mistake.FORM, "", "'='"),
-        (["film", "b.toml", "--filter", "10=75, 5=90"], Mistake.ORDER, "", '"10=75, 5=90"'),
+        (["film", "b.toml", "--filter", "5:75"], Mistake.FORM, "--filter", "'='"),
+        (["film", "b.toml", "--filter", "10=75, 5=90"], Mistake.ORDER, "--filter", '"10=75, 5=90"'),
         (["film", "b.toml", "--set", "body.shaft_speed=-1"], Mistake.RANGE, "body.shaft_speed", ""),
         (
             ["film", "b.toml", "--set", "particles.0.share=1.2"],

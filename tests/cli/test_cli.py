@@ -23,6 +23,7 @@ from refusals import refuses
 
 import thirdbody as tb
 from thirdbody import study
+from thirdbody.cli.streams import EXIT_STATUS
 from thirdbody.equilibrium.status import WORDS, Status
 from thirdbody.errors import Mistake, code_of
 from thirdbody.quantities import files
@@ -230,6 +231,59 @@ def test_mistakes_are_taken_apart_in_json(wrong):
     )
 
 
+@pytest.mark.parametrize(
+    ("arguments", "code", "path", "value"),
+    [
+        (("solve", DUSTY, "--set", 'roughness.sigma="5 Pa"'), "unit", "roughness.sigma", '"5 Pa"'),
+        (("solve", DUSTY, "--set", "roughness.R=[1, 2]"), "kind", "roughness.R", "[1, 2]"),
+        (("solve", "none.toml"), "unreadable", "none.toml", None),
+        (("solve", "broken.toml"), "form", "broken.toml", None),
+        (("solve",), "form", "STUDY.toml", None),
+        (("solve", DUSTY, "--sett", "title=1"), "unknown", "--sett", None),
+        (("solve", DUSTY, "--set", "title"), "form", "--set", "'title'"),
+        (("solve", DUSTY, "--csv", "none/a.csv"), "unwritable", "none/a.csv", None),
+        (("explicit", DUSTY, "--maps", "some"), "option", "--maps", "some"),
+        (("film", DUSTY), "missing", "film", None),
+        (("slove", DUSTY), "unknown", "slove", None),
+    ],
+)
+def test_a_mistake_in_json_says_where_it_is_and_what_was_written(
+    arguments, code, path, value, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    Path("broken.toml").write_text("title = a b", "utf-8")
+    done = run(*arguments, "--json")
+    (problem,) = strict(done.stdout)["problems"]
+    jsonschema.validate({"problems": [problem]}, SCHEMA)
+    assert done.exit_code == 2
+    assert (problem["code"], problem["path"], problem["value"]) == (code, path, value)
+    if path == "slove":
+        assert problem["meant"] == "solve"
+
+
+@pytest.mark.parametrize(("option", "name"), [("--csv", "a.xls"), ("--xlsx", "a.xls")])
+def test_a_table_goes_into_no_file_of_old_excel(option, name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (problem,) = run("solve", DUSTY, option, name).problems
+    assert (problem.code, problem.source) == (Mistake.UNWRITABLE, name)
+    assert "--xlsx" in problem.hint or option == "--xlsx"
+    assert not list(tmp_path.iterdir())
+
+
+def test_help_says_what_each_exit_status_means():
+    shown = " ".join(run("--help").stdout.split())
+    assert " ".join(EXIT_STATUS.split()) in shown
+
+
+def test_a_misspelt_table_stands_before_what_follows_from_it(tmp_path):
+    file = tmp_path / "s.toml"
+    text = DUSTY.read_text("utf-8").partition("[load]")[0]
+    file.write_text(f'{text}[load]\nforce = "5 N"\n[film]\nspeed = 1\n[boddy]\nR = 1\n', "utf-8")
+    first, *others = run("solve", file).mistakes
+    assert first == (Mistake.UNKNOWN, "[boddy]")
+    assert others
+
+
 def test_the_schema_knows_the_codes_of_all_mistakes():
     items = SCHEMA["properties"]["problems"]["items"]
     unsolved = {word for code, word in enumerate(WORDS) if code != Status.OK}
@@ -260,7 +314,7 @@ def test_a_load_without_an_equilibrium_is_told_once_in_json():
 )
 def test_a_name_that_json_does_not_take_is_told_with_what_writes_a_file(arguments):
     done = run(*arguments)
-    assert done.mistakes == [(Mistake.FORM, "")]
+    assert done.mistakes == [(Mistake.FORM, "--json")]
     (problem,) = done.problems
     name = arguments[arguments.index("--json") + 1]
     assert f"--json > {name}" in problem.hint
@@ -625,7 +679,8 @@ COMMANDS = re.findall(r"(?m)^  ([a-z]+) {2,}\S", run("--help").stdout.partition(
 
 def test_help_lists_every_command_in_a_whole_sentence(monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
-    lines = run("--help").stdout.partition("Commands:\n")[2].splitlines()
+    listed = run("--help").stdout.partition("Commands:\n")[2].partition("\n\n")[0]
+    lines = listed.splitlines()
     assert len(lines) == len(COMMANDS) > 15
     assert [line for line in lines if not re.search(r"[^.]\.$|\w \.\.\.$", line)] == []
 

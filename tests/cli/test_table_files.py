@@ -51,6 +51,28 @@ def test_the_last_column_of_states_is_the_code_of_their_status(tmp_path):
     assert codes == [Status.OK, Status.TOO_MUCH]
 
 
+def test_the_states_of_a_film_have_the_code_of_their_status(tmp_path):
+    table = tmp_path / "t.csv"
+    done = run("film", FILM, "--set", "film.speed.points=2", "--csv", table, "--json")
+    codes = [int(row["status_code"]) for row in csv.DictReader(table.open(encoding="utf-8"))]
+    assert codes == json.loads(done.stdout)["states"]["status_code"] == [Status.OK] * 2
+
+
+def test_a_comparison_in_json_holds_the_rows_of_its_table(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = run("compare", SWEEP, "--laws", "ke,jg", "--csv", "t.csv", "--json")
+    told = json.loads(done.stdout)
+    head, *rows = csv.reader((tmp_path / "t.csv").open(encoding="utf-8"))
+    assert [name.split(" [")[0] for name in head] == list(told["states"])
+    assert [row[0] for row in rows] == told["states"]["law"]
+    assert [float(row[head.index("A_t [1]")]) for row in rows] == told["states"]["A_t"]
+    assert list(told["laws"]) == [told["own_law"], "ke", "jg"]
+    assert [note["sentence"] for note in told["notes"]] == told["warnings"]
+    for _ in range(2):  # its own file may be replaced
+        assert run("compare", SWEEP, "--laws", "ke,jg", "--json", "a.json").exit_code == 0
+        assert json.loads((tmp_path / "a.json").read_text("utf-8")) == told
+
+
 @pytest.mark.check
 @pytest.mark.parametrize("kind", LIBRARY)
 @pytest.mark.parametrize("arguments", COMMANDS, ids=lambda arguments: arguments[0])
@@ -214,6 +236,7 @@ def test_a_sweep_has_tables_beside_its_folder(tmp_path, design):
     assert [cell.value for cell in sheets["States"][1]] == list(rows[0])
     if design == "sampled":
         assert {row["status"] for row in rows} == {"ok"}
+        assert {int(row["status_code"]) for row in rows} == {Status.OK}
         assert {row["mode"] for row in rows} <= {"p-s", "hybrid", "s-s"}
         big = run("sweep", study, "--out", tmp_path / "big", "--csv", tmp_path / "b.csv",
                   "--set", "sweep.samples=65536")  # fmt: skip

@@ -182,6 +182,8 @@ def test_every_mistake_has_a_code():
         (lambda: to_si("3 GPa", "m"), Mistake.UNIT, ""),
         (lambda: to_si("3,5 mm", "m"), Mistake.FORM, ""),
         (lambda: to_si("thick", "m"), Mistake.KIND, ""),
+        (lambda: to_si("10 nm to 100 nm", "m"), Mistake.FORM, ""),
+        (lambda: to_si("10-100 nm", "m"), Mistake.FORM, ""),
         (lambda: tb.Uncertain.uniform(low=2.0, high=1.0), Mistake.ORDER, "low"),
     ],
 )

@@ -52,6 +52,8 @@ def test_every_form_of_states_holds_the_same_numbers(every, name):
     assert type(state).__name__ == name
     plain, data, table = state.to_dict(), state.to_dataset(title="two"), state.to_dataframe()
     assert json.loads(json.dumps(plain, allow_nan=False)) == plain
+    if name == "Equilibrium":
+        assert plain.pop("status_code") == state.status_code.tolist()
     assert list(plain) == list(table.columns) == [str(each) for each in data.data_vars]
     assert data.title == "two"
     for column, told in declared_columns(type(state)).items():

@@ -400,7 +400,7 @@ def test_json_csv_and_figure(tmp_path):
     told = json.loads(done.stdout)
     head, *rows = csv.reader(numbers.open(encoding="utf-8"))
     assert head[:4] == ["speed [m/s]", "hersey [1]", "pressure [Pa]", "h [m]"]
-    assert head[23:26] == ["status", "S45C: passing [1]", "S45C: per_hour [1/h]"]
+    assert head[23:26] == ["status", "status_code", "S45C: passing [1]"]
     (place,) = (i for i, row in enumerate(rows) if row[head.index("S45C: per_hour [1/h]")])
     assert float(rows[place][0]) == told["oil"]["speed"] == told["states"]["speed"][1]
     assert "regime" in head

@@ -29,13 +29,13 @@ from ..equilibrium.columns import COLUMNS, PLASTIC_SHARE, Equilibrium
 from ..equilibrium.doubts import BEYOND
 from ..equilibrium.load import ForceLoad, as_force_load
 from ..equilibrium.solve import given_load, solve
-from ..errors import InvalidValue, Mistake, Problem, RangeWarning, code_of
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, code_of, note_data
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
 from ..quantities.arguments import is_empty
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
 from ..quantities.nearest import guess
-from ..quantities.record import Column
+from ..quantities.record import VERSION, Column, Record
 from ..quantities.say import percent
 
 if TYPE_CHECKING:
@@ -154,9 +154,17 @@ def compare(
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(Record):
     """What `compare` finds, in plain columns: loading xarray takes longer than comparing."""
 
+    in_dict = (
+        VERSION,
+        ("inputs", lambda one: json.loads(one.attrs["inputs"]) | {one.load: one.loads[one.load]}),
+        ("own_law", lambda one: one.attrs["own_law"]),
+        *("laws", ("states", lambda one: one.flat()[0]), "warnings"),
+        ("notes", lambda one: [note_data(warning) for warning in one.warnings]),
+        ("citations", lambda one: one.attrs["citations"].splitlines()),
+    )
     load: str
     """Which load is given, ``F_star`` [1] or ``pressure`` [Pa]."""
     loads: dict[str, Array]
@@ -171,6 +179,8 @@ class Comparison:
     """Numbers and words (laws, N)."""
     attrs: dict[str, Any]
     """Own law, hardness, inputs, version, citations, warnings."""
+    warnings: tuple[str, ...] = ()
+    """What the states of the own law are warned of, one sentence each."""
 
     def flat(self) -> tuple[dict[str, list[object]], dict[str, str]]:
         """Columns with a row for each law and load, and their units; None where there is none."""
@@ -243,6 +253,7 @@ def comparison_of(
             "citations": "\n".join(dict.fromkeys(cited.splitlines())),
             "warnings": "\n".join(common),
         },
+        warnings=common,
     )
 
 

@@ -19,7 +19,14 @@ import typer
 
 from .commands import COMMANDS
 from .options import OwnCode, load_own_code, with_common_options
-from .streams import Command, Commands, open_closed_streams, refuse_full_output, without_output
+from .streams import (
+    EXIT_STATUS,
+    Command,
+    Commands,
+    open_closed_streams,
+    refuse_full_output,
+    without_output,
+)
 
 __all__ = ["app", "main"]
 
@@ -36,6 +43,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     help="Contact of rough surfaces with particles between them.",
+    epilog=EXIT_STATUS,
 )
 
 

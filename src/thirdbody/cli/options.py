@@ -232,11 +232,11 @@ def not_a_folder(out: Path | None) -> list[Problem]:
     if out is None:
         return []
     if out.exists() and not out.is_dir():
-        rule = f"--out {out} must be a folder, and a file of that name exists"
-        return [Problem("", rule, code=Mistake.UNWRITABLE)]
+        rule = "must be a folder, and a file of that name exists"
+        return [Problem("--out", rule, str(out), code=Mistake.UNWRITABLE)]
     why = hindrance_of_folder(out)
-    rule = f"--out {out}: cannot write there: {why}"
-    return [Problem("", rule, code=Mistake.UNWRITABLE)] if why else []
+    rule = f": cannot write there: {why}"
+    return [Problem("--out", rule, str(out), code=Mistake.UNWRITABLE)] if why else []
 
 
 def metres(option: str, text: str, problems: list[str]) -> float:

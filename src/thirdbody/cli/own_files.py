@@ -42,6 +42,8 @@ JSON_KEYS = (
 NAMED = {
     ".csv": "table",
     ".xlsx": "workbook",
+    ".xls": "workbook of old Excel",
+    ".ods": "workbook of LibreOffice",
     ".parquet": "Parquet file",
     ".json": "JSON",
     ".html": "page",
@@ -76,18 +78,16 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
             end = next(end for end, named_kind in NAMED.items() if named_kind == kind)
             rule = f"cannot write {path}: that is the name of a {other}, and a {kind} goes into it"
             hint = f"give a name that ends in {end}"
-            problems.append(Problem("", rule, hint=hint, code=Mistake.UNWRITABLE))
+            if kind == "table" and other.startswith("workbook"):
+                hint += f", or write a workbook: --xlsx {path.with_suffix('.xlsx')}"
         elif why := hindrance(path):
-            problems.append(Problem("", f"cannot write {path}: {why}", code=Mistake.UNWRITABLE))
+            rule, hint = f"cannot write {path}: {why}", ""
         elif not force and not _may_go(path, kind):
-            problems.append(
-                Problem(
-                    "",
-                    f"cannot write {path}: it exists and is no {kind} of thirdbody; give another "
-                    "name, or add --force to replace it",
-                    code=Mistake.UNWRITABLE,
-                )
-            )
+            rule = f"cannot write {path}: it exists and is no {kind} of thirdbody"
+            hint = "give another name, or add --force to replace it"
+        else:
+            continue
+        problems.append(Problem("", rule, hint=hint, code=Mistake.UNWRITABLE, source=str(path)))
     if problems:
         raise InvalidValue(*problems)
 

@@ -2,7 +2,7 @@
 
 Standard output holds the answer and nothing else; progress, warnings and errors go to standard
 error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in the range searched,
-130 interrupted.
+130 interrupted. Of several states one that is solved is enough for 0; see `EXIT_STATUS`.
 """
 
 from __future__ import annotations
@@ -40,6 +40,7 @@ from ..errors import (
     problem_data,
     rank_notes,
 )
+from ..quantities.nearest import guess
 from ..quantities.say import plural, unbroken
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     from ..views.workbook import Sheet
 
 __all__ = [
+    "EXIT_STATUS",
     "STDOUT",
     "Command",
     "Commands",
@@ -70,6 +72,11 @@ __all__ = [
 ]
 
 BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
+EXIT_STATUS = (
+    "Exit status: 0 done, also where some of several states are not solved (status and "
+    "status_code of each say so); 2 a mistake in the input; 3 no state is solved, or no "
+    "transition is found; 130 interrupted."
+)
 MOST_SHOWN = 3
 """Notes that are shown where not all are asked for."""
 SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
@@ -95,10 +102,22 @@ LEAST = 40
 class Commands(TyperGroup):
     """Turns errors and warnings of every command into lines on standard error."""
 
+    def parse_args(self, ctx: object, args: list[str]) -> list[str]:
+        PRINTS_JSON.set(asks_for_json(args))
+        return super().parse_args(ctx, args)  # type: ignore[arg-type]
+
+    def resolve_command(self, ctx: object, args: list[str]) -> object:  # type: ignore[override]
+        try:
+            return super().resolve_command(ctx, args)  # type: ignore[arg-type]
+        except USAGE_ERROR:  # its sentence is printed where the command line ends
+            meant = guess(args[0], self.commands)
+            problem = Problem(args[0], "is no command", hint=meant, code=Mistake.UNKNOWN)
+            print_problems([problem_data(problem)])
+            raise
+
     def invoke(self, ctx: Any) -> object:
         with warnings.catch_warnings():
             warnings.showwarning = warn
-            PRINTS_JSON.set(False)
             try:
                 with interruptible():
                     answer = super().invoke(ctx)
@@ -134,9 +153,14 @@ class Command(TyperCommand):
         named = any("--json" in parameter.opts and not getattr(parameter, "is_flag", True)
                     for parameter in self.params)  # fmt: skip
         words = with_json_file(args) if named else args
-        PRINTS_JSON.set("--json" in words or f"--json={STDOUT}" in words)
+        PRINTS_JSON.set(asks_for_json(words))
         refuse_json_name(args, named=named)
         return super().parse_args(ctx, words)
+
+
+def asks_for_json(words: Sequence[str]) -> bool:
+    """Whether words of a command line ask for JSON on standard output."""
+    return "--json" in words or f"--json={STDOUT}" in words
 
 
 def with_json_file(args: Sequence[str]) -> list[str]:
@@ -177,12 +201,12 @@ def refuse_json_name(args: Sequence[str], *, named: bool) -> None:
             continue  # a word that a command searches for
         if (named and end == ".json") or Path(name).exists():
             continue
-        hint = f"into a file: --json > {name}"
+        hint = f"write --json > {name}"
         if named:
             hint += f", or --json {Path(name).with_suffix('.json')}"
-        rule = "prints, and takes a file that ends in .json only" if named else "prints"
+        rule = "prints where no name that ends in .json follows it" if named else "takes no file"
         raise InvalidValue(
-            Problem("", f"--json {name}: --json {rule}", hint=hint, code=Mistake.FORM)
+            Problem("--json", f": --json {rule}", name, hint=hint, code=Mistake.FORM)
         )
 
 
@@ -284,9 +308,13 @@ def print_problems(problems: Iterable[Mapping[str, object]]) -> None:
 
 def problem_of_usage(error: Exception) -> Problem:
     """The mistake in a command line that does not parse."""
-    code = Mistake.UNKNOWN if hasattr(error, "option_name") else Mistake.FORM
+    option, parameter = (getattr(error, name, None) for name in ("option_name", "param"))
+    code = Mistake.UNKNOWN if option else Mistake.FORM
     message = getattr(error, "format_message", error.__str__)()
-    return Problem("", message, code=code)
+    if parameter is not None:
+        name = max(parameter.opts, key=len)
+        option = name if name.startswith("-") else parameter.metavar or name
+    return Problem("", message, code=code, source=option or "")
 
 
 def _without_answer(error: NoEquilibrium | NoTransition) -> dict[str, object]:
@@ -403,9 +431,10 @@ class TableFiles(NamedTuple):
             if path is not None and importlib.util.find_spec(library) is None:
                 problems.append(
                     Problem(
-                        "",
-                        f"--{option} {path} needs {library}, which is not installed: "
+                        f"--{option}",
+                        f"needs {library}, which is not installed: "
                         f"pip install 'thirdbody[{option}]'",
+                        str(path),
                         code=Mistake.ABSENT,
                     )
                 )
@@ -495,7 +524,12 @@ def figure_format(figure: Path) -> str:
     kind = figure.suffix.lstrip(".").lower() or "png"
     if kind not in ("png", "svg", "pdf"):
         raise InvalidValue(
-            f"--figure {figure} must end in .png, .svg or .pdf", code=Mistake.UNWRITABLE
+            Problem(
+                "--figure",
+                "must end in .png, .svg or .pdf",
+                str(figure),
+                code=Mistake.UNWRITABLE,
+            )
         )
     return kind
 

@@ -32,6 +32,8 @@ Array = NDArray[np.float64]
 Number = float | Array
 
 MODE_OF_CODE = np.array(["", *MODES])
+CODE = "status_code"
+"""Column of the codes of `Status`, beside those of a result."""
 
 
 class _ContactRecord(StateRecord):
@@ -77,6 +79,7 @@ class Equilibrium(_ContactRecord):
     ['p-s', 'hybrid', 'hybrid']
     """
 
+    in_dict = (*_ContactRecord.in_dict, (CODE, lambda states: np.atleast_1d(states.status_code)))
     contact: Contact = field(repr=False)
     """What was solved."""
     d: Number = column("d", "m", "separation d, from the mean asperity height")
@@ -179,8 +182,6 @@ class PopulationShare(_ContactRecord):
     """Columns of the outputs that each population has of its own, as its dents, by name."""
 
 
-CODE = "status_code"
-"""Column of the codes of `Status`, beside those of a result."""
 FLAGS = {"flag_values": list(range(len(WORDS))), "flag_meanings": " ".join(WORDS)}
 MARKS: dict[str, dict[str, object]] = {
     "engine": {"long_name": "what found the separation"},

@@ -24,6 +24,7 @@ from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, Pr
 from ..quantities.arguments import is_empty, need_one, only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
+from ..quantities.units import to_si
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
 from .crowding import about_area, is_crowded
@@ -76,6 +77,7 @@ UNITS_HINTS = {
     "h": "in m: 200 nm are 200e-9",
 }
 """What to write for a load that is text."""
+UNITS = {"pressure": "Pa", "F_star": "1", "d": "m", "h": "m"}
 
 
 def given_load(
@@ -87,6 +89,17 @@ def given_load(
     """Name of the given load, its values (F in Pa or d in m), and whether it was one number."""
     name, flat, one = given_numbers(pressure=pressure, F_star=F_star, d=d)
     return name, flat * contact.E_ss if name == "F_star" else flat, one
+
+
+def _about_text(name: str, text: str) -> tuple[str, Mistake]:
+    """What to write for a load that is text, and whether that is of another dimension."""
+    hint = UNITS_HINTS.get(name, "")
+    try:
+        to_si(text, UNITS.get(name, "1"))
+    except InvalidValue as error:
+        if error.code is Mistake.UNIT:
+            return f"{str(error).partition(', e.g. ')[0]}; {hint}", Mistake.UNIT
+    return hint, Mistake.KIND
 
 
 def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
@@ -110,15 +123,9 @@ def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
         values = np.asarray(value, dtype=float)
     except (TypeError, ValueError, OverflowError):
         shown = repr(value) if len(repr(value)) <= 80 else repr(value)[:76] + " ..."
-        raise InvalidValue(
-            Problem(
-                name,
-                "must be a number or an array of numbers",
-                shown,
-                hint=UNITS_HINTS.get(name, "") if isinstance(value, str) else "",
-                code=Mistake.KIND,
-            )
-        ) from None
+        hint, code = _about_text(name, value) if isinstance(value, str) else ("", Mistake.KIND)
+        rule = "must be a number or an array of numbers"
+        raise InvalidValue(Problem(name, rule, shown, hint=hint, code=code)) from None
     if values.ndim > 1:
         raise InvalidValue(
             f"{name} has {values.ndim} dimensions; give a number or a 1-D array", code=Mistake.SHAPE

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ..errors import Advice, InvalidValue, Mistake, Problem
-from ..quantities.units import to_si
+from ..quantities.units import say, to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
 from .materials import Material
@@ -85,8 +85,9 @@ class Particles(Value):
             out.append(
                 Problem(
                     "diameter",
-                    "must be a size distribution, e.g. distributions.Monodisperse(mean=300e-9)",
+                    "must be a size distribution",
                     repr(self.diameter),
+                    hint=_sizes_meant(self.diameter),
                     code=Mistake.KIND,
                 )
             )
@@ -416,11 +417,24 @@ class Particles(Value):
         )
 
 
+def _sizes_meant(diameter: object) -> str:
+    """What to write for a diameter that is one length, or none."""
+    try:
+        size = 0.0 if isinstance(diameter, bool) else to_si(diameter, "m")
+    except InvalidValue:
+        size = 0.0
+    one = f"{size:g}" if 0 < size < math.inf else "300e-9"
+    return (
+        f"write distributions.Monodisperse(mean={one}) [m] for one size, LogNormal(median={one}, "
+        "gsd=1.5) for many"
+    )
+
+
 def _read_value(name: str, value: float | str, unit: str) -> float:
     try:
         return to_si(value, unit)
     except InvalidValue as error:
-        raise InvalidValue(Problem(name, f"= {error}", code=error.code)) from None
+        raise InvalidValue(Problem(name, f"= {error}", say(value), code=error.code)) from None
 
 
 def _optional(name: str, value: float | str | None, unit: str) -> float | None:

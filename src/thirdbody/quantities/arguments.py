@@ -15,7 +15,7 @@ import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache, wraps
 from numbers import Real
-from typing import Any, Literal, Self, TypeVar, get_origin
+from typing import Any, Literal, NamedTuple, Self, TypeVar, get_origin
 
 import numpy as np
 
@@ -78,7 +78,7 @@ def names_arguments(function: F) -> F:
 
 
 class NamesArguments:
-    """Base of classes whose constructors name an argument that they do not take.
+    """Base of classes whose constructors name an argument that is missing, or not one of theirs.
 
     Examples
     --------
@@ -94,18 +94,33 @@ class NamesArguments:
         """An instance whose fields are still empty, unless a name is no argument of the class."""
         if cls.__init__ is object.__init__ and (args or named):
             return object.__new__(cls, *args, **named)  # which says that it takes none
-        names = _argument_names(cls) if named else None  # type: ignore[arg-type]
-        if names is not None and not named.keys() <= names:
-            refuse_misfits(TypeError(), cls, args, named, where=cls.__name__)
+        takes = _takes(cls) if args or named else None  # type: ignore[arg-type]
+        if takes is not None:  # a copy in the making is given nothing
+            some = {*takes.in_order[: len(args)], *named}
+            if len(args) > len(takes.in_order) or not takes.needed <= some <= takes.names:
+                refuse_misfits(TypeError(), cls, args, named, where=cls.__name__)
         return object.__new__(cls)
 
 
+class _Takes(NamedTuple):
+    """Names of arguments: all, those that may stand without their name, and those needed."""
+
+    names: frozenset[str]
+    in_order: tuple[str, ...]
+    needed: frozenset[str]
+
+
 @cache
-def _argument_names(kind: type) -> frozenset[str] | None:
-    """Names that the constructor of a class takes; None where it takes any."""
+def _takes(kind: type) -> _Takes | None:
+    """What the constructor of a class takes; None where it takes any."""
     parameters = inspect.signature(kind).parameters.values()
-    takes_any = any(one.kind is one.VAR_KEYWORD for one in parameters)
-    return None if takes_any else frozenset(one.name for one in parameters)
+    if any(one.kind in (one.VAR_KEYWORD, one.VAR_POSITIONAL) for one in parameters):
+        return None
+    return _Takes(
+        frozenset(one.name for one in parameters),
+        tuple(one.name for one in parameters if one.kind is not one.KEYWORD_ONLY),
+        frozenset(one.name for one in parameters if one.default is one.empty),
+    )
 
 
 def need_one(name: str, value: object, *options: str | int) -> None:
@@ -240,7 +255,7 @@ def refuse_misfits(
     if isinstance(error, InvalidValue) and not isinstance(error, WrongKind):
         return
     if problems := misfits(function, args, named, numbers=numbers):
-        raise WrongKind(*(problem.changed(owner=where) for problem in problems)) from None
+        raise WrongKind(*(problem.move_under(where) for problem in problems)) from None
 
 
 def misfits(
@@ -261,13 +276,17 @@ def misfits(
     []
     >>> misfits(pressed, (1,), {"plces": ["A_t"]})
     ['plces = a list is no argument; did you mean places?']
+    >>> misfits(pressed, (), {"places": ["A_t"]})
+    ['load is missing']
+    >>> misfits(pressed, (1, ["A_t"]), {})
+    ['a list stands without its name; write places=... here']
     """
     signature = inspect.signature(function)
     try:
         arguments = signature.bind_partial(*args, **named).arguments
-    except TypeError:  # Python's own sentence says which is missing, or that there are too many
+    except TypeError:
         names = [name for name in signature.parameters if name not in ("self", "cls")]
-        return [
+        unknown = [
             Problem(
                 name,
                 "is no argument",
@@ -279,6 +298,18 @@ def misfits(
             )
             for name, value in named.items()
             if name not in signature.parameters
+        ]
+        return unknown or _problem_without_name(signature, args)
+    try:
+        signature.bind(*args, **named)
+    except TypeError:
+        fields = getattr(function, "__dataclass_fields__", {})
+        return [
+            Problem(name, f"is missing{_meaning(fields.get(name))}", code=Mistake.MISSING)
+            for name, one in signature.parameters.items()
+            if one.default is one.empty
+            and one.kind not in (one.VAR_KEYWORD, one.VAR_POSITIONAL)
+            and name not in arguments
         ]
     problems = []
     for name, value in arguments.items():
@@ -298,6 +329,26 @@ def misfits(
                     Problem(name, f"must be {words}", _short_text(argument), code=Mistake.KIND)
                 )
     return problems
+
+
+def _problem_without_name(signature: inspect.Signature, args: tuple[object, ...]) -> list[Problem]:
+    """The problem of the first argument that has no name and needs one; none where none has."""
+    parameters = signature.parameters.values()
+    in_order = [one for one in parameters if one.kind is not one.KEYWORD_ONLY]
+    names = [f"{one.name}=..." for one in parameters if one.kind is one.KEYWORD_ONLY]
+    if len(args) <= len(in_order) or not names:
+        return []
+    rule = f": {_short_text(args[len(in_order)])} stands without its name"
+    which = names[0] if len(names) == 1 else f"one of {', '.join(names)}"
+    return [Problem("", rule, hint=f"write {which} here", code=Mistake.MISSING)]
+
+
+def _meaning(field: object) -> str:
+    """What a field is that declares a quantity."""
+    about = getattr(field, "metadata", {}).get("quantity")
+    if about is None:
+        return ""
+    return f": {about['meaning']}" + (f" [{about['unit']}]" if about["unit"] != "1" else "")
 
 
 def _annotation_tree(annotation: object) -> ast.expr | None:

@@ -263,11 +263,11 @@ def takes_units(function: F) -> F:
     def with_units(*args: object, **named: object) -> Any:
         if of_contact and (len(args) > place or "contact" in named):
             _need_contact(args[place] if len(args) > place else named["contact"])
-        if any(map(carries_unit, args)) or (named and any(map(carries_unit, named.values()))):
-            args, named = _all_in_si(function, args, named)
-        if any(map(_may_be_none, args)) or (named and any(map(_may_be_none, named.values()))):
-            _refuse_no_numbers(function, args, named)
         try:
+            if any(map(carries_unit, args)) or (named and any(map(carries_unit, named.values()))):
+                args, named = _all_in_si(function, args, named)
+            if any(map(_may_be_none, args)) or (named and any(map(_may_be_none, named.values()))):
+                _refuse_no_numbers(function, args, named)
             return function(*args, **named)
         except FAILURES as error:
             owner: type = type(args[0]) if args else object
@@ -436,7 +436,10 @@ def _argument_in_si(
     try:
         return in_si(value, unit)
     except InvalidValue as error:
-        problems += [Problem(name, f"= {problem}", code=problem.code) for problem in error.problems]
+        problems += [
+            Problem(name, f"= {problem}", str(value)[:80], code=problem.code)
+            for problem in error.problems
+        ]
         return value
 
 

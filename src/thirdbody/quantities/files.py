@@ -120,7 +120,9 @@ def whole(path: str | os.PathLike[str], *, tidy: bool = True) -> Iterator[Path]:
     target = Path(os.path.realpath(path))
     if target.is_dir():
         raise InvalidValue(
-            f"cannot write {path}: it is a folder; give the name of a file", code=Mistake.UNWRITABLE
+            f"cannot write {path}: it is a folder; give the name of a file",
+            code=Mistake.UNWRITABLE,
+            source=str(path),
         )
     if os.path.exists(path) and not os.path.isfile(path):
         yield Path(path)
@@ -133,7 +135,9 @@ def whole(path: str | os.PathLike[str], *, tidy: bool = True) -> Iterator[Path]:
             draft.touch(exist_ok=False)
         except OSError as error:
             raise InvalidValue(
-                f"cannot write {path}: {_why(error, target)}", code=Mistake.UNWRITABLE
+                f"cannot write {path}: {_why(error, target)}",
+                code=Mistake.UNWRITABLE,
+                source=str(path),
             ) from None
         with refused_by_disk(path, draft):
             yield draft
@@ -171,7 +175,9 @@ def refused_by_disk(
         if not ours:
             raise
         raise InvalidValue(
-            f"cannot write {path}: {_why(error, Path(path))}", code=Mistake.UNWRITABLE
+            f"cannot write {path}: {_why(error, Path(path))}",
+            code=Mistake.UNWRITABLE,
+            source=str(path),
         ) from None
 
 
@@ -300,6 +306,7 @@ def refuse_clashes(
                     "",
                     f"cannot write {path}: {taken[place]}; give another name",
                     code=Mistake.UNWRITABLE,
+                    source=str(path),
                 )
             )
         taken.setdefault(place, "another file of that name is written")
@@ -318,7 +325,7 @@ def need_folders(*paths: str | os.PathLike[str] | None) -> None:
         As `whole` says it, a sentence a file.
     """
     problems = [
-        Problem("", f"cannot write {path}: {why}", code=Mistake.UNWRITABLE)
+        Problem("", f"cannot write {path}: {why}", code=Mistake.UNWRITABLE, source=str(path))
         for path in paths
         if path is not None and (why := hindrance(path))
     ]

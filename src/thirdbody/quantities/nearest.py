@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Callable, Iterable
 from typing import Self
 
-__all__ = ["Guess", "guess", "near_path", "nearest_word"]
+__all__ = ["Guess", "guess", "near_path", "nearest_word", "no_attribute"]
 
 
 class Guess(str):
@@ -83,3 +83,13 @@ def guess(
     if meant := meant or nearest_word(word, options, cutoff=cutoff):
         return Guess(f"did you mean {show(meant)}?", meant)
     return Guess("" if otherwise is None else f"{otherwise}{', '.join(options)}", None)
+
+
+def no_attribute(module: str, name: str, names: Iterable[str]) -> AttributeError:
+    """The error of a name that a module has not, with the one that was probably meant.
+
+    >>> print(no_attribute("thirdbody", "solv", ["solve", "sweep"]))
+    module 'thirdbody' has no attribute 'solv'; did you mean solve?
+    """
+    meant = "" if name.startswith("_") else guess(name, names, otherwise=None)
+    return AttributeError(f"module {module!r} has no attribute {name!r}{meant and '; '}{meant}")

@@ -187,6 +187,8 @@ def to_si(value: object, unit: str) -> float:
     shown = say(value)
     if re.match(r",\d", rest):
         return _refuse(_about_comma(text, shown), Mistake.FORM)
+    if ends := _RANGE.fullmatch(rest):
+        return _refuse(_about_range(number.group(), ends, shown, unit), Mistake.FORM)
     body = one_spelling(rest)
     if body is None:
         return _refuse(f"{shown} cannot be read; it must be {_need_text(unit)}")
@@ -203,6 +205,24 @@ def comma_may_part_thousands(text: str) -> bool:
     (True, False)
     """
     return _THOUSANDS.match(text.strip()) is not None
+
+
+_RANGE = re.compile(
+    r"(?P<unit>\D*?)(?:\s*\bto\b|\s*(?:–|—|\.\.+)|\s+-\s|^-)\s*"
+    r"(?P<high>\d[\d.eE]*)\s*(?P<unit_of_high>.*)"
+)
+"""What follows the first number of a range in words: "nm to 100 nm"."""
+
+
+def _about_range(low: str, ends: re.Match[str], shown: str, unit: str) -> str:
+    """What a range in words is, and how one is written where it may stand."""
+    first = f"{low} {ends['unit'] or ends['unit_of_high']}".strip()
+    last = f"{ends['high']} {ends['unit_of_high']}".strip()
+    return (
+        f"{shown} is a range, but one value is needed here, e.g. {EXAMPLES.get(unit, unit)}; in "
+        f"[load] or [sweep.vary] a range is {{ from = {say(first)}, to = {say(last)}, "
+        "points = 10 }"
+    )
 
 
 def _about_comma(text: str, shown: str) -> str:

@@ -27,7 +27,7 @@ from .nearest import guess
 from .notebook import Card, Row, Shown, words_of
 from .plain_data import plain_data
 from .uncertain import HELD, is_uncertain
-from .units import Quantity, Range, Usual
+from .units import Quantity, Range, Usual, say
 
 if TYPE_CHECKING:
     import numpy as np
@@ -587,7 +587,7 @@ def _without_unit(kind: type[Value], name: str, value: object) -> tuple[object, 
             )
         return in_si(value, about["unit"]), ""
     except InvalidValue as error:
-        return value, Problem(name, f"= {error}", owner=kind.__name__, code=error.code)
+        return value, Problem(name, f"= {error}", say(value), owner=kind.__name__, code=error.code)
 
 
 def items_of(values: Any) -> tuple[object, ...]:

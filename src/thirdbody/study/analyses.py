@@ -15,7 +15,7 @@ from ..analysis.assessments import Assessments
 from ..analysis.uncertainty.samples import costly
 from ..equilibrium.modes import FAINT
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, Mistake, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem, RangeWarning
 from ..numerics.sampling import Span
 from ..quantities.progress import stages
 from ..quantities.say import value_of
@@ -204,10 +204,13 @@ def arguments(study: Study) -> dict[str, Any]:
     """The arguments of `thirdbody.design` beside the contact."""
     if study.design is None:
         raise InvalidValue(
-            "the study has no table [design]: it says what may be chosen and what is good, e.g. "
-            '[design] objective = { of = "A_t", aim = "smallest" }, [design.vary] '
-            '"roughness.sigma" = { low = "50 nm", high = "200 nm" }; or [life.design], of an oil',
-            code=Mistake.MISSING,
+            Problem(
+                "design",
+                "is missing: a table [design] says what may be chosen and what is good, e.g. "
+                'objective = { of = "A_t", aim = "smallest" }, [design.vary] "roughness.sigma" = '
+                '{ low = "50 nm", high = "200 nm" }; or [life.design], of an oil',
+                code=Mistake.MISSING,
+            )
         )
     keywords = dict(study.design)
     if keywords.pop("scatter", False) and study.uncertainty is not None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue, Mistake, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem, RangeWarning
 from ..populations.distributions import Mixture
 from ..populations.measured.cleanliness import iso4406_of
 from ..populations.particles import Particles
@@ -140,7 +140,7 @@ def read_filter(text: str) -> Filter:
     except InvalidValue as error:
         first = error.problems[0]
         bare = first.changed(owner="") if first.owner == "Filter" else first
-        raise InvalidValue(f"--filter {say(text)}: {bare}", code=first.code) from None
+        raise InvalidValue(Problem("--filter", f": {bare}", say(text), code=first.code)) from None
 
 
 def need_particles(study: Study) -> None:
@@ -148,7 +148,11 @@ def need_particles(study: Study) -> None:
     if study.film is None or study.contact.two_body:
         lacks = "[film]" if study.film is None else "[particles]"
         raise InvalidValue(
-            f"--filter has nothing to hold: the study has no table {lacks}", code=Mistake.MISSING
+            Problem(
+                "--filter",
+                f"has nothing to hold: the study has no table {lacks}",
+                code=Mistake.MISSING,
+            )
         )
 
 

@@ -50,18 +50,22 @@ class Known:
     refused: dict[str, Mapping[str, str]] = field(default_factory=dict)
 
     def problems(self, mistakes: Iterable[Problem | Missing | Unknown]) -> list[Problem]:
-        """The mistakes with their sentences; what a misspelt key means is not missing."""
-        out: list[Problem | Missing] = []
+        """The mistakes with their sentences, misspelt names before what follows from them.
+
+        What a misspelt key means is not missing.
+        """
+        names: list[Problem] = []
+        others: list[Problem | Missing] = []
         guessed = set()
         for mistake in mistakes:
             if isinstance(mistake, Unknown):
                 problem, meant = self.unknown(*mistake)
-                out.append(problem)
+                names.append(problem)
                 guessed.add((mistake.path, meant))
             else:
-                out.append(mistake)
-        left = [mistake for mistake in out if mistake not in guessed]
-        return [
+                others.append(mistake)
+        left = [mistake for mistake in others if mistake not in guessed]
+        return names + [
             mistake if isinstance(mistake, Problem) else self.missing(*mistake) for mistake in left
         ]
 

@@ -60,7 +60,9 @@ def load_file(path: str | os.PathLike[str]) -> None:
         return
     where = f"--import {path}"
     if not file.is_file():
-        raise InvalidValue(f"{where}: there is no such file", code=Mistake.UNREADABLE)
+        raise InvalidValue(
+            f"{where}: there is no such file", code=Mistake.UNREADABLE, source="--import"
+        )
     name = file.stem if file.stem.isidentifier() else "own_code"
     while name in sys.modules or importlib.util.find_spec(name):
         name += "_"

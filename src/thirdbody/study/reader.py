@@ -406,7 +406,9 @@ def read_number(about: Quantity, reader: Notes, path: str, value: object) -> flo
     except InvalidValue as error:
         elsewhere = "; a load in Pa goes under the key pressure"
         cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
-        raise InvalidValue(Problem(path, f"= {error}{cause}", code=error.code)) from None
+        raise InvalidValue(
+            Problem(path, f"= {error}{cause}", say(value), code=error.code)
+        ) from None
     if not math.isfinite(si_value):
         allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value, code=Mistake.RANGE)

@@ -215,23 +215,20 @@ class StudyResult(_Result):
 
         Then their units.
         """
-        columns, units = self._states(), {name: about(name).unit for name in self.states.columns()}
+        columns = self._coded_states()
+        codes = columns.pop(CODE)
+        units = {name: about(name).unit for name in self.states.columns()}
         for population in self.states.populations:
             for name, values in population.columns().items():
                 columns[f"{population.name}: {name}"] = plain_data(values)
                 units[f"{population.name}: {name}"] = population.about(name).unit
-        columns[CODE] = self.states.status_code.tolist()
-        units[CODE] = ""
+        columns[CODE], units[CODE] = codes, ""
         return columns, units
 
-    def _states(self) -> Columns:
+    def _coded_states(self) -> Columns:
         columns = self.states.to_dict()
         columns["mode"] = [mode or None for mode in columns["mode"]]
-        return {"status": columns.pop("status"), **columns}
-
-    def _coded_states(self) -> Columns:
-        columns = self._states()
-        return {"status": columns.pop("status"), CODE: self.states.status_code.tolist(), **columns}
+        return {name: columns.pop(name) for name in ("status", CODE)} | columns
 
     def _bodies(self) -> dict[str, object]:
         """What forces do to their bodies; without forces the particles that a film's hold."""
@@ -266,7 +263,7 @@ class FilmResult(_Result):
     ----------
     study : Study
     states : dict of array
-        Every column of `MixedFilm`, one entry a speed, and the Hersey number.
+        Every column of `MixedFilm`, one entry a speed, the Hersey number, the code of the status.
     regime_speeds : RegimeSpeeds
         Speeds at which the regime changes.
     passing : tuple of Passing
@@ -315,7 +312,7 @@ class FilmResult(_Result):
         """Columns of the states, then what passes and what the oil brings, and their units."""
         columns: Columns = plain_data(self.states)
         units = {name: COLUMNS[name].unit if name in COLUMNS else "1" for name in columns}
-        units |= {"regime": "", "status": ""}
+        units |= {"regime": "", "status": "", CODE: ""}
         for passing in self.passing:
             columns[f"{passing.name}: passing"] = plain_data(passing.share)
             units[f"{passing.name}: passing"] = "1"

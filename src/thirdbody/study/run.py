@@ -11,7 +11,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.modes import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
-from ..errors import InvalidValue, Mistake, RangeWarning, ThirdBodyError, note_of
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, ThirdBodyError, note_of
 from ..systems.bodies import YIELD, yield_note
 from .load import press_forces
 from .results import Entrained, FilmResult, Passing, StudyResult
@@ -88,10 +88,13 @@ def run_film(study: Study) -> FilmResult:
         others = [name for name, table in questions.items() if table is not None]
         more = "".join(f"; thirdbody {name} answers this study" for name in others)
         raise InvalidValue(
-            "the study has no table [film]: it says what is lubricated, e.g. [film] "
-            'load = "20 N", speed = "0.5 m/s", conjunction = { shape = "point", R = "9.5 mm" }, '
-            f'oil = {{ eta = "20 mPa s", alpha = "20 / GPa" }}{more}',
-            code=Mistake.MISSING,
+            Problem(
+                "film",
+                'is missing: a table [film] says what is lubricated, e.g. load = "20 N", '
+                'speed = "0.5 m/s", conjunction = { shape = "point", R = "9.5 mm" }, '
+                f'oil = {{ eta = "20 mPa s", alpha = "20 / GPa" }}{more}',
+                code=Mistake.MISSING,
+            )
         )
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)

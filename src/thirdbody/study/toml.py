@@ -22,6 +22,13 @@ __all__ = ["heading_of", "override", "read", "setting_in_words", "value_of"]
 def read(path: Path) -> dict[str, object]:
     """The tables of a file; InvalidValue says why it cannot be read, with the line."""
     try:
+        return _read(path)
+    except InvalidValue as error:
+        raise error.name_source(path) from None
+
+
+def _read(path: Path) -> dict[str, object]:
+    try:
         content = read_bytes(path, "a study file")
         if problem := problem_of_other_file(path, content):
             raise InvalidValue(problem)
@@ -109,14 +116,14 @@ def override(data: dict[str, object], overrides: Iterable[str]) -> dict[str, obj
         path, equals, value = text.partition("=")
         keys = [key.strip() for key in path.split(".")]
         if not equals or not all(keys):
-            rule = f'--set {text!r} must be KEY=VALUE, e.g. --set roughness.sigma="80 nm"'
-            problems.append(Problem("", rule, code=Mistake.FORM))
+            rule = 'must be KEY=VALUE, e.g. --set roughness.sigma="80 nm"'
+            problems.append(Problem("--set", rule, repr(text), code=Mistake.FORM))
             continue
         try:
             _set(data, keys, value_of(value))
         except InvalidValue as error:
             problems += [
-                Problem("", f"--set {text}: {problem}", code=problem.code)
+                Problem("--set", f": {problem}", text, code=problem.code)
                 for problem in error.problems
             ]
     if problems:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
+from ..equilibrium.columns import CODE, MARKS
 from ..errors import RangeWarning, tell_of_range
 from ..quantities.carried import takes_units
 from ..quantities.record import Column
@@ -60,8 +61,8 @@ def stribeck(
     -------
     xarray.Dataset
         Every column of `MixedFilm` over ``speed``, each with ``symbol``, ``units`` and
-        ``long_name``; the Hersey number ηu/w' of the speeds is the coordinate ``hersey``
-        (ηuR/w for points) [1].
+        ``long_name``, and ``status_code``; the Hersey number ηu/w' of the speeds is the coordinate
+        ``hersey`` (ηuR/w for points) [1].
 
     Raises
     ------
@@ -94,7 +95,7 @@ def stribeck(
     hersey = Column("ηu/w", "1", "Hersey number")
     return xr.Dataset(
         {
-            name: ("speed", values, COLUMNS[name].labels)
+            name: ("speed", values, MARKS.get(name) or COLUMNS[name].labels)
             for name, values in columns.items()
             if name not in ("speed", "hersey")
         },
@@ -129,6 +130,7 @@ def stribeck_columns(
     if conjunction.shape == "point":
         hersey = hersey * conjunction.R
     columns = {k: v for k, v in state.columns().items() if k not in ("speed", "load")}
+    columns[CODE] = np.asarray(state.state.status_code)
     return {"speed": speeds, "hersey": hersey} | columns, state.warnings
 
 

@@ -60,6 +60,7 @@ MOST_ROWS = 100
 """States on the sheet of the answer."""
 MOST_LOADS = 6
 """Loads beside each other in the table of outputs."""
+CODED = {CODE: "number of the status, 0 where the state is solved"}
 
 
 # -------------------------------------------------------------------------- the answer
@@ -112,7 +113,7 @@ def film_sheets(
         contents += _some_rows(_with_column(curve, "regime", states["regime"].tolist()))
     contents.append(png_of(draw_film(result)))
     meanings = {name: COLUMNS[name].meaning for name in states if name in COLUMNS}
-    meanings |= {"hersey": "Hersey number", "largest": "largest particle dragged in"}
+    meanings |= {"hersey": "Hersey number", "largest": "largest particle dragged in", **CODED}
     for population in result.passing:
         meanings[f"{population.name}: passing"] = "share of its particles narrower than the gap"
         meanings[f"{population.name}: areal_density"] = "particles that enter, per area"
@@ -304,4 +305,4 @@ def _meanings_of_states(result: StudyResult) -> dict[str, str]:
             f"{population.name}: {name}": population.about(name).meaning
             for name in population.columns()
         }
-    return out | {CODE: "number of the status, 0 where the state is solved"}
+    return out | CODED

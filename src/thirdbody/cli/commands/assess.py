@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ...errors import InvalidValue, Mistake
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.tables import WordTable
 from ..options import AsJson, Force, KeepFile, Settings, argument, option, read_study
 from ..show import terminal
@@ -44,8 +44,11 @@ def command(options: Options) -> None:
 
     if options.keep is not None and not asks_for_bands(options.study, options.settings or ()):
         raise InvalidValue(
-            "--keep keeps the histories of [life.uncertainty], and the study has none",
-            code=Mistake.MISSING,
+            Problem(
+                "--keep",
+                "keeps the histories of [life.uncertainty], and the study has none",
+                code=Mistake.MISSING,
+            )
         )
 
     if asks_for_bands(options.study, options.settings or ()):
@@ -77,8 +80,8 @@ def _assess_life(options: Options) -> None:
     from ..interrupt import resumable
 
     if options.html is not None:
-        rule = "--html writes no page on [life.uncertainty]; thirdbody report writes one with it"
-        raise InvalidValue(rule, code=Mistake.MISSING)
+        rule = "writes no page on [life.uncertainty]; thirdbody report writes one with it"
+        raise InvalidValue(Problem("--html", rule, code=Mistake.MISSING))
     files = TableFiles(json=STDOUT if options.as_json else None)
     question = read_question(load_life, options.study, options.settings, files, force=options.force)
     with resumable("assess", options.keep):

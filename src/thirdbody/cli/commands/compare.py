@@ -14,6 +14,7 @@ from ...quantities.say import number, percent, signed_number, value_of
 from ...quantities.tables import Table
 from ..options import (
     Force,
+    JsonFile,
     ParquetFile,
     Settings,
     StudyFile,
@@ -22,8 +23,8 @@ from ..options import (
     option,
     read_study,
 )
-from ..show import terminal
-from ..streams import TableFiles, tell_written, warn, warn_of
+from ..show import ALL, terminal
+from ..streams import STDOUT, TableFiles, tell_written, warn, warn_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -67,6 +68,7 @@ class Options:
         "PLACE",
         default="middle",
     )
+    json: JsonFile = None
     out: Path | None = option("--out", "Write compare.csv, .png and .svg into a folder.", "DIR")
     csv: Path | None = option(
         "--csv", "Write a table, one row per law and load, e.g. a.csv.", "FILE"
@@ -85,15 +87,14 @@ def command(options: Options) -> None:
     problems: list[str] = []
     if options.at not in PLACES:
         problems.append(
-            Problem(
-                "", f"--at {options.at} must be one of {', '.join(PLACES)}", code=Mistake.OPTION
-            )
+            Problem("--at", f"must be one of {', '.join(PLACES)}", options.at, code=Mistake.OPTION)
         )
     problems += not_a_folder(options.out)
     if problems:
         raise InvalidValue(*problems)
-    files = TableFiles(options.csv, options.xlsx, options.parquet)
-    study = read_study(options.study, options.settings, writes=[*files, *_of_folder(options.out)])
+    files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
+    writes = [*files.paths, *_of_folder(options.out)]
+    study = read_study(options.study, options.settings, writes=writes)
     files.need(force=options.force)
     if not options.force:
         refuse_strangers(options.out, "compare.csv", "compare.png", "compare.svg")
@@ -112,9 +113,14 @@ def command(options: Options) -> None:
         from ...views.comparison import save
 
         written = save(comparison.dataset(), options.out, at=index, force=options.force)
-    files.write(*comparison.flat(), sheets=partial(_sheets, study, comparison, index))
+    files.write(
+        *comparison.flat(),
+        sheets=partial(_sheets, study, comparison, index),
+        data=lambda: {"title": study.title or "Study", **comparison.to_dict()},
+    )
     written += files.paths
-    _show_comparison(study.heading if study.settings else study.title, comparison, index)
+    if options.json != STDOUT:
+        _show_comparison(study.heading if study.settings else study.title, comparison, index)
     tell_written(*written)
 
 
@@ -215,8 +221,7 @@ def _show_comparison(title: str, comparison: Comparison, index: int) -> None:
     for sentence in _answer(comparison, index):
         console.print(sentence)
     heads, rows, notes = _table(comparison, index)
-    more = "--csv FILE has all of it"
-    shown = Table(heads, right=True, words=["law"], drop=DROP, more=more, legend=MEANS)
+    shown = Table(heads, right=True, words=["law"], drop=DROP, more=ALL, legend=MEANS)
     for row in rows:
         shown.add_row(*row)
     console.print(shown)

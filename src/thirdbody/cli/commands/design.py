@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...errors import InvalidValue, Mistake
+from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, join_words, number, percent, value_of
 from ...quantities.tables import Table, WordTable
@@ -91,7 +91,11 @@ def _choose_for_oil(options: Options) -> None:
 
     if options.figure is not None:
         raise InvalidValue(
-            "--figure draws the points of [design]; [life.design] has none", code=Mistake.MISSING
+            Problem(
+                "--figure",
+                "draws the points of [design]; [life.design] has none",
+                code=Mistake.MISSING,
+            )
         )
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     question = read_question(load_oil, options.study, options.settings, files, force=options.force)

@@ -110,9 +110,11 @@ def command(options: Options) -> None:
 def _check(maps: str, workers: int, out: Path | None) -> None:
     problems = not_a_folder(out)
     if maps not in MAPS:
-        problems.append(Problem("", f"--maps {maps} must be last or all", code=Mistake.OPTION))
+        problems.append(Problem("--maps", "must be last or all", maps, code=Mistake.OPTION))
     if workers < 1:
-        problems.append(Problem("", f"--workers {workers} must be at least 1", code=Mistake.RANGE))
+        problems.append(
+            Problem("--workers", "must be at least 1", str(workers), code=Mistake.RANGE)
+        )
     if problems:
         raise InvalidValue(*problems)
 

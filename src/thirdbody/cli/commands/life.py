@@ -85,7 +85,7 @@ def command(options: Options) -> None:
 
 def _tell_history(options: Options) -> None:
     """The history of the oil, or of the dry contact."""
-    from ...errors import InvalidValue, Mistake
+    from ...errors import InvalidValue, Mistake, Problem
     from ...populations.measured.cleanliness import read_iso4406
     from ...quantities.say import join_words
     from ...study.dirty_oil import read_filter
@@ -110,24 +110,36 @@ def _tell_history(options: Options) -> None:
     if isinstance(question, AskedDry):
         if options.flow_for is not None:
             raise InvalidValue(
-                "--flow-for sizes the filters of an oil; [life.dry] has none", code=Mistake.IDLE
+                Problem(
+                    "--flow-for",
+                    "sizes the filters of an oil; [life.dry] has none",
+                    code=Mistake.IDLE,
+                )
             )
         if fine is not None:
-            raise InvalidValue("--filter is of an oil; [life.dry] has none", code=Mistake.IDLE)
+            raise InvalidValue(
+                Problem("--filter", "is of an oil; [life.dry] has none", code=Mistake.IDLE)
+            )
     elif fine is not None and (question.rolling is None or not question.circuit.filters):
         lacks = _missing(options) if question.rolling is None else []
         lacks += [] if question.circuit.filters else ["[[life.filters]]"]
         raise InvalidValue(
-            f"--filter asks for dents with another filter; the study lacks {join_words(lacks)}",
-            code=Mistake.MISSING,
+            Problem(
+                "--filter",
+                f"asks for dents with another filter; the study lacks {join_words(lacks)}",
+                code=Mistake.MISSING,
+            )
         )
     bands = bool(question.uncertainty)
     contact = isinstance(question, AskedDry) or question.contact is not None
     if options.keep is not None and not (bands or contact):
         raise InvalidValue(
-            "--keep keeps many histories, or a long one with a contact; the study has neither "
-            "[life.uncertainty] nor [life.contact]: its history takes a moment",
-            code=Mistake.IDLE,
+            Problem(
+                "--keep",
+                "keeps many histories, or a long one with a contact; the study has neither "
+                "[life.uncertainty] nor [life.contact]: its history takes a moment",
+                code=Mistake.IDLE,
+            )
         )
     of = "histories" if bands else "steps"
     with nullcontext() if bands else heartbeat("life"), resumable("life", options.keep, of=of):
@@ -166,13 +178,13 @@ def _draw(history: Histories) -> Figure:
 
 def _tell_reports(options: Options, reports: Path) -> None:
     """What reports of the oil say of what enters it."""
-    from ...errors import InvalidValue, Mistake
+    from ...errors import InvalidValue, Mistake, Problem
     from ...study.run_life import load_circuit, reports_of
     from ...views.life_words import REPORT_HEADS, REPORT_MEANS, report_answer, report_rows
 
     if options.figure is not None:
         raise InvalidValue(
-            "--figure draws a history; with --reports there is none", code=Mistake.CLASH
+            Problem("--figure", "draws a history; with --reports there is none", code=Mistake.CLASH)
         )
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     question = read_question(

@@ -107,7 +107,10 @@ def command(
     if schema and target.name == SCHEMA:
         problems.append(
             Problem(
-                "", f"--out {target} is the name of the schema; choose another", code=Mistake.CLASH
+                "--out",
+                "is the name of the schema; choose another",
+                str(target),
+                code=Mistake.CLASH,
             )
         )
     text = ""

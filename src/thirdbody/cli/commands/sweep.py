@@ -132,12 +132,15 @@ def _need_files(
 def _table(data: xarray.Dataset) -> tuple[dict[str, list[object]], dict[str, str]]:
     """Columns of a folder and their units, a row a state."""
     from ...analysis.sweep.plan import CODES
+    from ...equilibrium.columns import CODE
     from ...equilibrium.modes import MODES
     from ...quantities.plain_data import plain_data
 
     frame = data.to_dataframe().reset_index()
     frame.insert(0, "row of the sweep", range(len(frame)))
     columns = {str(name): plain_data(column.to_numpy()) for name, column in frame.items()}
+    if "status" in columns:
+        columns[CODE] = columns["status"]
     for name, words in {"mode": (None, *MODES), "status": CODES["status"]}.items():
         if name in columns:
             columns[name] = [words[code] for code in columns[name]]
@@ -149,11 +152,13 @@ def _table(data: xarray.Dataset) -> tuple[dict[str, list[object]], dict[str, str
 
 def _sheets(data: xarray.Dataset, study: Path) -> list[Sheet]:
     """The answer, the states, what their columns are, and what the sweep warns of."""
+    from ...equilibrium.columns import MARKS
     from ...quantities.say import unit_of
     from ...views.workbook import Grid, Sheet, sheet_of_table
 
     columns, units = _table(data)
     abouts = {name: data[name].attrs for name in columns if name in data.variables}
+    abouts |= {name: MARKS[name] for name in columns if name in MARKS}
     meanings = [
         (name, unit_of(about.get("units", "")), about.get("long_name", ""))
         for name, about in abouts.items()
@@ -191,19 +196,19 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
     problems = []
     if format not in FORMATS:
         problems.append(
-            Problem(
-                "", f"--format {format} must be one of {', '.join(FORMATS)}", code=Mistake.OPTION
-            )
+            Problem("--format", f"must be one of {', '.join(FORMATS)}", format, code=Mistake.OPTION)
         )
     if workers < 1:
-        problems.append(Problem("", f"--workers {workers} must be at least 1", code=Mistake.RANGE))
+        problems.append(
+            Problem("--workers", "must be at least 1", str(workers), code=Mistake.RANGE)
+        )
     try:
         loaded_study = load_study(study, settings or ())
         if loaded_study.sweep is None:
             problems.append(
                 Problem(
-                    "",
-                    f"{study} has no table [sweep]: it says what is varied, e.g. "
+                    "sweep",
+                    "is missing: a table [sweep] says what is varied, e.g. "
                     '[sweep.vary] roughness.sigma = ["50 nm", "100 nm"]',
                     code=Mistake.MISSING,
                 )

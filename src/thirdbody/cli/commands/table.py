@@ -86,14 +86,14 @@ def _format(form: str | None, out: Path, units: str | None) -> tuple[str, list[s
     name = form or suffixes.get(out.suffix.lower(), "")
     if not name:
         rule = (
-            f"--out {out}: the suffix does not say which format; add --format "
+            ": the suffix does not say which format; add --format "
             f"{', '.join(FORMATS)}, or use one of {', '.join(suffixes)}"
         )
-        return name, [Problem("", rule, code=Mistake.MISSING)]
+        return name, [Problem("--out", rule, str(out), code=Mistake.MISSING)]
     if name not in FORMATS:
-        rule = f"--format {name} must be one of {', '.join(FORMATS)}"
-        return name, [Problem("", rule, code=Mistake.OPTION)]
+        rule = f"must be one of {', '.join(FORMATS)}"
+        return name, [Problem("--format", rule, name, code=Mistake.OPTION)]
     if units is not None and name not in ("abaqus", "avl"):
-        rule = f"--units {units} has no meaning for {name}, which is in SI units"
-        return name, [Problem("", rule, code=Mistake.IDLE)]
+        rule = f"has no meaning for {name}, which is in SI units"
+        return name, [Problem("--units", rule, units, code=Mistake.IDLE)]
     return name, []

@@ -53,7 +53,10 @@ def read(
         if str(source) == "example" and not path.exists():
             _told_already("example", "m", scale, steps)
             return _example()
-        return _from_file(path, scale, steps, channel)
+        try:
+            return _from_file(path, scale, steps, channel)
+        except InvalidValue as error:
+            raise error.name_source(path) from None
     if hasattr(source, "physical_sizes") and hasattr(source, "heights"):
         return _from_object(source, type(source).__name__, scale, steps)
     if hasattr(source, "step_x") and hasattr(source, "step_y") and hasattr(source, "data"):

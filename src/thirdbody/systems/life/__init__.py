@@ -48,4 +48,6 @@ def __getattr__(name: str) -> Any:
 
     if name in __all__:
         return import_module(f".{name}", __name__)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from ...quantities.nearest import no_attribute
+
+    raise no_attribute(__name__, name, __all__)
