@@ -325,7 +325,7 @@ def test_outputs_of_particles_that_sink_in_are_known_to_eight_digits(hardness, m
         ),
         outputs=(tb.outputs.Friction(tau_ss=4e8, tau_sa=2e8), tb.outputs.ThermalConductance()),
     )
-    loads = np.geomspace(1e-7, 1e-3, 5)
+    loads = np.geomspace(1e-7, 1e-3, 3)
     few = tb.solve(case, F_star=loads).outputs
     monkeypatch.setattr(particle_averages, "SIZE_NODES", 24)
     monkeypatch.setattr(particle_averages, "SPOT_NODES", (32, 28))
@@ -336,17 +336,21 @@ def test_outputs_of_particles_that_sink_in_are_known_to_eight_digits(hardness, m
 
 
 # ------------------------------------------------- seats so high that the gap is closed
-@pytest.mark.spread(4)
+FRICTION, DENTS = tb.outputs.Friction(tau_ss=4e8, tau_sa=2e8), tb.outputs.Dents()
+
+
+@pytest.mark.spread(2)
 @pytest.mark.parametrize(
-    ("hardness", "second", "sizes"),
+    ("hardness", "second", "sizes", "deep", "outputs"),
     [
-        (8e9, 5e9, tb.LogNormal(median=100e-9, gsd=1.4)),
-        (8e9, 5e9, tb.LogNormal(median=300e-9, gsd=2.0)),
-        (5e9, 6e9, tb.LogNormal(median=300e-9, gsd=1.4)),
-        (3e9, 2.9e9, tb.TruncatedGaussian(mean=3e-6, std=1e-6)),
+        (8e9, 5e9, tb.LogNormal(median=100e-9, gsd=1.4), "table", (FRICTION, DENTS)),
+        (3e9, 2.9e9, tb.TruncatedGaussian(mean=3e-6, std=1e-6), "table", (FRICTION, DENTS)),
+        (13.5e9, 4.2e9, tb.LogNormal(median=5e-9, gsd=2.3), "off", (FRICTION,)),
     ],
 )
-def test_outputs_in_closed_gaps_are_known_to_eight_digits(hardness, second, sizes, monkeypatch):
+def test_outputs_in_closed_gaps_are_known_to_eight_digits(
+    hardness, second, sizes, deep, outputs, monkeypatch
+):
     """Small particles are squeezed by many times their size: what changes there is split too."""
     from thirdbody.contact import particle_averages
 
@@ -356,14 +360,19 @@ def test_outputs_in_closed_gaps_are_known_to_eight_digits(hardness, second, size
         surfaces=tb.MaterialPair(steel, steel.replace(H=second)),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(material=debris, areal_density=1e9, diameter=sizes),
-        outputs=(tb.outputs.Friction(tau_ss=4e8, tau_sa=2e8), tb.outputs.Dents()),
+        particle_law=tb.particle.Series(deep=deep),
+        outputs=outputs,
     )
-    loads = [3e-5, 3e-3, 1e-2, 2e-2]
+    loads = [3e-5, 2e-2]
     few = tb.solve(case, F_star=loads).outputs
-    monkeypatch.setattr(particle_averages, "SIZE_NODES", 30)
-    monkeypatch.setattr(particle_averages, "SPOT_NODES", (42, 36))
+    monkeypatch.setattr(particle_averages, "SIZE_NODES", 16)
+    monkeypatch.setattr(particle_averages, "SPOT_NODES", (22, 19))
     many = tb.solve(case, F_star=loads).outputs
-    names = ("mu_sa", "mu_sa_roll", "mu_plough_1", "dent_depth_1", "dent_width_1", "dent_volume_1")
+    names = [
+        name
+        for name in ("mu_sa", "mu_sa_roll", "mu_plough_1", "dent_depth_1", "dent_volume_1")
+        if name in few
+    ]
     assert any(few[name][-1] != many[name][-1] for name in names)  # more nodes are used
     for name in names:
-        assert few[name] == pytest.approx(many[name], rel=1e-8), name
+        assert few[name] == pytest.approx(many[name], rel=1e-8, abs=0), name

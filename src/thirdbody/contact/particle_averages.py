@@ -288,8 +288,6 @@ class SizeAverage:
         weight: Array | float,
     ) -> ParticleSpots:
         """Spots of all particles in gaps (M, 1), each gap counted with its weight."""
-        if len(gap) and gap.min() < 0 and not isinstance(self.sizes, Monodisperse):
-            splits = [*splits, *CLOSED_SQUEEZES]
         x, delta, number = _drop_empty_nodes(*self.of_sizes(gap, rise, splits, SIZE_NODES))
         return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
 
@@ -517,11 +515,13 @@ class SeatAverage:
         """Negative gaps, dense near none, and where splits cross the bulk of the sizes.
 
         A squeeze above 1 is one of sizes in proportion to the gap: sums over sizes then change
-        as fast as these lie close together, however wide the seat is.
+        as fast as these lie close together, however wide the seat is. Panels halve towards none
+        from as wide as elsewhere to the size of the particles.
         """
         low, high = self.average.sizes.ppf(np.array([1e-9, 1 - 1e-9]))
         pieces = [x for x in self.average.sizes.pieces if low <= x <= high]
-        near = -SPOT_WIDTHS * self.width * 0.5 ** np.arange(CLOSED)
+        widest = SPOT_WIDTHS * self.width
+        near = -widest * 0.5 ** np.arange(max(1.0, math.log2(widest)))
         return np.concatenate([near, *(np.multiply(pieces, 1 - eps) for eps in splits if eps > 1)])
 
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
@@ -547,8 +547,4 @@ SEAT_NODES = (14, 10)
 SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.6, 10
 """The same for spots, whose sums need 1e-9 of the load; width of their panels over that of the seat
 under particles of one size, and over that of seat and sizes together; nodes of sizes."""
-CLOSED = 2
-"""Panels over gaps that are closed halve so often towards none, from as wide as elsewhere."""
-CLOSED_SQUEEZES = (1.25, 2.0, 5.0, 17.0)
-"""Squeezes of sizes in closed gaps between which what they do is smooth: x = −g/(ε − 1)."""
 WIDEST = 1e5

@@ -505,7 +505,7 @@ class Dents(AbstractOutput):
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
-        """Squeezes at which a dent begins, is half the radius deep and the thickness; of discs."""
+        """Squeezes where a dent begins, its cap ends, it is half its radius or its thickness deep."""
         from scipy.optimize import brentq
 
         def depth_beyond(log_eps: float, side: int, share: float) -> float:
@@ -526,7 +526,7 @@ class Dents(AbstractOutput):
         return [*squeezes, *DISCS] if self.debris == "ductile" else squeezes
 
     def _kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """In which surfaces there are dents, as a number, whether squashed particles or not."""
+        """Which surfaces have dents, of what form: a number, whether squashed particles or not."""
         assert spots.material is not None
         kinds = np.zeros(spots.x.shape, dtype=np.intp)
         for side in (0, 1):
@@ -538,7 +538,8 @@ class Dents(AbstractOutput):
                     debris=self.debris,
                     squashed=squashed,
                 )
-                kinds = 2 * kinds + (dent.diameter > 0)
+                shaft = 2 * dent.depth > dent.diameter  # below its cap
+                kinds = 4 * kinds + 2 * (dent.diameter > 0) + shaft
         return kinds
 
 
