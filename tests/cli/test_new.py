@@ -37,18 +37,22 @@ def empty_folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "kind", [pytest.param(kind, marks=pytest.mark.spread(3)) for kind in KINDS]
+    "kind",
+    [
+        pytest.param(kind, marks=pytest.mark.slow)
+        if kind in ("linear-guide", "gear")
+        else pytest.param(kind, marks=pytest.mark.spread(3))
+        for kind in KINDS
+    ],
 )
 def test_every_kind_runs_at_once(kind, empty_folder):
-    """That those that take seconds are solved is left to tests/cli/test_every_way.py."""
+    """That each is solved, tests/cli/test_every_way.py holds as well."""
     made = run("new", kind)
     assert made.exit_code == 0
     assert made.stdout == f"thirdbody {FIRST.get(kind, 'solve')} {kind}.toml\n"
     assert [path.name for path in empty_folder.iterdir()] == [f"{kind}.toml"]
     text = Path(f"{kind}.toml").read_text("utf-8")
     assert max(map(len, text.splitlines())) <= 80
-    if kind in ("linear-guide", "gear"):
-        return
     answered = run(FIRST.get(kind, "solve"), f"{kind}.toml", "--json")
     assert answered.exit_code == 0
     assert json.loads(answered.stdout)

@@ -458,7 +458,7 @@ def contact_at_random(rng):
 def test_contacts_at_random_hold_to_tables(seed, dear):
     """Crowded, soft, wide, of any bandwidth: what the engine says it knows it knows.
 
-    Of a dear one it knows nothing; the other one is as crowded as those that are kept.
+    Dear ones are left out: their tables take seconds, and of the first the engine knows nothing.
     """
     rng, states_known, of = np.random.default_rng(seed), 0, 0
     for index in range(8):

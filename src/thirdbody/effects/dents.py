@@ -505,7 +505,7 @@ class Dents(AbstractOutput):
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
-        """Squeezes where a dent begins, its cap ends, it is half its radius or its thickness deep."""
+        """Squeezes where a dent begins, its cap ends, or it is half its radius deep, or all."""
         from scipy.optimize import brentq
 
         def depth_beyond(log_eps: float, side: int, share: float) -> float:
