@@ -505,7 +505,7 @@ class Dents(AbstractOutput):
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
-        """Squeezes where a dent begins, its cap ends, or it is half its radius deep, or all."""
+        """Squeezes where a dent begins, its cap ends, it is half the radius or the size deep."""
         from scipy.optimize import brentq
 
         def depth_beyond(log_eps: float, side: int, share: float) -> float:
