@@ -40,6 +40,20 @@ os.fsync = lambda file: os.fstat(file) and None
 os.environ.pop("COLUMNS", None)
 os.unsetenv("COLUMNS")  # readline sets it past Python's record of the environment
 
+# areas and loads in SI units lie far below the absolute margin of 1e-12 that pytest adds unasked:
+# with it, any two of them are equal
+approximately = pytest.approx
+
+
+def approx(expected, rel=None, abs=None, nan_ok=False):
+    """As pytest has it, but within a relative margin alone where no absolute one is asked for."""
+    if abs is None:
+        rel, abs = 1e-6 if rel is None else rel, 0.0
+    return approximately(expected, rel=rel, abs=abs, nan_ok=nan_ok)
+
+
+pytest.approx = approx
+
 # the tree of commands is built once, not again by every test that runs one of them
 typer.testing._get_command = functools.cache(typer.testing._get_command)
 
