@@ -90,13 +90,12 @@ class Dents(AbstractOutput):
     Notes
     -----
     These are the dents of one placement of the particles; every fresh set of particles adds its own
-    (`thirdbody.effects.single.dent.dents_after`). Numbers, percentiles and the largest of whole
-    particles and of brittle ones are within 1e-6 of their exact values, but for soft particles of
-    one size, whose number can be 0.7 % off: no class of squeeze ends where a dent begins; means
-    of whole particles within 1e-7, of ductile ones within 1e-4, of fragments within 3e-3. Means and
-    volumes with ``shallowest``, or of fragments that only rare seats press, count classes as a
-    whole: within a few percent, and not known where such dents are rare. Percentiles and the
-    largest of particles with a strength are read from counts of classes, within a few percent.
+    (`thirdbody.effects.single.dent.dents_after`). Numbers of whole particles are exact to 1e-8,
+    their means and volumes to 1e-7, percentiles and the largest to 1e-6, as are those and the
+    numbers of brittle ones; means of ductile ones to 1e-4, of fragments to 3e-3. Means and volumes
+    with ``shallowest``, or of fragments that only rare seats press, count classes as a whole: to
+    some percent, and not known where such dents are rare. Percentiles and the largest of particles
+    with a strength are read from counts of classes, to some percent.
     Depths are at full load with a gap that does not give
     way, the recovery fit is one for spheres (from memory, see
     `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the radius of the
@@ -302,7 +301,8 @@ class Dents(AbstractOutput):
             return Values(spots, values)
         plain = self if self.shallowest == 0 else self.replace(shallowest=0.0)
         pair = MaterialPair(_solid(contact.surfaces.first), _solid(contact.surfaces.second))
-        who = (side, contact.law_of(population), pair, _solid(population.material))
+        same = 0 if pair.first == pair.second else side  # dents in both are alike
+        who = (same, contact.law_of(population), pair, _solid(population.material))
         curve, least = _curve(plain, name, *who), None
         if self.shallowest > 0 and name != "depth":
             depth = _curve(plain, "depth", *who)
