@@ -198,7 +198,7 @@ MISTAKES = [
 def test_mistakes_get_one_sentence_and_nothing_is_written(key, code, place):
     before = sorted(Path().iterdir())
     files = ("--csv", "a.csv", "--figure", "a.png")
-    assert refused("life", "dry-contact.toml", "--set", key, *files).mistakes[0] == (code, place)
+    assert (code, place) in refused("life", "dry-contact.toml", "--set", key, *files).mistakes
     assert sorted(Path().iterdir()) == before
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, Problem, WrongKind
 from ..populations.materials import Material
 from ..populations.measured import cleanliness
 from ..quantities.units import Quantity, say
@@ -251,6 +251,8 @@ def dirts_of(
         try:
             out.append((_ingress_from if ingress else _dirt_from)(values, kind))
         except InvalidValue as error:
+            if isinstance(error, WrongKind) and error.code is Mistake.MISSING:
+                raise InvalidValue(Problem(path, _misfit(entry), code=Mistake.CLASH)) from None
             raise error.move_under(path) from None
         except TypeError:
             raise InvalidValue(Problem(path, _misfit(entry), code=Mistake.CLASH)) from None
