@@ -18,15 +18,16 @@ def pytest_collection_modifyitems(items):
             item.add_marker(pytest.mark.flaky(reruns=2, only_rerun=[LATE]))
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def server():
-    """A server of the page on a free port, one for all tests that do not end it; and its address."""
+    """A server of the page on a free port, of one module: what others left undone keeps none of
+    its tests waiting; and its address."""
     process, address = served()
     yield process, address
     ended(process)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def address(server):
     return server[1]
 

@@ -105,20 +105,28 @@ def pdf_of(page: str) -> bytes:
         said = done.stderr.decode("utf-8", "replace").strip().splitlines()
         why = said[-1][:200] if said else f"exit status {done.returncode}"
         raise InvalidValue(f"{browser} made no PDF: {why}", code=Mistake.UNWRITABLE)
-    return _without_date(held)
+    return _without_chance(held)
 
 
-def _without_date(pdf: bytes) -> bytes:
-    """A PDF that says thirdbody made it, and no time; no byte moves, as places in it are counted.
+def _without_chance(pdf: bytes) -> bytes:
+    """A PDF that says thirdbody made it, and no time; its nodes are numbered as they follow.
 
-    >>> _without_date(b"/Creator (A browser and its version)/ModDate (D:20260102030405+01'00')")
+    A browser counts nodes on from those that it made while it read the page, which differ with
+    what else the machine does. No byte moves, as places in the file are counted.
+
+    >>> _without_chance(b"/Creator (A browser and its version)/ModDate (D:20260102030405+01'00')")
     b"/Creator (thirdbody 0.1.0)          /ModDate (D:19800101000000+00'00')"
+    >>> _without_chance(b"/ID (node00000048) /ID (node00000050) /Headers [(node00000048)]")
+    b'/ID (node00000001) /ID (node00000002) /Headers [(node00000001)]'
     """
     held = re.sub(
         rb"/(CreationDate|ModDate) \(D:\d{14}[+-]\d\d'\d\d'\)",
         rb"/\1 (D:19800101000000+00'00')",
         pdf,
     )
+    nodes = sorted(set(re.findall(rb"\(node(\d{8})\)", held)))
+    numbers = {node: b"%08d" % number for number, node in enumerate(nodes, start=1)}
+    held = re.sub(rb"\(node(\d{8})\)", lambda match: b"(node%b)" % numbers[match[1]], held)
     ours = f"/Creator (thirdbody {__version__})".encode()
 
     def creator(match: re.Match[bytes]) -> bytes:
