@@ -290,6 +290,16 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
         assert re.search(r"\d+ ms", fact(page, "time"))
 
 
+def begin_and_cancel(page, task):
+    """Cancel a task as soon as there is something to cancel."""
+    page.locator(f'[data-work="{task}"]').click()
+    cancel = page.locator(f'[data-cancel="{task}"]')
+    cancel.wait_for()
+    # sent at once: a click as a user's waits until the button rests, and all may be done by then
+    cancel.dispatch_event("click")
+    page.get_by_text("cancelled", exact=True).wait_for()
+
+
 def test_the_map_can_be_cancelled_and_a_click_goes_there(visit):
     page = visit()
     before = fact(page, "load")
@@ -302,10 +312,7 @@ def test_the_map_can_be_cancelled_and_a_click_goes_there(visit):
     sizes = drawn(page, "map")[0]["x"]
     moved(page, "roughness.sigma", 3)  # another map, of itself
     when(page, "old => document.querySelector('[data-figure=map]').data[0].x[9] !== old", sizes[9])
-    page.locator('[data-work="map"]').click()
-    # sent at once: a click as a user's waits until the button rests, and the map may be done by then
-    page.locator('[data-cancel="map"]').dispatch_event("click")
-    page.get_by_text("cancelled", exact=True).wait_for()
+    begin_and_cancel(page, "map")
     page.locator('[data-work="map"]').click()
     when(page, whole)
     stale.wait_for(state="hidden")
@@ -406,9 +413,7 @@ def outputs_are_drawn(page):
 
 def a_surface_is_pressed(page):
     drawn(page, "explicit section")  # without a click
-    page.locator('[data-work="explicit"]').click()
-    page.locator('[data-cancel="explicit"]').dispatch_event("click")
-    page.get_by_text("cancelled", exact=True).wait_for()
+    begin_and_cancel(page, "explicit")
     page.locator('[data-work="explicit"]').click()
     page.locator('[data-fact="explicit headline"]', has_text="128").wait_for()
     found = one_surface(check(STUDY), state_of(STUDY).F_star)
