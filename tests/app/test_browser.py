@@ -505,12 +505,23 @@ def test_a_film_is_that_of_the_library_and_moves(visit):
         there.get_by_text(f"{float(curve.mu[i]):.4g}", exact=True).wait_for()
 
 
+VALUE = """([path, value]) =>
+  document.querySelector(`[data-path="${path}"] input`)?.value === value"""
+
+
 def test_a_film_is_added_changed_and_removed(visit):
     page = visit()
     tab(page, "Film")
     page.locator('[data-path="film.add"]').click()
-    drawn(page, "film shares")
     field = page.locator('[data-path="film.oil.eta"]')
+    # the entries stay while the answer comes, and while a number is written and taken away
+    first = field.element_handle()
+    slip, friction = page.locator('[data-path="film.slide_roll"]'), "film: of it asperities"
+    slip.fill("0.2")
+    page.locator(f'[data-fact="{friction}"]').wait_for()
+    slip.fill("")
+    page.locator(f'[data-fact="{friction}"]').wait_for(state="detached")
+    assert first.evaluate("field => field.isConnected")
     field.fill("20 mPa")
     entry = page.locator(".q-field", has=field)
     entry.get_by_text("is a pressure, but a viscosity").wait_for()
@@ -522,6 +533,13 @@ def test_a_film_is_added_changed_and_removed(visit):
         arg=before,
     )
     assert not page.locator('[data-said="page"]').inner_text()
+    menu = page.locator('[data-path="film.hertz"]')
+    page.locator(".q-expansion-item", has=menu).locator(".q-item").first.click()
+    menu.click()
+    page.get_by_role("option", name="maximum", exact=True).click()
+    when(page, VALUE, arg=["film.hertz", "maximum"])
+    page.locator('[data-path="undo"]').click()
+    when(page, VALUE, arg=["film.hertz", "mean (when left out)"])
     page.locator('[data-path="film.remove"]').click()
     page.locator('[data-path="film.add"]').wait_for()
 

@@ -58,7 +58,11 @@ def dotted_name(path: Iterable[str | int]) -> str:
 
 
 class Entry(NamedTuple):
-    """A widget of one entry; ``read`` gives what is meant by its text, None for a menu."""
+    """A widget of one entry; ``read`` gives what is meant by its text.
+
+    It is None for a menu on whose choice depends which other entries there are: these are made
+    anew together.
+    """
 
     widget: Any
     read: Callable[[str], object] | None = None
@@ -191,16 +195,27 @@ class Entries:
             elif place is not None:
                 self.state.set(*place, event.value or None)
 
-        if not isinstance(now, str):
-            now = text_of(now)  # a mistake, which stands there as it is written
-        choices = options if now in options else {now: now, **options}
-        menu = ui.select(choices, value=now, label=label, on_change=set_choice)
+        def show_word(value: object) -> str:
+            word = word_of(value)
+            menu.set_options(with_word(word), value=word)
+            return word
+
+        def word_of(value: object) -> str:
+            return value if isinstance(value, str) else text_of(value)
+
+        def with_word(word: str) -> dict[str, str]:
+            """The options, and a mistake, which stands there as it is written."""
+            return options if word in options else {word: word, **options}
+
+        word = word_of(now)
+        menu = ui.select(with_word(word), value=word, label=label, on_change=set_choice)
         set_attributes(
             menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)}
         )
         if place is not None:
             set_attributes(menu, {"data-path": dotted_name(place)})
-            self.shown[dotted_name(place)] = Entry(menu)
+            own = Entry(menu) if then else Entry(menu, lambda word: word or None, show_word)
+            self.shown[dotted_name(place)] = own
         return menu
 
     def change(self, *path_and_value: object) -> None:

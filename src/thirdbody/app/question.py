@@ -68,8 +68,8 @@ class QuestionTab:
     def __init__(self, state: State, question: Question) -> None:
         self.state, self.question, self.tab = state, question, state.tab
         self.inputs = Inputs(state, self._refresh_form)
-        self.there: bool | None = None
-        """Whether there were entries."""
+        self.has_entries = False
+        """Whether the form has entries, or a button that makes them."""
         self.answer: Answer | None = None
         name = question.table
         self.words = ui.column().classes("w-full gap-1 headline-place")
@@ -86,6 +86,9 @@ class QuestionTab:
             with ui.column().classes("w-full entries"):
                 self._form()
 
+    def _is_asked(self) -> bool:
+        return isinstance(self.state.get(self.question.table), dict)
+
     def _refresh_form(self) -> None:
         self._form.refresh()
 
@@ -93,8 +96,10 @@ class QuestionTab:
     def _form(self) -> None:
         self.inputs.shown.clear()
         question, name = self.question, self.question.table
+        self.has_entries = self._is_asked()
+        self.grid.classes(**{"remove" if self.has_entries else "add": "alone"})
         with ui.column().classes("w-full gap-2 narrow"):
-            if not isinstance(self.state.get(name), dict):
+            if not self.has_entries:
                 values = ", ".join(f"{key} {value}" for key, value in question.start.items())
                 ui.label(as_shown(f"Shown for {values}.")).classes("hint")
                 change = ui.button("Change these", icon="edit", on_click=self._start_question)
@@ -115,10 +120,7 @@ class QuestionTab:
 
     async def draw(self) -> None:
         """The answer of the study as it is now."""
-        there = isinstance(self.state.get(self.question.table), dict)
-        if there != self.there:
-            self.there = there
-            self.grid.classes(**{"remove" if there else "add": "alone"})
+        if self._is_asked() != self.has_entries:  # undone, or another study
             self._refresh_form()
         self.inputs.show_mistakes()
         answer = self.state.answer

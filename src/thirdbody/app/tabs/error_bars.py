@@ -266,7 +266,7 @@ class ErrorBars:
             "Without any entry the ranges of the materials library count, where it states some."
         ).classes("hint")
         self.inputs = Inputs(state, self._refresh_entries)
-        self.shown_inputs = self._inputs_and_ranges()
+        self.shown_inputs: object = None
         """What the entries show."""
         self._entries()
 
@@ -276,6 +276,7 @@ class ErrorBars:
     @ui.refreshable_method
     def _entries(self) -> None:
         inputs = self.inputs
+        self.shown_inputs = self._inputs_and_ranges()
         inputs.shown.clear()
         with ui.column().classes("w-full gap-2"):
             inputs.uncertain()
@@ -333,7 +334,6 @@ class ErrorBars:
 
     async def draw(self) -> None:
         if self._inputs_and_ranges() != self.shown_inputs:
-            self.shown_inputs = self._inputs_and_ranges()
             self._refresh_entries()
         self.inputs.show_mistakes()
         options, of = results_of(self.state), self.of

@@ -160,8 +160,8 @@ class Film:
         """What was found for the answer."""
         self.i = 0
         """The speed that is shown."""
-        self.there: object = None
-        """Which entries there are."""
+        self.shown_entries: object = None
+        """What decides which entries the form has."""
         self.plots: dict[str, Plot] = {}
         self.spoken: tuple[FilmResult, list[str]] | None = None
         """What the sentences are of."""
@@ -186,6 +186,7 @@ class Film:
 
     @ui.refreshable_method
     def _form(self) -> None:
+        self.shown_entries = _kind_of_entries(self.state)
         self.inputs.shown.clear()
         with ui.column().classes("w-full gap-2 narrow"):
             _entries(self.inputs, self.state)
@@ -224,9 +225,7 @@ class Film:
             self.soon()
 
     async def draw(self) -> None:
-        shape = _shape(self.state.get("film"))
-        if shape != self.there:
-            self.there = shape
+        if _kind_of_entries(self.state) != self.shown_entries:  # undone, or another study
             self._refresh_form()
         has_entries = isinstance(self.state.get("film"), dict)
         self.grid.classes(**{"remove" if has_entries else "add": "alone"})
@@ -317,23 +316,48 @@ class Film:
             await self._show_answer(self.answer, self.result)
 
 
-def _entries(inputs: Inputs, state: State) -> None:
-    """The table [film], entry by entry."""
+class _Kind(NamedTuple):
+    """Which entries the table [film] needs; none of it changes while a number is typed."""
+
+    own_bodies: str | None
+    """The shape of bodies that the film has for itself; None for those at the side."""
+    own_speed: bool
+    speed_range: bool
+    entrainment: bool
+
+
+def _kind_of_entries(state: State) -> _Kind | None:
+    """Which entries there are, None where there is no film."""
     table = state.get("film")
     if not isinstance(table, dict):
+        return None
+    bodies = table.get("conjunction")
+    shape = str(bodies.get("shape")) if isinstance(bodies, dict) else "point"
+    return _Kind(
+        own_bodies=shape if bodies is not None or state.get("body") is None else None,
+        own_speed="speed" in table or state.get("body", "shaft_speed") is None,
+        speed_range=isinstance(table.get("speed"), dict),
+        entrainment=isinstance(table.get("entrainment"), dict),
+    )
+
+
+def _entries(inputs: Inputs, state: State) -> None:
+    """The table [film], entry by entry."""
+    kind = _kind_of_entries(state)
+    if kind is None:
         ui.label(BEGUN).classes("hint")
         ui.button("Add a film", icon="add", on_click=lambda: inputs.change("film", START)).props(
             'no-caps data-path="film.add"'
         )
         return
     fields = {field.name: field for field in fields_of(FilmConditions)}
-    if state.get("body") is None or "conjunction" in table:
+    if kind.own_bodies is not None:
         inputs.field(("film",), fields["load"])
-        _bodies(inputs, table)
+        _bodies(inputs, kind.own_bodies)
     else:
         ui.label("Bodies and load are those at the side.").classes("hint")
-    if "speed" in table or state.get("body", "shaft_speed") is None:
-        _speed(inputs, table.get("speed"))
+    if kind.own_speed:
+        _speed(inputs, kind.speed_range)
     inputs.field(("film",), fields["slide_roll"])
     ui.label("oil").classes("subhead")
     for field in fields_of(OilProperties):
@@ -341,7 +365,7 @@ def _entries(inputs: Inputs, state: State) -> None:
     with ui.expansion("more").classes("w-full"), ui.column().classes("w-full gap-2"):
         for name in ("hertz", "few", "most"):
             inputs.field(("film",), fields[name])
-        if isinstance(table.get("entrainment"), dict):
+        if kind.entrainment:
             for field in fields_of(Entrainment):
                 inputs.field(("film", "entrainment"), field)
         else:
@@ -353,11 +377,9 @@ def _entries(inputs: Inputs, state: State) -> None:
     )
 
 
-def _bodies(inputs: Inputs, table: dict[str, object]) -> None:
+def _bodies(inputs: Inputs, shape: str) -> None:
     """The bodies of a film that has its own."""
     ui.label("bodies").classes("subhead")
-    bodies = table.get("conjunction")
-    shape = str(bodies.get("shape")) if isinstance(bodies, dict) else "point"
     words = {"point": "point: a ball, a crowned roller", "line": "line: a roller, a gear tooth"}
     inputs.select(
         ("film", "conjunction", "shape"),
@@ -370,9 +392,9 @@ def _bodies(inputs: Inputs, table: dict[str, object]) -> None:
         inputs.field(("film", "conjunction"), field)
 
 
-def _speed(inputs: Inputs, now: object) -> None:
+def _speed(inputs: Inputs, is_range: bool) -> None:
     """One speed, or a range."""
-    if not isinstance(now, dict):
+    if not is_range:
         said = "one value with its unit, or several with commas between"
         inputs.field(("film",), Field(name="speed", kind="text", label="speed u [m/s]", about=said))
         ui.button("A range", on_click=lambda: inputs.change("film", "speed", RANGE)).props(
@@ -392,10 +414,3 @@ def _remove_film(inputs: Inputs, state: State) -> None:
         pressure = engineering(float(answer.study.values[0]), "Pa")
         state.replace({**state.study, "load": {"pressure": pressure}})
     inputs.change("film", None)
-
-
-def _shape(table: object) -> object:
-    """Which entries there are: the keys, without the numbers."""
-    if not isinstance(table, dict):
-        return table is None
-    return {key: sorted(value) if isinstance(value, dict) else "" for key, value in table.items()}
