@@ -115,8 +115,9 @@ COARSE, FINE, LEVELS = 0, 1, 2
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 NOTHING = -1
 """In place of a level: nothing is laid."""
-ASKED = 1e-10
-"""Error of loads, areas and the separation that is asked for."""
+ASKED, ENOUGH = 1e-10, 5e-10
+"""Error of loads, areas and the separation that is asked for, and with which a state is solved
+where the finest nodes do not reach that, or there is no room for finer ones."""
 ROUNDED, SAFE = 2e-14, 10.0
 """What rounding leaves of a part; the error of a rule of twice the nodes is so many squares of its
 difference to the other."""
@@ -571,7 +572,7 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
                 lay(given, skin, work, laid, own, few)
                 and lay(given, skin, work, laid, own, few + 1)
             ):
-                return h, count, TOO_LONG, math.inf
+                return h, count, OK if error <= ENOUGH else TOO_LONG, error
             ready[0] = level
         if target > 0:
             h, slope, n, fate = _root(given, skin, work, laid, own, target, row, out)
@@ -586,9 +587,7 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
         error = estimate(given, skin, work, laid, own, h, slope, row, out)
         if error <= ASKED:
             break
-    if not error <= ASKED:
-        return h, count, NOT_RESOLVED, error
-    return h, count, OK, error
+    return h, count, OK if error <= ENOUGH else NOT_RESOLVED, error
 
 
 @Cached
