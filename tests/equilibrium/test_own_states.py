@@ -112,7 +112,7 @@ def hold(case: tb.Contact, count: int, seed: int, unlike: bool = False) -> None:
     known = sure & np.isfinite(want["d"])
     assert np.array_equal(sure, known)
     assert max(largest_error(got, want, known).values()) <= BOUND
-    assert np.all(got["error"][sure] <= 1e-10)
+    assert np.all(got["error"][sure] <= BOUND / 2)
     assert np.all(got["residual"][sure] <= 1e-11)
     for i in np.flatnonzero(known):  # the slow path has some 1e-12 of its own
         one = np.arange(count) == i
@@ -314,7 +314,7 @@ def hold_breaking(kind, count, unlike, seed):
     sure = (got["doubt"] == "") & (got["status"] == 0)
     assert sure.mean() > 0.8
     assert max(largest_error(got, want, sure).values()) <= BOUND
-    assert np.all(got["error"][sure] <= 1e-10)
+    assert np.all(got["error"][sure] <= BOUND / 2)
 
 
 def test_particles_that_break_hold_to_the_slow_path():
@@ -404,6 +404,28 @@ def test_wide_sizes_on_a_rough_seat(median, gsd):
     sure = got["doubt"] == ""
     assert sure.all()
     assert max(largest_error(got, want, sure).values()) <= BOUND
+
+
+def test_dust_much_thicker_than_the_roughness_stays_with_the_engine():
+    """Few large grains carry: finer nodes have no room, and the first ones are good to 2e-10."""
+    bronze, count = tb.materials["CuSn8"], 3
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(bronze, bronze),
+        roughness=tb.Roughness(sigma=300e-9, R=10e-6),
+        particles=tb.Particles(
+            material=tb.materials["quartz"],
+            diameter=tb.LogNormal(median=8e-6, gsd=1.5),
+            areal_density=1e5,
+        ),
+    )
+    vary = {"surfaces.first.E": bronze.E * np.linspace(0.95, 1.05, count)}
+    loads = np.full(count, 1e-8)
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    assert np.all(got["doubt"] == "")
+    assert np.any(got["error"] > 1e-10)
+    for i in range(count):
+        one = np.arange(count) == i
+        assert max(largest_error(got, want, one).values()) <= got["error"][i] + ROUNDED
 
 
 def test_the_largest_of_log_normal_sizes_are_seen_where_they_end():
