@@ -214,8 +214,8 @@ class Entries:
         )
         if place is not None:
             set_attributes(menu, {"data-path": dotted_name(place)})
-            own = Entry(menu) if then else Entry(menu, lambda word: word or None, show_word)
-            self.shown[dotted_name(place)] = own
+            entry = Entry(menu) if then else Entry(menu, lambda word: word or None, show_word)
+            self.shown[dotted_name(place)] = entry
         return menu
 
     def change(self, *path_and_value: object) -> None:
