@@ -21,7 +21,7 @@ contact = tb.Contact(
     ),
 )
 F_star, n = np.geomspace(1e-7, 1e-4, 500), 500
-vary = {"roughness.sigma": np.linspace(8e-8, 1.2e-7, n), "particles.material.H": np.linspace(5.5e9, 9e9, n)}
+vary = {"roughness.sigma": np.linspace(8e-8, 1.2e-7, n), "particles.diameter.mean": np.linspace(2.8e-7, 3.2e-7, n)}
 states = tb.equilibria.solve_states(contact, F_star=F_star, vary=vary)
 assert set(states["engine"].values) == {"compiled"}
 for name in ("d", "F_ss_star", "F_sa_star", "A_t", "A_sa2"):
