@@ -395,7 +395,8 @@ class Friction(AbstractOutput):
 
     def _motion(self, spots: ParticleSpots) -> Motion:
         acting = self.indents(spots)
-        deform = [self._plough_by(spots, side) for side in (0, 1)]
+        deform = [self._plough_by(spots, 0)]
+        deform.append(deform[0] if spots.has_alike_sides else self._plough_by(spots, 1))
         one, two = (mu * acts for mu, acts in zip(deform, acting, strict=True))
         resistance = 0.5 * (deform[0] + deform[1])
         shear = [

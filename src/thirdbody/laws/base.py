@@ -19,7 +19,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, get_args
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from ..quantities.carried import takes_units
 from ..quantities.named import Named
 from ..quantities.say import value_of
 from ..quantities.value import choice, quantity
-from .spots import ParticleSpots
+from .spots import ParticleSpots, of_both_sides
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Number = float | Array
+    Kept = TypeVar("Kept", bound=np.generic)
 
 __all__ = [
     "COLUMNS",
@@ -366,6 +367,8 @@ class OneParticle(ABC):
     knows_sink : (bool, bool), optional
         Whether the law says of each side how deep the particle sinks into the surface, and how
         much of the indentation is its own squash.
+    equal : bool, optional
+        Whether both sides are alike in everything.
     """
 
     kinks: Sequence[float] | Array
@@ -376,6 +379,7 @@ class OneParticle(ABC):
     hardness: tuple[float, float]
     shape: Angular | None = None
     knows_sink: tuple[bool, bool] = (False, False)
+    equal: bool = False
 
     @abstractmethod
     @takes_units
@@ -422,32 +426,50 @@ class OneParticle(ABC):
     @takes_units
     def spots(self, x: Array, delta: Array, *, share: Array | None, number: Array) -> ParticleSpots:
         """Particles of sizes x squeezed by δ (M, n), so many of each."""
-        eps = np.divide(delta, x, out=np.zeros_like(x), where=x > 0).ravel()
+        eps = np.divide(delta, x, out=np.zeros_like(x), where=x > 0)
+        first, place = _without_repeats(number, x.shape)
+        eps = eps[first]
         unit_state = self.at(eps)
-        one, two = (x * depth.reshape(x.shape) for depth in unit_state.depths)
-        first, second = (
-            x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in unit_state.areas
-        )
-        sinks = (one, two)
+
+        def of_each(values: NDArray[Kept]) -> NDArray[Kept]:
+            return values[place]
+
+        depths = of_both_sides(unit_state.depths, lambda depth: x * of_each(depth))
+        sinks = depths
         if any(self.knows_sink):
-            first_sink, second_sink = self.sinks(unit_state.depths)
-            sinks = (x * first_sink.reshape(x.shape), x * second_sink.reshape(x.shape))
-        regimes = [self.regime(i, unit_state.depths[i]).reshape(x.shape) for i in (0, 1)]
+            sinks = of_both_sides(self.sinks(unit_state.depths), lambda sink: x * of_each(sink))
+        one, two = unit_state.depths
+        regime = of_each(self.regime(0, one))
         return ParticleSpots(
             share=share,
             number=number,
-            load=x**2 * np.where(eps > 0, unit_state.load, 0.0).reshape(x.shape),
+            load=x**2 * of_each(np.where(eps > 0, unit_state.load, 0.0)),
             x=x,
             radius=self.tip_radius * x,
-            depths=(one, two),
+            depths=depths,
             sinks=sinks,
-            areas=(first, second),
-            regimes=(regimes[0], regimes[1]),
+            areas=of_both_sides(
+                unit_state.areas, lambda area: x**2 * of_each(np.where(eps > 0, area, 0))
+            ),
+            regimes=(regime, regime if self.equal else of_each(self.regime(1, two))),
             yields=self.yields,
             hardness=self.hardness,
             shape=self.shape,
             knows_sink=self.knows_sink,
         )
+
+
+def _without_repeats(
+    number: Array, shape: tuple[int, ...]
+) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Which nodes of rows (M, n) are no repeats of the last that stands for particles.
+
+    And where among these the values of each node are.
+    """
+    used = np.broadcast_to(number > 0, shape)
+    last = np.argmax(used[:, ::-1], axis=1)[:, None] if used.size else np.zeros((len(used), 1))
+    first = np.arange(shape[1]) < shape[1] - last
+    return first, (np.cumsum(first) - 1).reshape(shape)
 
 
 class AbstractParticleLaw(Law):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
+    from collections.abc import Callable, Hashable
 
     from numpy.typing import NDArray
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Layout", "ParticleSpots", "Spots"]
+__all__ = ["Layout", "ParticleSpots", "Spots", "of_both_sides"]
 
 EVEN = 1e-9
 """Contacts of a particle that differ by less, relatively, are alike."""
@@ -123,6 +123,15 @@ class Layout:
         )
 
 
+def of_both_sides(
+    values: tuple[Array, Array], change: Callable[[Array], Array]
+) -> tuple[Array, Array]:
+    """A change of the values of both sides, made once where they are one array."""
+    one, two = values
+    changed = change(one)
+    return changed, changed if two is one else change(two)
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ParticleSpots(Spots):
     """Spots of particles of one population; each has a contact with surface 1 and with surface 2.
@@ -170,6 +179,14 @@ class ParticleSpots(Spots):
     parents: Array | None = None
     survival: Array | None = None
     layout: Layout | None = None
+
+    @property
+    def has_alike_sides(self) -> bool:
+        """Whether the arrays of both sides are the same ones, and all else of them is equal."""
+        same = all(one is two for one, two in (self.depths, self.sinks, self.areas))
+        return same and all(
+            one == two for one, two in (self.yields, self.hardness, self.knows_sink)
+        )
 
     @property
     def half(self) -> Array:
@@ -233,9 +250,6 @@ class ParticleSpots(Spots):
 
     def of_size(self, scale: float, density: float) -> ParticleSpots:
         """Spots for a number of particles per area, all lengths times ``scale``."""
-        one, two = self.depths
-        first, second = self.areas
-        first_sink, second_sink = self.sinks
         return replace(
             self,
             number=density * self.number,
@@ -243,8 +257,8 @@ class ParticleSpots(Spots):
             load=scale**2 * self.load,
             x=scale * self.x,
             radius=scale * self.radius,
-            depths=(scale * one, scale * two),
-            sinks=(scale * first_sink, scale * second_sink),
-            areas=(scale**2 * first, scale**2 * second),
+            depths=of_both_sides(self.depths, lambda depth: scale * depth),
+            sinks=of_both_sides(self.sinks, lambda sink: scale * sink),
+            areas=of_both_sides(self.areas, lambda area: scale**2 * area),
             layout=None if self.layout is None else self.layout.of_size(scale, density),
         )

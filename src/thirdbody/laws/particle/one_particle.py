@@ -345,7 +345,8 @@ class SqueezedParticle(OneParticle):
     def indentations(self, eps: Array) -> tuple[Array, Array]:
         """δ_1 and δ_2 over x."""
         if self._split_table is None:
-            return 0.5 * eps, 0.5 * eps
+            half = 0.5 * eps
+            return half, half
         low, high = self._lowest, self.kinks[-1]
         share = self._split_table(np.log(np.clip(eps, low, high)))[:, 0]
         one = share * eps
@@ -385,7 +386,8 @@ class SqueezedParticle(OneParticle):
 
     def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
         one, two = depths
-        return self.sides[0].sink(one), self.sides[1].sink(two)
+        sink = self.sides[0].sink(one)
+        return sink, sink if self.equal else self.sides[1].sink(two)
 
     @cached_property
     def sink_bends(self) -> Sequence[float]:
