@@ -121,6 +121,10 @@ class AbstractOutput(Law):
         """
         return ()
 
+    def splits_of_law(self, law: Any, surfaces: Any, particle: Any) -> Sequence[float]:
+        """More of them, which no probe shows: of an `AbstractParticleLaw` between two bodies."""
+        return ()
+
     def problems(self, contact: Any) -> list[str]:
         """Reasons why this contact cannot have this output, each made by `problem`."""
         return []

@@ -144,10 +144,7 @@ def _most(group: Values) -> float:
     layout, curve = group.spots.layout, group.curve
     if layout is None or curve is None:
         return float(np.max(group.values, initial=0.0))
-    size = layout.scale * layout.sizes.support[1]
-    if layout.fragment is not None:
-        size = min(size, layout.fragment)
-    return curve.top * size**curve.power
+    return curve.top * (layout.scale * layout.sizes.support[1]) ** curve.power
 
 
 def _least(group: Values, top: float) -> float:
@@ -177,7 +174,7 @@ def _tail(group: Values, top: float) -> _OnSeats | _OnPlane | _Counted:
 
 @dataclass(frozen=True, eq=False)
 class _Whole:
-    """Whole particles, or the fragments of one size of larger ones."""
+    """Whole particles."""
 
     layout: Layout
     curve: Curve
@@ -189,19 +186,11 @@ class _Whole:
         states = len(layout.gaps if layout.means is None else layout.means)
         return np.broadcast_to(np.asarray(layout.density, dtype=float), (states,))
 
-    def sizes(self) -> tuple[Array, float]:
-        """Sizes [m] where panels end, and how many fragments a particle gives on average."""
-        layout, sizes = self.layout, self.layout.sizes
-        parts = np.array(PARTS)
+    def sizes(self) -> Array:
+        """Sizes [m] where panels end."""
+        sizes, parts = self.layout.sizes, np.array(PARTS)
         edges = np.concatenate([sizes.pieces, sizes.kinks, sizes.ppf([*parts, *(1 - parts)])])
-        low, high = sizes.support
-        if layout.fragment is None:
-            return layout.scale * np.unique(np.clip(edges, low, high)), 0.0
-        cut = layout.fragment / layout.scale
-        pieces = float(sizes.partial_moment(3, max(low, cut), high)) / cut**3 if cut < high else 0.0
-        if cut <= low:
-            return np.empty(0), pieces
-        return layout.scale * np.unique(np.clip(edges, low, min(cut, high))), pieces
+        return self.layout.scale * np.unique(np.clip(edges, *sizes.support))
 
     def density_of(self, x: Array) -> Array:
         """φ_a(x) [1/m]."""
@@ -260,21 +249,16 @@ class _OnSeats(_Whole):
     def above(self, values: Array, rows: Rows) -> Array:
         layout = self.layout
         assert layout.means is not None
-        edges, pieces = self.sizes()
+        edges = self.sizes()
         count = max(1, AT_ONCE // (NODES * (len(edges) + 40)))
         out = np.empty(len(values))
         for start in range(0, len(values), count):
             batch = slice(start, start + count)
             means = layout.means[rows[batch]]
             out[batch] = self._sum(values[batch], means, edges)
-            if pieces:
-                x = np.full(len(means), float(layout.fragment or 0.0))
-                out[batch] += pieces * self._share_above(values[batch], x, means)
         return self.density[rows] * out
 
     def _sum(self, values: Array, means: Array, edges: Array) -> Array:
-        if not len(edges):
-            return np.zeros(len(values))
         low, high = float(edges[0]), float(edges[-1])
         if low == high:
             return self._share_above(values, np.full(len(values), high), means)
@@ -294,17 +278,10 @@ class _OnPlane(_Whole):
 
     def above(self, values: Array, rows: Rows) -> Array:
         layout, gaps = self.layout, self.layout.gaps[rows]
-        edges, pieces = self.sizes()
-        out = np.zeros(len(values))
-        if pieces:
-            x = np.full(len(values), float(layout.fragment or 0.0))
-            out += pieces * self._exceeds(values, x, gaps)
-        if not len(edges):
-            return self.density[rows] * out
+        edges = self.sizes()
         low, high = float(edges[0]), float(edges[-1])
         if low == high:
-            out += self._exceeds(values, np.full(len(values), high), gaps)
-            return self.density[rows] * out
+            return self.density[rows] * self._exceeds(values, np.full(len(values), high), gaps)
         # between sizes so close that at most one of the bounds is crossed
         more = np.linspace(low, high, 400)
         fixed = np.broadcast_to(np.unique([*edges, *more]), (len(values), len({*edges, *more})))
@@ -323,7 +300,7 @@ class _OnPlane(_Whole):
         top = inside[:, -1] * 0.0
         np.add.at(top, row, np.where(first > 0, -larger, larger))
         everything = self.layout.sizes.partial_moment(0, -1.0, high / layout.scale)
-        return self.density[rows] * (out + top + inside[:, 0] * everything)
+        return self.density[rows] * (top + inside[:, 0] * everything)
 
     def _exceeds(self, values: Array, x: Array, gaps: Array) -> Array:
         """1 where particles of sizes x exceed the values, else 0."""
