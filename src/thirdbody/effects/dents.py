@@ -94,14 +94,13 @@ class Dents(AbstractOutput):
     Notes
     -----
     These are the dents of one placement of the particles; every fresh set of particles adds its own
-    (`thirdbody.effects.single.dent.dents_after`). Numbers of whole particles are exact to 1e-8,
-    their means and volumes to 1e-7, percentiles and the largest to 1e-6, as are those and the
-    numbers of brittle ones; means of ductile ones to 1e-4, of fragments to 3e-3. Means and volumes
-    with ``shallowest``, or of fragments that only rare seats press, count classes as a whole: to
-    some percent, and not known where such dents are rare. Percentiles and the largest of particles
-    with a strength are read from counts of classes, to some percent.
-    Depths are at full load with a gap that does not give
-    way, the recovery fit is one for spheres (from memory, see
+    (`thirdbody.effects.single.dent.dents_after`). Numbers are exact to 1e-9, means, volumes,
+    percentiles and the largest to 1e-7, of whole particles and of fragments, with ``shallowest``
+    too; of dents that fewer than one particle in 1e14 leaves less is known, as seats end at nine
+    of their widths. Particles with a strength, and those on one field of heights
+    (`thirdbody.asperity.Field`), are counted by classes of sizes and gaps: their percentiles, the
+    largest, and all with ``shallowest`` or of fragments are known to some percent.
+    Depths are at full load with a gap that does not give way, the recovery fit is one for spheres (from memory, see
     `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the radius of the
     particle are counted besides as embedded: such particles may stay (assumption).
 
@@ -259,19 +258,15 @@ class Dents(AbstractOutput):
         surfaces: MaterialPair,
         particle: Material,
     ) -> Callable[[Array], Array]:
-        """Depth, width or "sunk" of the dents of particles of unit size at squeezes (N,)."""
+        """Depth or width of the dents of particles of unit size at squeezes (N,)."""
 
         def value(eps: Array) -> Array:
             spots = law.probe(eps, surfaces=surfaces, particle=particle)
             with np.errstate(all="ignore"):  # as where all of them are asked
                 dent = self._dent(spots, side, law, surfaces, particle)
-                if name == "width":
-                    return dent.diameter[:, 0]
-                depth = np.nan_to_num(dent.depth)
-                if name == "depth":
-                    return depth[:, 0]
-                deep = sunk(spots, side=side, particle=particle, debris=self.debris)
-                return np.where(depth > 0, 2 * deep / spots.half, 0.0)[:, 0]
+            if name == "width":
+                return dent.diameter[:, 0]
+            return np.nan_to_num(dent.depth[:, 0])
 
         return value
 
@@ -290,17 +285,17 @@ class Dents(AbstractOutput):
         surfaces: MaterialPair,
         particle: Material,
     ) -> Curve:
-        """Depth, width or "sunk" of the dents of one particle over its size, by its squeeze."""
+        """Depth or width of the dents of one particle over its size, by its squeeze."""
         value = self._value_of_one(name, side, law, surfaces, particle)
         kinks = self._kinks_of_one(law, surfaces, particle)
-        curve = Curve(value, kinks, power=0 if name == "sunk" else 1)
+        curve = Curve(value, kinks)
         if len(curve.runs) > MOST_RUNS:
             bodies = {"surface 1": surfaces.first, "surface 2": surfaces.second, "grain": particle}
             moduli = ", ".join(f"{number(body.E)} Pa ({who})" for who, body in bodies.items())
             raise InvalidValue(
                 Problem(
                     "outputs.dents",
-                    f": the {name if name != 'sunk' else 'depth'} of dents in surface {side + 1} "
+                    f": the {name} of dents in surface {side + 1} "
                     f"is lost in rounding, it rises and falls {len(curve.runs)} times as a grain "
                     f"is squeezed; E = {moduli}",
                     hint="one of E and H is too far from the others: check their units",
@@ -379,7 +374,6 @@ class Dents(AbstractOutput):
         names = ("n", "known", "unknown", "depth", "width", "volume", "embedded")
         sums: dict[str, Array] = dict.fromkeys(names, np.zeros_like(state.d))
         dents: list[tuple[Values, Values]] = []
-        sinks: list[Values] = []
         for spots in groups:
             dent = self._dent_left(spots, side, state.contact)
             deep = self._sunk(spots, side)
@@ -396,10 +390,9 @@ class Dents(AbstractOutput):
                 ("depth", with_depth * depth),
                 ("width", width),
                 ("volume", with_depth * volume),
-                ("embedded", (with_depth & (2 * deep > spots.half)).astype(float)),
             ):
                 sums[name] = sums[name] + spots.total(q)
-            share = np.divide(2 * deep, spots.half, out=np.zeros_like(depth), where=with_depth)
+            sums["embedded"] = sums["embedded"] + _embedded(spots, with_depth, deep)
             who = (side, state.contact)
             dents.append(
                 (
@@ -407,13 +400,6 @@ class Dents(AbstractOutput):
                     self._values(spots, width, "width", *who),
                 )
             )
-            sinks.append(self._values(spots, share, "sunk", *who))
-        rare = sums["embedded"] < RARE * sums["known"]  # too few for sums over classes
-        if all(values.curve is not None for values in sinks):
-            rare[:] = True
-        if np.any(rare):
-            exact = number_above(sinks, 1.0, states=len(state.d))
-            sums["embedded"] = np.where(rare, exact, sums["embedded"])
         if self.shallowest > 0 and any(spots.layout is None for spots in groups):
             # no class ends where dents are so deep
             depths = [values for values, _ in dents]
@@ -599,6 +585,16 @@ def _bodies(side: int, contact: Contact, population: Particles) -> _Bodies:
 
 def _side_of(bodies: _Bodies) -> int:
     return bodies[0]
+
+
+def _embedded(spots: ParticleSpots, counts: NDArray[np.bool_], deep: Array) -> Array:
+    """Number of dents that count and are deeper than half the radius of their particle (N,)."""
+    number = spots.total((counts & (2 * deep > spots.half)).astype(float))
+    rare = number < RARE * spots.total(counts.astype(float))
+    if spots.layout is not None or not np.any(rare):
+        return number
+    share = np.divide(2 * deep, spots.half, out=np.zeros_like(deep), where=counts)
+    return np.where(rare, number_above([Values(spots, share)], 1.0, states=len(number)), number)
 
 
 def _solid(material: Material) -> Material:

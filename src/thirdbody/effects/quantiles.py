@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Rows = NDArray[np.intp]
+    _Above = Callable[..., Array]
 
 __all__ = ["Values", "exceeded_values", "number_above"]
 
@@ -56,7 +57,10 @@ HALVINGS = 60
 """Of sizes on a plane."""
 TINY = 1e-200
 """A size [m] in place of none."""
-NODES = 10
+FEW_NODES, NODES = 8, 20
+"""Of a panel, where a value is looked for, and where it is found."""
+NEAR = 1e-6
+"""How near few nodes come, as `TOLERANCE`."""
 AT_ONCE = 400_000
 """Nodes that are summed together."""
 
@@ -87,7 +91,7 @@ def exceeded_values(groups: Sequence[Values], counts: Sequence[Array]) -> list[A
     Returns
     -------
     list of array (N,)
-        Within 1e-7 for whole particles with a curve. Others are counted class by class, at 60
+        Within 1e-7 for particles with a curve. Others are counted class by class, at 60
         levels a decade: within a few percent.
     """
     top = _largest(groups)
@@ -105,20 +109,34 @@ def exceeded_values(groups: Sequence[Values], counts: Sequence[Array]) -> list[A
     return np.split(out, len(counts))
 
 
-def _where_so_many(
-    above: Callable[[Array, Rows], Array], count: Array, between: tuple[float, float], rows: Rows
-) -> Array:
-    """Value between two limits that a given number exceeds; NaN where none does."""
+def _where_so_many(above: _Above, count: Array, between: tuple[float, float], rows: Rows) -> Array:
+    """Value between two limits that a given number exceeds; NaN where none does.
+
+    First by a few nodes, then near there by many.
+    """
     low, top = between
     floor = np.maximum(FEWEST * count, 1e-300)
+    every = np.arange(len(rows))
+    first, last = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
 
-    def excess(place: Array, index: Array) -> Array:
-        at = index.astype(np.intp)
-        number = above(low * np.exp(place - 1.0), rows[at])
-        return np.log(np.maximum(number, floor[at]) / np.maximum(count[at], floor[at]))
+    def root_of(nodes: int, begin: Array, end: Array, which: Rows, tolerance: float) -> Array:
+        def excess(place: Array, index: Array) -> Array:
+            at = index.astype(np.intp)
+            number = above(low * np.exp(place - 1.0), rows[at], nodes)
+            return np.log(np.maximum(number, floor[at]) / np.maximum(count[at], floor[at]))
 
-    ends = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
-    root = bracketed_root(excess, *ends, (np.arange(len(rows), dtype=float),), xrtol=TOLERANCE)
+        return bracketed_root(
+            excess, begin[which], end[which], (which.astype(float),), xrtol=tolerance
+        )
+
+    near = root_of(FEW_NODES, first, last, every, NEAR * 0.1)
+    here = np.flatnonzero(np.isfinite(near))
+    root = np.full(len(rows), np.nan)
+    margin = NEAR * near
+    begin, end = np.maximum(near - margin, first), np.minimum(near + margin, last)
+    root[here] = root_of(NODES, begin, end, here, TOLERANCE)
+    rest = np.flatnonzero(np.isnan(root))  # few nodes were too far off
+    root[rest] = root_of(NODES, first, last, rest, TOLERANCE)
     return low * np.exp(root - 1.0)
 
 
@@ -154,11 +172,11 @@ def _least(group: Values, top: float) -> float:
     return float(np.min(values, where=there, initial=top))
 
 
-def _above(groups: Sequence[Values], top: float) -> Callable[[Array, Rows], Array]:
+def _above(groups: Sequence[Values], top: float) -> _Above:
     tails = [_tail(group, top) for group in groups if _most(group) > 0]
 
-    def above(values: Array, rows: Rows) -> Array:
-        return sum((tail.above(values, rows) for tail in tails), np.zeros(len(values)))
+    def above(values: Array, rows: Rows, nodes: int = NODES) -> Array:
+        return sum((tail.above(values, rows, nodes) for tail in tails), np.zeros(len(values)))
 
     return above
 
@@ -246,19 +264,19 @@ class _OnSeats(_Whole):
             steps = a + (b - a) * np.linspace(0.0, 1.0, SCAN)
         return np.where(np.all(less, axis=1), high, steps[:, SCAN // 2])
 
-    def above(self, values: Array, rows: Rows) -> Array:
+    def above(self, values: Array, rows: Rows, nodes: int = NODES) -> Array:
         layout = self.layout
         assert layout.means is not None
         edges = self.sizes()
-        count = max(1, AT_ONCE // (NODES * (len(edges) + 40)))
+        count = max(1, AT_ONCE // (nodes * (len(edges) + 40)))
         out = np.empty(len(values))
         for start in range(0, len(values), count):
             batch = slice(start, start + count)
             means = layout.means[rows[batch]]
-            out[batch] = self._sum(values[batch], means, edges)
+            out[batch] = self._sum(values[batch], means, edges, nodes)
         return self.density[rows] * out
 
-    def _sum(self, values: Array, means: Array, edges: Array) -> Array:
+    def _sum(self, values: Array, means: Array, edges: Array, nodes: int) -> Array:
         low, high = float(edges[0]), float(edges[-1])
         if low == high:
             return self._share_above(values, np.full(len(values), high), means)
@@ -267,7 +285,7 @@ class _OnSeats(_Whole):
         fixed = np.broadcast_to(edges, (len(values), len(edges)))
         ends = np.concatenate([fixed, more, self.bends(values)], axis=1)
         ends = np.sort(np.clip(ends, low, high), axis=1)
-        x, weight = panel_rule(ends, NODES)
+        x, weight = panel_rule(ends, nodes)
         share = self._share_above(values[:, None], x, means[:, None])
         density = np.where(weight > 0, self.density_of(np.maximum(x, TINY)), 0.0)
         return np.sum(weight * density * share, axis=1)
@@ -276,7 +294,7 @@ class _OnSeats(_Whole):
 class _OnPlane(_Whole):
     """Particles on plane seats: a state is a row."""
 
-    def above(self, values: Array, rows: Rows) -> Array:
+    def above(self, values: Array, rows: Rows, nodes: int = NODES) -> Array:
         layout, gaps = self.layout, self.layout.gaps[rows]
         edges = self.sizes()
         low, high = float(edges[0]), float(edges[-1])
@@ -321,7 +339,7 @@ class _Counted:
         self.levels = top * np.geomspace(10**-decades, 1.0, math.ceil(PER_DECADE * decades))
         self.counts = group.spots.above(values, self.levels, group.weight)
 
-    def above(self, values: Array, rows: Rows) -> Array:
+    def above(self, values: Array, rows: Rows, nodes: int = NODES) -> Array:
         """Linear in the logarithm of the level: (N,) for (N,)."""
         with np.errstate(divide="ignore"):
             wanted = np.log(values)
