@@ -20,7 +20,7 @@ from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .curves import Curve
 from .quantiles import Values, exceeded_values, number_above
-from .regroup import Passage, regroup
+from .regroup import Passage, lay_out_again
 from .single.dent import Debris, dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
@@ -349,7 +349,7 @@ class Dents(AbstractOutput):
             sides = {_bodies(side, contact, population) for side in (0, 1)}
             passages = [_passage(self._any_depth, *who) for who in sorted(sides, key=_side_of)]
         law, particle = contact.law_of(population), population.material
-        return regroup(
+        return lay_out_again(
             spots,
             law.one(surfaces=contact.surfaces, particle=particle),
             splits_of(self._any_depth, law, contact.surfaces, particle),
@@ -392,7 +392,7 @@ class Dents(AbstractOutput):
                 ("volume", with_depth * volume),
             ):
                 sums[name] = sums[name] + spots.total(q)
-            sums["embedded"] = sums["embedded"] + _embedded(spots, with_depth, deep)
+            sums["embedded"] = sums["embedded"] + _count_embedded(spots, with_depth, deep)
             who = (side, state.contact)
             dents.append(
                 (
@@ -587,7 +587,7 @@ def _side_of(bodies: _Bodies) -> int:
     return bodies[0]
 
 
-def _embedded(spots: ParticleSpots, counts: NDArray[np.bool_], deep: Array) -> Array:
+def _count_embedded(spots: ParticleSpots, counts: NDArray[np.bool_], deep: Array) -> Array:
     """Number of dents that count and are deeper than half the radius of their particle (N,)."""
     number = spots.total((counts & (2 * deep > spots.half)).astype(float))
     rare = number < RARE * spots.total(counts.astype(float))

@@ -18,6 +18,7 @@ import numpy as np
 from ..contact.particle_averages import SeatAverage, SizeAverage
 from ..numerics.roots import bracketed_root
 from ..populations.distributions import Distribution, Monodisperse
+from ..quantities.carried import takes_units
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Passage", "regroup"]
+__all__ = ["Passage", "lay_out_again"]
 
 LEAST, FAR = 1e-12, 1e9
 """Smallest and largest squeeze at which a depth is looked for."""
@@ -47,7 +48,7 @@ class SizesUpTo(Distribution):
     largest: float
 
     @cached_property
-    def part(self) -> float:
+    def share(self) -> float:
         """Part of the particles that are so small."""
         return float(self.whole.partial_moment(0, -1.0, self.largest))
 
@@ -57,23 +58,25 @@ class SizesUpTo(Distribution):
 
     def pdf(self, x: ArrayLike) -> Array:
         x = np.asarray(x, dtype=float)
-        return np.where(x <= self.largest, self.whole.pdf(x), 0.0) / self.part
+        return np.where(x <= self.largest, self.whole.pdf(x), 0.0) / self.share
 
     def pdf_below(self, depth: Array) -> Array:
-        return self.whole.pdf_below(depth + (self.whole.support[1] - self.largest)) / self.part
+        return self.whole.pdf_below(depth + (self.whole.support[1] - self.largest)) / self.share
 
     def ppf(self, q: ArrayLike) -> Array:
-        return np.clip(self.whole.ppf(np.asarray(q, dtype=float) * self.part), *self.support)
+        return np.clip(self.whole.ppf(np.asarray(q, dtype=float) * self.share), *self.support)
 
     def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:
-        return self.whole.partial_moment(n, a, np.minimum(b, self.largest)) / self.part
+        return self.whole.partial_moment(n, a, np.minimum(b, self.largest)) / self.share
 
-    def scaled(self, factor: float) -> SizesUpTo:
+    def multiply_sizes(self, factor: float) -> SizesUpTo:
         return SizesUpTo(self.whole.scaled(factor), factor * self.largest)
 
-    def standardised(self) -> tuple[float, Distribution]:
+    def scale_and_shape(self) -> tuple[float, Distribution]:
         scale, shape = self.whole.standardised()
         return scale, SizesUpTo(shape, self.largest / scale)
+
+    scaled, standardised = multiply_sizes, scale_and_shape
 
     @property
     def pieces(self) -> tuple[float, ...]:
@@ -139,13 +142,13 @@ class Passage:
         root = bracketed_root(excess, low, high, (wanted, way))
         return np.where(np.isnan(root), low, root)  # within rounding of a node
 
-    def gaps_of_bends(self, depth: float, sizes: tuple[float, float]) -> list[float]:
+    def gaps_of_bends(self, depth: float, sizes: tuple[float, float]) -> Array:
         """Gaps in which the size that has the depth is at a bend of f, if there are such sizes."""
         near = np.concatenate([self.kinks * (1 - 2 * OFF), self.kinks * (1 + 2 * OFF)])
         values = self.depth(near)
         x = np.divide(depth, values, out=np.full_like(values, np.inf), where=values > 0)
         good = (x >= sizes[0]) & (x <= sizes[1])
-        return list(x[good] * (1 - near[good]))
+        return x[good] * (1 - near[good])
 
 
 def _nodes_between(a: float, b: float) -> Array:
@@ -183,7 +186,8 @@ class _FromDepths(SizeAverage):
         return super().of_sizes(gap, rise, np.concatenate([of_all, *every], axis=1), nodes)
 
 
-def regroup(
+@takes_units
+def lay_out_again(
     spots: ParticleSpots,
     one: OneParticle,
     splits: Sequence[float],
@@ -235,6 +239,6 @@ def _parts(layout: Layout, fragment: float | None) -> list[tuple[Distribution, f
     parts: list[tuple[Distribution, float]] = [(Monodisperse(mean=cut), pieces)]
     if cut > low:
         smaller = SizesUpTo(sizes, cut)
-        if smaller.part > 0:
-            parts.append((smaller, smaller.part))
+        if smaller.share > 0:
+            parts.append((smaller, smaller.share))
     return parts
