@@ -232,9 +232,7 @@ def test_brittle():
     """Fragments larger than every particle change nothing; fine ones pass the gap."""
     whole, same = left(), left(dents=Dents(debris="brittle", fragment=1e-3))
     for name in Dents.columns:
-        # sums over what may break are not split where dents begin
-        known_to = 1e-12 if name.startswith("n_dents") else 1e-6
-        assert whole[name] == pytest.approx(same[name], rel=known_to), name
+        assert whole[name] == pytest.approx(same[name], rel=1e-12), name
     fine = left(dents=Dents(debris="brittle", fragment=300e-9))
     assert fine["dent_depth_max_2"] < whole["dent_depth_max_2"]
     gone = left(dents=Dents(debris="brittle", fragment=1e-9))

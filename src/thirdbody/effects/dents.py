@@ -100,9 +100,10 @@ class Dents(AbstractOutput):
     of their widths. Particles with a strength, and those on one field of heights
     (`thirdbody.asperity.Field`), are counted by classes of sizes and gaps: their percentiles, the
     largest, and all with ``shallowest`` or of fragments are known to some percent.
-    Depths are at full load with a gap that does not give way, the recovery fit is one for spheres (from memory, see
-    `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the radius of the
-    particle are counted besides as embedded: such particles may stay (assumption).
+    Depths are at full load with a gap that does not give way, the recovery fit is one for spheres
+    (from memory, see `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half
+    the radius of the particle are counted besides as embedded: such particles may stay
+    (assumption).
 
     Numbers and widths are of all dents, mean depth, percentile and deepest of those whose depth is
     known; their volume is NaN where some is not. Of several populations the state has the dents of
