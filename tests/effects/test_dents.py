@@ -553,6 +553,17 @@ def test_formulas_that_change_at_nearly_the_same_squeeze_are_one():
     np.testing.assert_allclose(curve.first(np.array([0.01, 0.25])), [0.1, 0.5], rtol=1e-8)
 
 
+def test_a_value_that_is_constant_at_first_is_one_from_the_first_squeeze_on():
+    """Widths of discs are those of the particle up to a third of its size, and count there."""
+    flat, grown = np.array([0.5]), np.array([1.5])
+    constant = Curve(lambda eps: np.ones_like(eps), [0.3])
+    assert constant.first(flat) < 1e-12
+    assert constant.first(grown) == math.inf
+    rising = Curve(lambda eps: np.maximum(1.0, eps / 0.3), [0.3, 0.6])
+    assert rising.first(flat) < 1e-12
+    np.testing.assert_allclose(rising.first(grown), 0.45, rtol=1e-8)
+
+
 @pytest.mark.slow
 def test_the_few_embedded_are_counted_exactly():
     """By quadrature over the sizes, and the same among other loads; a few of a million."""

@@ -109,6 +109,7 @@ def test_dents_in_closed_gaps_are_those_by_hand(d):
         pytest.param({**BRITTLE, "fragment": 400e-9}, {"sizes": ONE}, id="fragments-of-one-size"),
         pytest.param({**BRITTLE, "fragment": 450e-9}, {"deep": "off"}, id="fragments"),
         pytest.param({"debris": "ductile"}, {"deep": "off"}, id="discs"),
+        pytest.param({"debris": "ductile"}, {"sizes": WIDE, "deep": "off"}, id="hardly-pressed"),
     ],
 )
 def test_percentiles_are_those_by_hand(dents, options):

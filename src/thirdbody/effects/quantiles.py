@@ -51,6 +51,8 @@ PARTS = (1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.15, 0.3, 0.5)
 """Parts of the particles up to sizes where panels end, from either side."""
 WIDTHS = (-12.0, -8.0, -6.0, -4.5, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0)
 """In widths of the seat about the size that has the value in the mean gap: panels end there."""
+ABOVE_TOP = 1 + np.array([1e-5, 1e-3, 1e-2, 5e-2])
+"""Over the smallest size that has a value: panels end there."""
 SCAN, SCANS, SMALLEST = 25, 4, 1e-9
 """Sizes that are tried together for that one, how often, and the smallest over the largest."""
 HALVINGS = 60
@@ -229,6 +231,8 @@ class _Whole:
         out = []
         if self.curve.power:
             out.append(values[:, None] / self.curve.seams)
+            # values set in at their largest like a root
+            out.append(values[:, None] / self.curve.top * ABOVE_TOP)
         if self.least is not None:
             other, value = self.least
             out.append(np.broadcast_to(value / other.seams, (len(values), len(other.seams))))
