@@ -59,9 +59,9 @@ HALVINGS = 60
 """Of sizes on a plane."""
 TINY = 1e-200
 """A size [m] in place of none."""
-FEW_NODES, NODES = 8, 20
+FEW_NODES, NODES = 6, 14
 """Of a panel, where a value is looked for, and where it is found."""
-NEAR = 1e-6
+NEAR = 3e-5
 """How near few nodes come, as `TOLERANCE`."""
 AT_ONCE = 400_000
 """Nodes that are summed together."""
