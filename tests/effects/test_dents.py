@@ -232,9 +232,7 @@ def test_brittle():
     """Fragments larger than every particle change nothing; fine ones pass the gap."""
     whole, same = left(), left(dents=Dents(debris="brittle", fragment=1e-3))
     for name in Dents.columns:
-        # sums over what may break are not split where dents begin
-        known_to = 1e-12 if name.startswith("n_dents") else 1e-6
-        assert whole[name] == pytest.approx(same[name], rel=known_to), name
+        assert whole[name] == pytest.approx(same[name], rel=1e-12), name
     fine = left(dents=Dents(debris="brittle", fragment=300e-9))
     assert fine["dent_depth_max_2"] < whole["dent_depth_max_2"]
     gone = left(dents=Dents(debris="brittle", fragment=1e-9))
@@ -553,6 +551,17 @@ def test_formulas_that_change_at_nearly_the_same_squeeze_are_one():
     kink = 0.33805337343385033
     curve = Curve(lambda eps: eps**2, [kink, np.nextafter(kink, 1), kink * (1 + 1e-13)])
     np.testing.assert_allclose(curve.first(np.array([0.01, 0.25])), [0.1, 0.5], rtol=1e-8)
+
+
+def test_a_value_that_is_constant_at_first_is_one_from_the_first_squeeze_on():
+    """Widths of discs are those of the particle up to a third of its size, and count there."""
+    flat, grown = np.array([0.5]), np.array([1.5])
+    constant = Curve(lambda eps: np.ones_like(eps), [0.3])
+    assert constant.first(flat) < 1e-12
+    assert constant.first(grown) == math.inf
+    rising = Curve(lambda eps: np.maximum(1.0, eps / 0.3), [0.3, 0.6])
+    assert rising.first(flat) < 1e-12
+    np.testing.assert_allclose(rising.first(grown), 0.45, rtol=1e-8)
 
 
 @pytest.mark.slow

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Solved", "Solver"]
+__all__ = ["Solved", "Solver", "splits_of"]
 
 AT_ONCE = 4096
 """States whose spots are laid out together."""
@@ -196,7 +196,7 @@ def particles_of(
         splits = {
             eps
             for output in contact.outputs
-            for eps in _splits(output, law, contact.surfaces, population.material)
+            for eps in splits_of(output, law, contact.surfaces, population.material)
         }
         groups = response.spots(d, sorted(splits))
         particles += [
@@ -227,11 +227,13 @@ def asperities_of(contact_interface: Interface, d: Array, shadow: Array) -> list
 
 
 @lru_cache(maxsize=256)
-def _splits(
+def splits_of(
     output: AbstractOutput, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
 ) -> tuple[float, ...]:
     """Where q of an output jumps or bends, for particles of one material."""
-    splits = tuple(float(eps) for eps in output.splits(_probe_of(law, surfaces, particle)))
+    every = [*output.splits(_probe_of(law, surfaces, particle))]
+    every += output.splits_of_law(law, surfaces, particle)
+    splits = tuple(float(eps) for eps in every)
     return splits + _sink_bends(law, surfaces, particle) if output.follows_sinks else splits
 
 

@@ -25,8 +25,9 @@ from ..quantities.record import Column
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..laws.base import AbstractParticleLaw
     from ..laws.spots import ParticleSpots
-    from ..populations.materials import Material
+    from ..populations.materials import Material, MaterialPair
 
     Array = NDArray[np.float64]
     Probe = Callable[[Array], ParticleSpots]
@@ -119,6 +120,12 @@ class AbstractOutput(Law):
 
         ``probe(ε)`` gives particles of unit size, one a row.
         """
+        return ()
+
+    def splits_of_law(
+        self, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+    ) -> Sequence[float]:
+        """More of them, which no probe shows, of a law of particles between two bodies."""
         return ()
 
     def problems(self, contact: Any) -> list[str]:

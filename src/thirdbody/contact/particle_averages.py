@@ -103,9 +103,12 @@ class SizeAverage:
         return out
 
     def of_sizes(
-        self, gap: Array, rise: Array, splits: Sequence[float] = (), nodes: int = 16
+        self, gap: Array, rise: Array, splits: Sequence[float] | Array = (), nodes: int = 16
     ) -> tuple[Array, Array, Array]:
-        """Diameters, squeezes and weights φ_a(x) dx of sums over sizes: (N, n) for (N, 1)."""
+        """Diameters, squeezes and weights φ_a(x) dx of sums over sizes: (N, n) for (N, 1).
+
+        ``splits`` are those of all gaps, or of each (N, k).
+        """
         particle, sizes = self.particle, self.sizes
         if isinstance(sizes, Monodisperse):
             return np.full_like(gap, sizes.mean), rise, (rise > 0).astype(float)
@@ -121,7 +124,9 @@ class SizeAverage:
         above = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
         of_sizes = np.where(start, above, pieces - zero)
         # where a regime of some size sets in: δ = εx, so x = g/(1 − ε), which must be positive
-        eps = np.concatenate([particle.panels, splits])
+        more = np.atleast_2d(np.asarray(splits, dtype=float))
+        of_particle = np.broadcast_to(particle.panels, (len(more), len(particle.panels)))
+        eps = np.concatenate([of_particle, more], axis=1)
         whole = eps == 1
         gap_ratio = np.where(whole, 1.0, 1 - eps)
         of_regimes = gap / gap_ratio - zero

@@ -221,13 +221,16 @@ def _runs(eps: Array, values: Array, seams: NDArray[np.intp]) -> Iterator[_Run]:
     change[np.abs(change) <= _rounding(np.maximum(values[1:], values[:-1]), top)] = 0.0
     way = np.sign(change)
     moving = np.flatnonzero(way)
-    if not len(moving):
+    if not len(moving) and values[0] == 0:
         return
     turns = np.flatnonzero(np.diff(way[moving]))
-    starts = [int(moving[0]), *(int(moving[i + 1]) for i in turns)]
+    # a value that is constant at first belongs to what follows; of one that stays so all is a run
+    first = int(moving[0]) if values[0] == 0 else 0
+    starts = [first, *(int(moving[i + 1]) for i in turns)]
+    ways = [way[moving[0]] if len(moving) else 1.0, *(way[start] for start in starts[1:])]
     stops = [*starts[1:], len(eps) - 1]
-    for start, stop in zip(starts, stops, strict=True):
-        rises = bool(way[start] > 0)
+    for start, stop, rising in zip(starts, stops, ways, strict=True):
+        rises = bool(rising > 0)
         nodes = slice(start, stop + 1)
         last = stop == len(eps) - 1
         ends = (float(eps[start]), np.inf if last else float(eps[stop]))

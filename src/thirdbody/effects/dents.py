@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..contact.evaluation import splits_of
 from ..contact.output import AbstractOutput, Column, changes
 from ..errors import InvalidValue, Mistake, Note, Problem
 from ..laws.base import SERIES
@@ -19,10 +20,11 @@ from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .curves import Curve
 from .quantiles import Values, exceeded_values, number_above
+from .regroup import Passage, lay_out_again
 from .single.dent import Debris, dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -31,9 +33,11 @@ if TYPE_CHECKING:
     from ..contact.output import Probe
     from ..laws.base import AbstractParticleLaw
     from ..laws.spots import ParticleSpots
+    from ..populations.particles import Particles
     from .single.dent import Dent
 
     Array = NDArray[np.float64]
+    _Bodies = tuple[int, AbstractParticleLaw, MaterialPair, Material]
 
 __all__ = ["Dents"]
 
@@ -45,9 +49,9 @@ RARE = 1e-2
 FEW = 14
 """Dents in an area below which its deepest one is a matter of chance: of ln 2/0.05 dents and fewer
 the deepest is shallower than what 5 % exceed, in half of all cases."""
-HALF, WHOLE, DEEPEST = 0.5, 1.0, 64.0
-"""Depths over half a particle, and over all of it, from which on dents are of another kind; the
-largest squeeze at which they are looked for."""
+KINDS, DEEPEST = (0.25, 0.5, 1.0), 64.0
+"""Depths over the size from which on dents are of another kind: embedded, as wide as the particle,
+as deep; the largest squeeze at which they are looked for."""
 DISCS = (1 / 3, 1 - 1e-3)
 """Squeezes from which on a ductile particle is a disc, and as thin as one becomes."""
 MOST_RUNS = 100
@@ -90,16 +94,16 @@ class Dents(AbstractOutput):
     Notes
     -----
     These are the dents of one placement of the particles; every fresh set of particles adds its own
-    (`thirdbody.effects.single.dent.dents_after`). Numbers of whole particles are exact to 1e-8,
-    their means and volumes to 1e-7, percentiles and the largest to 1e-6, as are those and the
-    numbers of brittle ones; means of ductile ones to 1e-4, of fragments to 3e-3. Means and volumes
-    with ``shallowest``, or of fragments that only rare seats press, count classes as a whole: to
-    some percent, and not known where such dents are rare. Percentiles and the largest of particles
-    with a strength are read from counts of classes, to some percent.
-    Depths are at full load with a gap that does not give
-    way, the recovery fit is one for spheres (from memory, see
-    `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the radius of the
-    particle are counted besides as embedded: such particles may stay (assumption).
+    (`thirdbody.effects.single.dent.dents_after`). Numbers are exact to 1e-9, means, volumes,
+    percentiles and the largest to 1e-7, of whole particles and of fragments, with ``shallowest``
+    too; of dents that fewer than one particle in 1e14 leaves less is known, as seats end at nine
+    of their widths. Particles with a strength, and those on one field of heights
+    (`thirdbody.asperity.Field`), are counted by classes of sizes and gaps: their percentiles, the
+    largest, and all with ``shallowest`` or of fragments are known to some percent.
+    Depths are at full load with a gap that does not give way, the recovery fit is one for spheres
+    (from memory, see `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half
+    the radius of the particle are counted besides as embedded: such particles may stay
+    (assumption).
 
     Numbers and widths are of all dents, mean depth, percentile and deepest of those whose depth is
     known; their volume is NaN where some is not. Of several populations the state has the dents of
@@ -217,12 +221,7 @@ class Dents(AbstractOutput):
         x = np.minimum(spots.x, float(self.fragment or 0.0))
         number = spots.number * fragments(spots.x, size=float(self.fragment or 0.0))
         broken_spots = particle.spots(x, np.maximum(x - gap, 0.0), share=spots.share, number=number)
-        layout = spots.layout
-        if layout is not None and float(self.fragment or 0.0) < np.max(spots.x):
-            layout = replace(layout, fragment=self.fragment)
-        return replace(
-            broken_spots, material=population.material, population=population, layout=layout
-        )
+        return replace(broken_spots, material=population.material, population=population)
 
     def _dent_left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
         population = spots.population
@@ -252,6 +251,33 @@ class Dents(AbstractOutput):
         held = np.where(np.isnan(dent.depth), widest * spots.x, math.inf)
         return dent._replace(diameter=np.minimum(dent.diameter, held))
 
+    def _value_of_one(
+        self,
+        name: str,
+        side: int,
+        law: AbstractParticleLaw,
+        surfaces: MaterialPair,
+        particle: Material,
+    ) -> Callable[[Array], Array]:
+        """Depth or width of the dents of particles of unit size at squeezes (N,)."""
+
+        def value(eps: Array) -> Array:
+            spots = law.probe(eps, surfaces=surfaces, particle=particle)
+            with np.errstate(all="ignore"):  # as where all of them are asked
+                dent = self._dent(spots, side, law, surfaces, particle)
+            if name == "width":
+                return dent.diameter[:, 0]
+            return np.nan_to_num(dent.depth[:, 0])
+
+        return value
+
+    def _kinks_of_one(
+        self, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+    ) -> list[float]:
+        """Squeezes at which what one particle leaves jumps or bends."""
+        one = law.one(surfaces=surfaces, particle=particle)
+        return [*map(float, one.kinks), *splits_of(self, law, surfaces, particle)]
+
     def _of_one(
         self,
         name: str,
@@ -260,29 +286,17 @@ class Dents(AbstractOutput):
         surfaces: MaterialPair,
         particle: Material,
     ) -> Curve:
-        """Depth, width or "sunk" of the dents of one particle over its size, by its squeeze."""
-
-        def value(eps: Array) -> Array:
-            spots = law.probe(eps, surfaces=surfaces, particle=particle)
-            with np.errstate(all="ignore"):  # as where all of them are asked
-                dent = self._dent(spots, side, law, surfaces, particle)
-                if name == "width":
-                    return dent.diameter[:, 0]
-                depth = np.nan_to_num(dent.depth)
-                if name == "depth":
-                    return depth[:, 0]
-                deep = sunk(spots, side=side, particle=particle, debris=self.debris)
-                return np.where(depth > 0, 2 * deep / spots.half, 0.0)[:, 0]
-
-        kinks = [*law.one(surfaces=surfaces, particle=particle).kinks]
-        curve = Curve(value, kinks, power=0 if name == "sunk" else 1)
+        """Depth or width of the dents of one particle over its size, by its squeeze."""
+        value = self._value_of_one(name, side, law, surfaces, particle)
+        kinks = self._kinks_of_one(law, surfaces, particle)
+        curve = Curve(value, kinks)
         if len(curve.runs) > MOST_RUNS:
             bodies = {"surface 1": surfaces.first, "surface 2": surfaces.second, "grain": particle}
             moduli = ", ".join(f"{number(body.E)} Pa ({who})" for who, body in bodies.items())
             raise InvalidValue(
                 Problem(
                     "outputs.dents",
-                    f": the {name if name != 'sunk' else 'depth'} of dents in surface {side + 1} "
+                    f": the {name} of dents in surface {side + 1} "
                     f"is lost in rounding, it rises and falls {len(curve.runs)} times as a grain "
                     f"is squeezed; E = {moduli}",
                     hint="one of E and H is too far from the others: check their units",
@@ -299,22 +313,51 @@ class Dents(AbstractOutput):
         assert population is not None
         if spots.layout is None:
             return Values(spots, values)
-        plain = self if self.shallowest == 0 else self.replace(shallowest=0.0)
-        pair = MaterialPair(_solid(contact.surfaces.first), _solid(contact.surfaces.second))
-        same = 0 if pair.first == pair.second else side  # dents in both are alike
-        who = (same, contact.law_of(population), pair, _solid(population.material))
-        curve, least = _curve(plain, name, *who), None
+        who = (self._any_depth, name, *_bodies(side, contact, population))
+        curve, least = _curve(*who), None
         if self.shallowest > 0 and name != "depth":
-            depth = _curve(plain, "depth", *who)
+            depth = _curve(self._any_depth, "depth", *who[2:])
             if depth.top > 0:
                 least = (depth, self.shallowest)
         return Values(spots, values, curve=curve, least=least)
 
+    @property
+    def _any_depth(self) -> Dents:
+        return self if self.shallowest == 0 else self.replace(shallowest=0.0)
+
     def _groups(self, state: Solved) -> list[ParticleSpots]:
-        """Groups that leave dents: whole particles, or their fragments."""
-        if self.debris != "brittle":
-            return list(state.particles)
-        return [self._broken(spots, state.contact) for spots in state.particles]
+        """Groups that leave dents: whole particles or fragments, split at the shallowest dent."""
+        key = ("groups of dents", self)
+        if key not in state.kept:
+            state.kept[key] = [
+                group for spots in state.particles for group in self._regroup(spots, state.contact)
+            ]
+        kept: list[ParticleSpots] = state.kept[key]
+        return kept
+
+    def _regroup(self, spots: ParticleSpots, contact: Contact) -> list[ParticleSpots]:
+        population, layout = spots.population, spots.layout
+        assert population is not None
+        if layout is None:
+            return [self._broken(spots, contact)] if self.debris == "brittle" else [spots]
+        breaks = self.fragment is not None and self.fragment < (
+            layout.scale * layout.sizes.support[1]
+        )
+        if not breaks and self.shallowest == 0:
+            return [spots]
+        passages = []
+        if self.shallowest > 0:
+            sides = {_bodies(side, contact, population) for side in (0, 1)}
+            passages = [_passage(self._any_depth, *who) for who in sorted(sides, key=_side_of)]
+        law, particle = contact.law_of(population), population.material
+        return lay_out_again(
+            spots,
+            law.one(surfaces=contact.surfaces, particle=particle),
+            splits_of(self._any_depth, law, contact.surfaces, particle),
+            fragment=self.fragment,
+            passages=passages,
+            depth=self.shallowest,
+        )
 
     def _sunk(self, spots: ParticleSpots, side: int) -> Array:
         population = spots.population
@@ -332,7 +375,6 @@ class Dents(AbstractOutput):
         names = ("n", "known", "unknown", "depth", "width", "volume", "embedded")
         sums: dict[str, Array] = dict.fromkeys(names, np.zeros_like(state.d))
         dents: list[tuple[Values, Values]] = []
-        sinks: list[Values] = []
         for spots in groups:
             dent = self._dent_left(spots, side, state.contact)
             deep = self._sunk(spots, side)
@@ -349,10 +391,9 @@ class Dents(AbstractOutput):
                 ("depth", with_depth * depth),
                 ("width", width),
                 ("volume", with_depth * volume),
-                ("embedded", (with_depth & (2 * deep > spots.half)).astype(float)),
             ):
                 sums[name] = sums[name] + spots.total(q)
-            share = np.divide(2 * deep, spots.half, out=np.zeros_like(depth), where=with_depth)
+            sums["embedded"] = sums["embedded"] + _count_embedded(spots, with_depth, deep)
             who = (side, state.contact)
             dents.append(
                 (
@@ -360,13 +401,10 @@ class Dents(AbstractOutput):
                     self._values(spots, width, "width", *who),
                 )
             )
-            sinks.append(self._values(spots, share, "sunk", *who))
-        rare = sums["embedded"] < RARE * sums["known"]  # too few for sums over classes
-        if all(values.curve is not None for values in sinks):
-            rare[:] = True
-        if np.any(rare):
-            exact = number_above(sinks, 1.0, states=len(state.d))
-            sums["embedded"] = np.where(rare, exact, sums["embedded"])
+        if self.shallowest > 0 and any(spots.layout is None for spots in groups):
+            # no class ends where dents are so deep
+            depths = [values for values, _ in dents]
+            sums["deep"] = number_above(depths, self.shallowest, states=len(state.d))
         return self._columns(sums, dents, side)
 
     def _columns(
@@ -375,13 +413,8 @@ class Dents(AbstractOutput):
         """The columns of a surface, from sums over its dents, and depths and widths that count."""
         n, with_depth, unknown = (sums[name] for name in ("n", "known", "unknown"))
         depths, widths = ([pair[i] for pair in dents] for i in (0, 1))
-        if self.debris == "brittle":  # no class ends where a fragment begins to leave a dent
-            n, with_depth = (
-                number_above(values, 0.0, states=len(n)) for values in (widths, depths)
-            )
-        deep = with_depth
+        deep = sums.get("deep", with_depth)
         if self.shallowest > 0:  # whether marks of unknown depth are so deep is not known either
-            deep = number_above(depths, self.shallowest, states=len(n))
             n = np.where(unknown > 0, np.nan, deep)
         out = {f"n_dents_{side + 1}": n}
         of_all = (("depth", deep, sums["known"], depths), ("width", n, sums["n"], widths))
@@ -511,36 +544,58 @@ class Dents(AbstractOutput):
         def depth_beyond(log_eps: float, side: int, share: float) -> float:
             spots = probe(np.exp([log_eps]))
             deep = (spots.depths if self.debris == "hard" else spots.sinks)[side][0, 0]
-            return float(deep - share * (spots.half if share < 1 else spots.x)[0, 0])
+            return float(deep - share * spots.x[0, 0])
 
         low, high = math.log(1e-9), math.log(DEEPEST)
         squeezes = [
             math.exp(brentq(depth_beyond, low, high, args=(side, share), xtol=1e-15))
             for side in (0, 1)
-            for share in (HALF, WHOLE)
+            for share in KINDS
             if depth_beyond(high, side, share) > 0
         ]
-        if self.debris == "brittle":  # fragments dent, not particles of one size
-            return squeezes
-        squeezes += changes(probe, self._kinds)
-        return [*squeezes, *DISCS] if self.debris == "ductile" else squeezes
+        return [*squeezes, *changes(probe, self._kinds)]
+
+    def splits_of_law(
+        self, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+    ) -> Sequence[float]:
+        """Squeezes where a flattened particle becomes a disc, one as wide, as thin as they come."""
+        out = [*DISCS]
+        for side in (0, 1):
+            widest = _widest(law, surfaces, particle, side)
+            if math.isfinite(widest):
+                out.append(1 - 2 / (3 * widest**2))
+        return out
 
     def _kinds(self, spots: ParticleSpots) -> NDArray[np.intp]:
-        """Which surfaces have dents, of what form: a number, whether squashed particles or not."""
+        """Which surfaces have dents, and of what form: a number."""
         assert spots.material is not None
         kinds = np.zeros(spots.x.shape, dtype=np.intp)
         for side in (0, 1):
-            for squashed in (False, True):
-                dent = dent_of(
-                    spots,
-                    side=side,
-                    particle=spots.material,
-                    debris=self.debris,
-                    squashed=squashed,
-                )
-                shaft = 2 * dent.depth > dent.diameter  # below its cap
-                kinds = 4 * kinds + 2 * (dent.diameter > 0) + shaft
+            dent = dent_of(spots, side=side, particle=spots.material, debris=self.debris)
+            shaft = 2 * dent.depth > dent.diameter  # below its cap
+            kinds = 4 * kinds + 2 * (dent.diameter > 0) + shaft
         return kinds
+
+
+def _bodies(side: int, contact: Contact, population: Particles) -> _Bodies:
+    """Side, law and materials by which dents differ; of alike surfaces the first side."""
+    pair = MaterialPair(_solid(contact.surfaces.first), _solid(contact.surfaces.second))
+    same = 0 if pair.first == pair.second else side
+    return same, contact.law_of(population), pair, _solid(population.material)
+
+
+def _side_of(bodies: _Bodies) -> int:
+    return bodies[0]
+
+
+def _count_embedded(spots: ParticleSpots, counts: NDArray[np.bool_], deep: Array) -> Array:
+    """Number of dents that count and are deeper than half the radius of their particle (N,)."""
+    number = spots.total((counts & (2 * deep > spots.half)).astype(float))
+    rare = number < RARE * spots.total(counts.astype(float))
+    if spots.layout is not None or not np.any(rare):
+        return number
+    share = np.divide(2 * deep, spots.half, out=np.zeros_like(deep), where=counts)
+    return np.where(rare, number_above([Values(spots, share)], 1.0, states=len(number)), number)
 
 
 def _solid(material: Material) -> Material:
@@ -558,6 +613,14 @@ def _curve(
     particle: Material,
 ) -> Curve:
     return dents._of_one(name, side, law, surfaces, particle)
+
+
+@lru_cache(maxsize=256)
+def _passage(
+    dents: Dents, side: int, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> Passage:
+    depth = dents._value_of_one("depth", side, law, surfaces, particle)
+    return Passage(depth, dents._kinks_of_one(law, surfaces, particle))
 
 
 def _is_squashed(

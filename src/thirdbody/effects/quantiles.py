@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Rows = NDArray[np.intp]
+    _Above = Callable[..., Array]
 
 __all__ = ["Values", "exceeded_values", "number_above"]
 
@@ -50,13 +51,18 @@ PARTS = (1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.15, 0.3, 0.5)
 """Parts of the particles up to sizes where panels end, from either side."""
 WIDTHS = (-12.0, -8.0, -6.0, -4.5, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0)
 """In widths of the seat about the size that has the value in the mean gap: panels end there."""
+ABOVE_TOP = 1 + np.array([1e-5, 1e-3, 1e-2, 5e-2])
+"""Over the smallest size that has a value: panels end there."""
 SCAN, SCANS, SMALLEST = 25, 4, 1e-9
 """Sizes that are tried together for that one, how often, and the smallest over the largest."""
 HALVINGS = 60
 """Of sizes on a plane."""
 TINY = 1e-200
 """A size [m] in place of none."""
-NODES = 10
+FEW_NODES, NODES = 6, 14
+"""Of a panel, where a value is looked for, and where it is found."""
+NEAR = 3e-5
+"""How near few nodes come, as `TOLERANCE`."""
 AT_ONCE = 400_000
 """Nodes that are summed together."""
 
@@ -87,7 +93,7 @@ def exceeded_values(groups: Sequence[Values], counts: Sequence[Array]) -> list[A
     Returns
     -------
     list of array (N,)
-        Within 1e-7 for whole particles with a curve. Others are counted class by class, at 60
+        Within 1e-7 for particles with a curve. Others are counted class by class, at 60
         levels a decade: within a few percent.
     """
     top = _largest(groups)
@@ -105,20 +111,34 @@ def exceeded_values(groups: Sequence[Values], counts: Sequence[Array]) -> list[A
     return np.split(out, len(counts))
 
 
-def _where_so_many(
-    above: Callable[[Array, Rows], Array], count: Array, between: tuple[float, float], rows: Rows
-) -> Array:
-    """Value between two limits that a given number exceeds; NaN where none does."""
+def _where_so_many(above: _Above, count: Array, between: tuple[float, float], rows: Rows) -> Array:
+    """Value between two limits that a given number exceeds; NaN where none does.
+
+    First by a few nodes, then near there by many.
+    """
     low, top = between
     floor = np.maximum(FEWEST * count, 1e-300)
+    every = np.arange(len(rows))
+    first, last = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
 
-    def excess(place: Array, index: Array) -> Array:
-        at = index.astype(np.intp)
-        number = above(low * np.exp(place - 1.0), rows[at])
-        return np.log(np.maximum(number, floor[at]) / np.maximum(count[at], floor[at]))
+    def root_of(nodes: int, begin: Array, end: Array, which: Rows, tolerance: float) -> Array:
+        def excess(place: Array, index: Array) -> Array:
+            at = index.astype(np.intp)
+            number = above(low * np.exp(place - 1.0), rows[at], nodes)
+            return np.log(np.maximum(number, floor[at]) / np.maximum(count[at], floor[at]))
 
-    ends = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
-    root = bracketed_root(excess, *ends, (np.arange(len(rows), dtype=float),), xrtol=TOLERANCE)
+        return bracketed_root(
+            excess, begin[which], end[which], (which.astype(float),), xrtol=tolerance
+        )
+
+    near = root_of(FEW_NODES, first, last, every, NEAR * 0.1)
+    here = np.flatnonzero(np.isfinite(near))
+    root = np.full(len(rows), np.nan)
+    margin = NEAR * near
+    begin, end = np.maximum(near - margin, first), np.minimum(near + margin, last)
+    root[here] = root_of(NODES, begin, end, here, TOLERANCE)
+    rest = np.flatnonzero(np.isnan(root))  # few nodes were too far off
+    root[rest] = root_of(NODES, first, last, rest, TOLERANCE)
     return low * np.exp(root - 1.0)
 
 
@@ -144,10 +164,7 @@ def _most(group: Values) -> float:
     layout, curve = group.spots.layout, group.curve
     if layout is None or curve is None:
         return float(np.max(group.values, initial=0.0))
-    size = layout.scale * layout.sizes.support[1]
-    if layout.fragment is not None:
-        size = min(size, layout.fragment)
-    return curve.top * size**curve.power
+    return curve.top * (layout.scale * layout.sizes.support[1]) ** curve.power
 
 
 def _least(group: Values, top: float) -> float:
@@ -157,11 +174,11 @@ def _least(group: Values, top: float) -> float:
     return float(np.min(values, where=there, initial=top))
 
 
-def _above(groups: Sequence[Values], top: float) -> Callable[[Array, Rows], Array]:
+def _above(groups: Sequence[Values], top: float) -> _Above:
     tails = [_tail(group, top) for group in groups if _most(group) > 0]
 
-    def above(values: Array, rows: Rows) -> Array:
-        return sum((tail.above(values, rows) for tail in tails), np.zeros(len(values)))
+    def above(values: Array, rows: Rows, nodes: int = NODES) -> Array:
+        return sum((tail.above(values, rows, nodes) for tail in tails), np.zeros(len(values)))
 
     return above
 
@@ -177,7 +194,7 @@ def _tail(group: Values, top: float) -> _OnSeats | _OnPlane | _Counted:
 
 @dataclass(frozen=True, eq=False)
 class _Whole:
-    """Whole particles, or the fragments of one size of larger ones."""
+    """Whole particles."""
 
     layout: Layout
     curve: Curve
@@ -189,19 +206,11 @@ class _Whole:
         states = len(layout.gaps if layout.means is None else layout.means)
         return np.broadcast_to(np.asarray(layout.density, dtype=float), (states,))
 
-    def sizes(self) -> tuple[Array, float]:
-        """Sizes [m] where panels end, and how many fragments a particle gives on average."""
-        layout, sizes = self.layout, self.layout.sizes
-        parts = np.array(PARTS)
+    def sizes(self) -> Array:
+        """Sizes [m] where panels end."""
+        sizes, parts = self.layout.sizes, np.array(PARTS)
         edges = np.concatenate([sizes.pieces, sizes.kinks, sizes.ppf([*parts, *(1 - parts)])])
-        low, high = sizes.support
-        if layout.fragment is None:
-            return layout.scale * np.unique(np.clip(edges, low, high)), 0.0
-        cut = layout.fragment / layout.scale
-        pieces = float(sizes.partial_moment(3, max(low, cut), high)) / cut**3 if cut < high else 0.0
-        if cut <= low:
-            return np.empty(0), pieces
-        return layout.scale * np.unique(np.clip(edges, low, min(cut, high))), pieces
+        return self.layout.scale * np.unique(np.clip(edges, *sizes.support))
 
     def density_of(self, x: Array) -> Array:
         """φ_a(x) [1/m]."""
@@ -222,6 +231,8 @@ class _Whole:
         out = []
         if self.curve.power:
             out.append(values[:, None] / self.curve.seams)
+            # values set in at their largest like a root
+            out.append(values[:, None] / self.curve.top * ABOVE_TOP)
         if self.least is not None:
             other, value = self.least
             out.append(np.broadcast_to(value / other.seams, (len(values), len(other.seams))))
@@ -257,24 +268,19 @@ class _OnSeats(_Whole):
             steps = a + (b - a) * np.linspace(0.0, 1.0, SCAN)
         return np.where(np.all(less, axis=1), high, steps[:, SCAN // 2])
 
-    def above(self, values: Array, rows: Rows) -> Array:
+    def above(self, values: Array, rows: Rows, nodes: int = NODES) -> Array:
         layout = self.layout
         assert layout.means is not None
-        edges, pieces = self.sizes()
-        count = max(1, AT_ONCE // (NODES * (len(edges) + 40)))
+        edges = self.sizes()
+        count = max(1, AT_ONCE // (nodes * (len(edges) + 40)))
         out = np.empty(len(values))
         for start in range(0, len(values), count):
             batch = slice(start, start + count)
             means = layout.means[rows[batch]]
-            out[batch] = self._sum(values[batch], means, edges)
-            if pieces:
-                x = np.full(len(means), float(layout.fragment or 0.0))
-                out[batch] += pieces * self._share_above(values[batch], x, means)
+            out[batch] = self._sum(values[batch], means, edges, nodes)
         return self.density[rows] * out
 
-    def _sum(self, values: Array, means: Array, edges: Array) -> Array:
-        if not len(edges):
-            return np.zeros(len(values))
+    def _sum(self, values: Array, means: Array, edges: Array, nodes: int) -> Array:
         low, high = float(edges[0]), float(edges[-1])
         if low == high:
             return self._share_above(values, np.full(len(values), high), means)
@@ -283,7 +289,7 @@ class _OnSeats(_Whole):
         fixed = np.broadcast_to(edges, (len(values), len(edges)))
         ends = np.concatenate([fixed, more, self.bends(values)], axis=1)
         ends = np.sort(np.clip(ends, low, high), axis=1)
-        x, weight = panel_rule(ends, NODES)
+        x, weight = panel_rule(ends, nodes)
         share = self._share_above(values[:, None], x, means[:, None])
         density = np.where(weight > 0, self.density_of(np.maximum(x, TINY)), 0.0)
         return np.sum(weight * density * share, axis=1)
@@ -292,19 +298,12 @@ class _OnSeats(_Whole):
 class _OnPlane(_Whole):
     """Particles on plane seats: a state is a row."""
 
-    def above(self, values: Array, rows: Rows) -> Array:
+    def above(self, values: Array, rows: Rows, nodes: int = NODES) -> Array:
         layout, gaps = self.layout, self.layout.gaps[rows]
-        edges, pieces = self.sizes()
-        out = np.zeros(len(values))
-        if pieces:
-            x = np.full(len(values), float(layout.fragment or 0.0))
-            out += pieces * self._exceeds(values, x, gaps)
-        if not len(edges):
-            return self.density[rows] * out
+        edges = self.sizes()
         low, high = float(edges[0]), float(edges[-1])
         if low == high:
-            out += self._exceeds(values, np.full(len(values), high), gaps)
-            return self.density[rows] * out
+            return self.density[rows] * self._exceeds(values, np.full(len(values), high), gaps)
         # between sizes so close that at most one of the bounds is crossed
         more = np.linspace(low, high, 400)
         fixed = np.broadcast_to(np.unique([*edges, *more]), (len(values), len({*edges, *more})))
@@ -323,7 +322,7 @@ class _OnPlane(_Whole):
         top = inside[:, -1] * 0.0
         np.add.at(top, row, np.where(first > 0, -larger, larger))
         everything = self.layout.sizes.partial_moment(0, -1.0, high / layout.scale)
-        return self.density[rows] * (out + top + inside[:, 0] * everything)
+        return self.density[rows] * (top + inside[:, 0] * everything)
 
     def _exceeds(self, values: Array, x: Array, gaps: Array) -> Array:
         """1 where particles of sizes x exceed the values, else 0."""
@@ -344,7 +343,7 @@ class _Counted:
         self.levels = top * np.geomspace(10**-decades, 1.0, math.ceil(PER_DECADE * decades))
         self.counts = group.spots.above(values, self.levels, group.weight)
 
-    def above(self, values: Array, rows: Rows) -> Array:
+    def above(self, values: Array, rows: Rows, nodes: int = NODES) -> Array:
         """Linear in the logarithm of the level: (N,) for (N,)."""
         with np.errstate(divide="ignore"):
             wanted = np.log(values)

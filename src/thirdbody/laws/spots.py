@@ -88,8 +88,6 @@ class Layout:
         Particles of every size per nominal area [1/m²].
     scale : float
         [m].
-    fragment : float or None
-        Size to which larger ones are broken [m].
     """
 
     sizes: Distribution
@@ -99,16 +97,6 @@ class Layout:
     width: float = 0.0
     density: Array | float = 1.0
     scale: float = 1.0
-    fragment: float | None = None
-
-    def larger(self, x: Array) -> Array:
-        """Part of the particles that is larger than x [m], by number; of broken ones, pieces."""
-        top, size = self.sizes.support[1], x / self.scale
-        if self.fragment is None:
-            return self.sizes.partial_moment(0, size, top)
-        cut = self.fragment / self.scale
-        pieces = self.sizes.partial_moment(3, np.maximum(size, cut), top) / cut**3
-        return self.sizes.partial_moment(0, size, cut) + pieces
 
     def of_size(self, scale: float, density: float) -> Layout:
         """Spots for a number of particles per area, all lengths times ``scale``."""

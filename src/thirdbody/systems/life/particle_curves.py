@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...contact.contact import Contact
-from ...contact.evaluation import _splits
+from ...contact.evaluation import splits_of
 from ...contact.particle_averages import size_average
 from ...effects.dents import Dents
 from ...effects.friction import changes
@@ -109,7 +109,11 @@ class ParticleCurve:
         self.one = law.one(surfaces=contact.surfaces, particle=material)
         self.average = size_average(self.one, sizes)
         self.splits = sorted(
-            {eps for output in outputs for eps in _splits(output, law, contact.surfaces, material)}
+            {
+                eps
+                for output in outputs
+                for eps in splits_of(output, law, contact.surfaces, material)
+            }
         )
         self.lowest = min(lowest, self.average.bottom, 0.0)
         self.splits += changes(self._probe, self._dent_kinds)
