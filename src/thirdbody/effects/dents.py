@@ -96,7 +96,7 @@ class Dents(AbstractOutput):
     These are the dents of one placement of the particles; every fresh set of particles adds its own
     (`thirdbody.effects.single.dent.dents_after`). Numbers are exact to 1e-9, means, volumes,
     percentiles and the largest to 1e-7, of whole particles and of fragments, with ``shallowest``
-    too; of dents that fewer than one particle in 1e14 leaves less is known, as seats end at nine
+    too; of dents that fewer than one particle in 1e12 leaves less is known, as seats end at nine
     of their widths. Particles with a strength, and those on one field of heights
     (`thirdbody.asperity.Field`), are counted by classes of sizes and gaps: their percentiles, the
     largest, and all with ``shallowest`` or of fragments are known to some percent.

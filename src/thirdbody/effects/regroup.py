@@ -36,6 +36,8 @@ LEAST, FAR = 1e-12, 1e9
 """Smallest and largest squeeze at which a depth is looked for."""
 OFF = 1e-14
 """Part of a squeeze by which nodes stay off where a formula changes."""
+QUANTILES = (1e-6, 1e-3, 0.15, 0.5, 0.85, 0.999, 1 - 1e-6)
+"""Part of the particles below sizes whose passage of a depth ends a panel over gaps."""
 NONE = 1.0
 """Squeeze in place of none: no size has it in a gap that is open, or closed."""
 
@@ -173,7 +175,7 @@ class _FromDepths(SizeAverage):
         more = [SizeAverage.gaps_at(self, splits)]
         for passage in self.passages:
             more.append(passage.gaps_of_bends(self.depth, self.sizes.support))
-            for x in self.sizes.kinks:
+            for x in np.unique([*self.sizes.kinks, *self.sizes.ppf(QUANTILES)]):
                 if x > 0:
                     more.append(x * (1 - passage.of_size(self.depth / x)))
         return np.concatenate(more)
