@@ -365,11 +365,12 @@ class Dents(AbstractOutput):
         return sunk(spots, side=side, particle=population.material, debris=self.debris)
 
     def of(self, state: Solved) -> dict[str, Array]:
-        groups = self._groups(state)
-        out: dict[str, Array] = {}
-        for side in (0, 1):
-            out |= self._side(state, groups, side)
-        return out
+        groups, surfaces = self._groups(state), state.contact.surfaces
+        one, two = ((body.E, body.nu, body.H) for body in (surfaces.first, surfaces.second))
+        first = self._side(state, groups, 0)
+        if one == two and all(spots.has_alike_sides for spots in groups):
+            return first | {f"{name[:-1]}2": values for name, values in first.items()}
+        return first | self._side(state, groups, 1)
 
     def _side(self, state: Solved, groups: Sequence[ParticleSpots], side: int) -> dict[str, Array]:
         names = ("n", "known", "unknown", "depth", "width", "volume", "embedded")
