@@ -22,6 +22,7 @@ import thirdbody as tb
 from thirdbody import reference
 from thirdbody.papers import seats
 from thirdbody.papers.horng2022 import READINGS, Curves
+from thirdbody.study import own_code
 
 pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
@@ -61,6 +62,16 @@ def matches(shown, printed):
         return shown == printed
     lines = iter(printed)
     return all(line in lines for line in shown if line != "...")
+
+
+@pytest.fixture(autouse=True)
+def registries():
+    """What a page defines is forgotten after it: other tests list all that there is."""
+    before = [(kind, dict(kind.registry)) for kind in own_code.KINDS]
+    yield
+    for kind, names in before:
+        kind.registry.clear()
+        kind.registry.update(names)
 
 
 # ---------------------------------------------------------------- pages
