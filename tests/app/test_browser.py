@@ -734,6 +734,10 @@ def test_the_address_keeps_the_work_and_back_undoes_it(visit):
     assert fact(page, "separation h") == say.value_of(state_of(wider).h, "m")
 
 
+LINK = """() => document.querySelector('input[data-path="link"], [data-path="link"] input').value"""
+LINKED = f"() => ({LINK})().includes('study=')"
+
+
 def test_a_study_too_long_for_an_address_is_told(visit):
     page = visit()
     too_long = page.get_by_text("The study is too long for an address")
@@ -749,6 +753,18 @@ def test_a_study_too_long_for_an_address_is_told(visit):
     page.locator('[data-path="undo"]').click()
     too_long.wait_for(state="hidden")
     addressed(page, study=parse_qsl(to_link(STUDY, AT))[0][1])
+
+
+def test_a_study_that_is_being_written_stays(visit):
+    page = visit()
+    tab(page, "Take away")
+    editor, link = page.locator('textarea[data-path="toml"]'), page.locator('[data-path="link"]')
+    when(page, LINKED)
+    before = link.input_value()
+    editor.fill("title = 'half written")
+    moved(page, "load", 1)
+    when(page, f"old => ({LINKED})() && ({LINK})() !== old", arg=before)
+    assert editor.input_value() == "title = 'half written"
 
 
 def test_undo_takes_back_one_step_after_another(visit):

@@ -41,6 +41,8 @@ class TakeAway:
 
     def __init__(self, state: State, again: Callable[[], None]) -> None:
         self.state, self.again = state, again
+        self.edited_study = state.study
+        """The study that stands in the editor, or from which its text began."""
         self._downloads()
         self.said = ui.label().classes("problem").props('role=alert data-said="take away"')
         self._link()
@@ -86,7 +88,7 @@ class TakeAway:
 
     def _study(self) -> None:
         ui.label("The study file").classes("subhead")
-        self.editor = ui.textarea().classes("w-full code")
+        self.editor = ui.textarea(value=to_toml(self.state.study)).classes("w-full code")
         self.editor.props('outlined autogrow data-path="toml" aria-label="study file"')
         with ui.row().classes("items-center"):
             ui.button("Use this text", icon="input", on_click=self._use_edited_text).props(
@@ -155,7 +157,9 @@ class TakeAway:
 
     def draw(self) -> None:
         state = self.state
-        self.editor.set_value(to_toml(state.study))
+        if state.study is not self.edited_study:  # else what is being written stays
+            self.edited_study = state.study
+            self.editor.set_value(to_toml(state.study))
         if state.answer is not None:
             self.script.set_text(to_python(state.answer.study, state.operating_load))
         at = state.wanted if state.answer is None else state.operating_load
