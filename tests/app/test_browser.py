@@ -734,7 +734,8 @@ def test_the_address_keeps_the_work_and_back_undoes_it(visit):
     assert fact(page, "separation h") == say.value_of(state_of(wider).h, "m")
 
 
-LINK = """() => document.querySelector('input[data-path="link"], [data-path="link"] input').value"""
+LINK = """() => document.querySelector('input[data-path="link"], [data-path="link"] input')?.value
+  ?? ''"""
 LINKED = f"() => ({LINK})().includes('study=')"
 
 
