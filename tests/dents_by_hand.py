@@ -249,42 +249,11 @@ class ByHand:
     def average(self, of: Callable[[Array, Array, Array], Array], inner: Callable[[Array], list[list[float]]],
                 more: Sequence[float] = ()) -> Array:  # fmt: skip
         """Sum over particles or their fragments of q(x, ε) (n, k), split at ε ``inner(x)``."""
-        population = self.contact.populations[0]
-        sizes, density = population.diameter, population.areal_density
-        cut = self.dents.fragment or math.inf
-        support = sizes.support
-        pieces = 0.0
-        if isinstance(sizes, tb.distributions.Monodisperse):
-            x = min(sizes.mean, cut)
-            return density * (sizes.mean / x) ** 3 * self._seats(of, inner, np.array([x]))[0]
-        edges = [*sizes.pieces, *sizes.kinks, *more]
-        if self.width == 0:
-            edges += (
-                [self.mean / (1 - e) for e in (0.0, *self.one.splits) if e < 1]
-                if self.mean > 0
-                else []
-            )
-            edges += (
-                [self.mean / (1 - e) for e in self.one.splits if e > 1] if self.mean < 0 else []
-            )
-        edges = [x for x in edges if support[0] < x < min(support[1], cut)]
-        edges = np.array(sorted({support[0], *edges, min(support[1], cut)}))
-        total = 0.0
-        if support[0] < cut:
-            # roots of x near 0 too
-            if edges[0] == 0:
-                edges = np.unique([*edges, *(edges[1] * 0.3 ** np.arange(40))])
-            total = integrate(lambda x: sizes.pdf(x)[:, None] * self._seats(of, inner, x), edges)
-        if cut < support[1]:
-            third = [
-                x for x in (*sizes.pieces, *sizes.kinks) if max(cut, support[0]) < x < support[1]
-            ]
-            third = [max(cut, support[0]), *third, support[1]]
-            pieces = (
-                float(integrate(lambda x: (sizes.pdf(x) * x**3)[:, None], third, 1e-13)[0]) / cut**3
-            )
-            total = total + pieces * self._seats(of, inner, np.array([cut]))[0]
-        return density * total
+        more = list(more)
+        if self.width == 0 and self.mean != 0:
+            here = [e for e in (0.0, *self.one.splits) if (e < 1) == (self.mean > 0) and e != 1]
+            more += [self.mean / (1 - e) for e in here]
+        return self._over_sizes(lambda x: self._seats(of, inner, x), more)
 
     def _seats(self, of, inner, x: Array) -> Array:
         """Mean over seats of q (n, k) for sizes (n,)."""
@@ -401,7 +370,9 @@ class ByHand:
         edges = np.array(sorted({support[0], *edges, min(support[1], cut)}))
         total = 0.0
         if support[0] < cut:
-            total = integrate(lambda x: sizes.pdf(x)[:, None] * share(x), edges, 1e-11)
+            if edges[0] == 0:  # roots of x near 0 too
+                edges = np.unique([*edges, *(edges[1] * 0.3 ** np.arange(40))])
+            total = integrate(lambda x: sizes.pdf(x)[:, None] * share(x), edges)
         if cut < support[1]:
             third = [
                 x for x in (*sizes.pieces, *sizes.kinks) if max(cut, support[0]) < x < support[1]
