@@ -117,7 +117,7 @@ def test_sums_on_a_panel_are_integrals(power):
     places = rule[0, : gaps.TERMS]
     series, terms = np.zeros(gaps.TERMS + 1), np.zeros(gaps.TERMS)
     values = np.exp(power * places)
-    whole, left = sum_row(rule, values, np.ones(gaps.TERMS), terms, series)
+    whole, left = sum_row(rule, values, np.ones(gaps.TERMS), np.empty(gaps.TERMS), terms, series)
     assert left < 1e-15 * whole
     for x in (-0.7, 0.0, 0.4, 1.0):
         exact = quad(lambda u: math.exp(power * u), -1, x, epsabs=0, epsrel=1e-13)[0]

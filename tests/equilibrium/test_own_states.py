@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.contact.broken_averages import roughly
 from thirdbody.contact.interface import interface
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.load_scan import load_scan
@@ -895,3 +896,46 @@ def test_company_and_order_change_no_bit_of_what_is_laid_once_a_state(kind):
     for name in ("d", "F_sa_star", "A_e", "A_ep", "A_p", "A_sa2", "A_t"):
         np.testing.assert_array_equal(whole[name][::-1], other[name], name)
         np.testing.assert_array_equal(whole[name][4:5], alone[name], name)
+
+
+@pytest.mark.parametrize("unlike", [False, True])
+@pytest.mark.parametrize("seat", SEATS)
+@pytest.mark.parametrize(
+    "sizes",
+    [
+        SIZES["gaussian"],
+        tb.LogNormal(median=300e-9, gsd=1.4),
+        tb.LogNormal(median=3e-6, gsd=1.5),
+        PowerLaw(edges=(4e-6, 6e-6, 14e-6, 70e-6), counts=(5.0, 1.5, 0.2), slopes=(3.4, 2.4, 3.3)),
+        PowerLaw(
+            edges=(2e-7, 2.3e-7, 3e-7, 5e-7), counts=(5.0, 3.0, 1.0), slopes=(0.5, 1.5, 3.0)
+        ),
+    ],
+    ids=["gaussian", "log-normal", "thick", "powers", "narrow powers"],
+)  # fmt: skip
+def test_samples_hold_to_states_solved_by_themselves(sizes, seat, unlike):
+    """Samples are solved with fewer nodes, and again with all where these do not do."""
+    case = contact("deep", seat)
+    density = 5e-3 / float(sizes.mean_diameter) ** 2
+    dust = case.particles.replace(diameter=sizes, areal_density=density)
+    case = case.replace(particles=dust)
+    rng = np.random.default_rng(3)
+    count = 24
+    vary = {
+        "particles.material.E": 72e9 * rng.uniform(0.7, 1.4, count),
+        "particles.material.H": 10.0 ** rng.uniform(9.2, 10.2, count),
+        "roughness.R": 2.8e-6 * rng.uniform(0.5, 2.0, count),
+    }
+    if unlike:
+        vary["surfaces.first.H"] = 6e9 * rng.uniform(0.4, 1.2, count)
+    loads = 10.0 ** rng.uniform(-7, -3, count)
+    want = own_columns(case, vary, "F_star", loads)
+    with roughly():
+        got = own_columns(case, vary, "F_star", loads)
+    sure = (got["doubt"] == "") & (want["doubt"] == "") & (got["status"] == 0)
+    assert np.all(got["status"][want["status"] == 0] == 0)
+    assert sure.sum() > 6
+    for i in np.flatnonzero(sure):
+        off = largest_error(got, want, np.arange(count) == i)
+        off["d_star"] /= max(1.0, 0.1 * abs(want["d_star"][i]))  # as the engine measures it
+        assert max(off.values()) <= got["error"][i] + want["error"][i] <= 1.1e-6

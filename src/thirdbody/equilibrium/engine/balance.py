@@ -21,12 +21,14 @@ from .curves import (
 from .fields import (
     A_E,
     A_SA,
+    ASKED,
     BEYOND,
     BREAKS,
     CODE,
     COVERAGE,
     COVERED,
     DMT,
+    ENOUGH,
     EQUAL,
     F_SA,
     F_SS,
@@ -84,6 +86,7 @@ from .laid import (
     SIZED,
     SIZED_END,
     SLOT,
+    TWIN,
     WAY,
     WHOLE,
     WHOLE_END,
@@ -97,13 +100,13 @@ from .seats import (
     add_broken,
     add_rough,
     gather_gaps,
-    is_end_felt,
     lay_broken,
     lay_pieces,
+    left_at_end,
 )
 from .sides import is_alike, scalar
 from .skins import MOST_HEIGHTS, add_skin, lay_skin
-from .squeeze import lay_panels
+from .squeeze import are_twins, copy_panels, lay_panels, spread_of
 from .sums import MOST_SIZES, add_plane
 
 __all__ = ["LEVELS", "solve_own"]
@@ -115,9 +118,6 @@ COARSE, FINE, LEVELS = 0, 1, 2
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 NOTHING = -1
 """In place of a level: nothing is laid."""
-ASKED, ENOUGH = 1e-10, 5e-10
-"""Error of loads, areas and the separation that is asked for, and with which a state is solved
-where the finest nodes do not reach that, or there is no room for finer ones."""
 ROUNDED, SAFE = 2e-14, 10.0
 """What rounding leaves of a part; the error of a rule of twice the nodes is so many squares of its
 difference to the other."""
@@ -493,15 +493,13 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
         if given[p, SEAT] != PRINTED:
             own = SETTLED if given[p, SEAT] == PLANE and given[p, EQUAL] == 1 else ROUNDED
             left += own + work[2][p, laid[p, few, COUNT], SHARE]
+        if given[p, SEAT] == ROUGH and laid[p, few, WAY] == PIECES and given[p, BREAKS] == 0:
+            gap = h * skin[0, SIGMA_S] + given[p, OFFSET]
+            left += left_at_end(given, p, rules[few, 0, PANEL_SPAN], gap)
     if load > 0 and area > 0:  # of the part that particles have
         pressed = row[A_SA] + row[A_SA + 1] + row[A_SA + 2]
         left *= min(max(row[F_SA] / load, pressed / area), 1.0)
     error += SAFE * left
-    for p in range(len(given)):
-        if given[p, SEAT] == ROUGH and laid[p, few, WAY] == PIECES and given[p, BREAKS] == 0:
-            gap = h * skin[0, SIGMA_S] + given[p, OFFSET]
-            if is_end_felt(given, p, rules[few, 0, PANEL_SPAN], gap):
-                return math.inf
     if slope < 0:
         unit = skin[0, SIGMA_S] / skin[0, SIGMA]
         error = max(error, error / -slope * unit / max(1.0, FAR * abs(h) * unit))
@@ -536,6 +534,57 @@ def _root(given, skin, work, laid, rules, target, row, out):
 
 
 @scalar
+def _find_twins(parts, sides, laid):
+    """Note of each part the first whose particles carry the same at each squeeze."""
+    for p in range(len(parts)):
+        laid[p, COARSE, TWIN] = p
+        for q in range(p):
+            if are_twins(parts, sides, p, q):
+                laid[p, COARSE, TWIN] = q
+                break
+
+
+@scalar
+def _lay_part(parts, sides, panels, laid, p, series):
+    """Panels of part p, or of the first that carries the same; how many, or −1."""
+    keep_apart()
+    first = laid[p, COARSE, TWIN]
+    if first != p:
+        count = laid[first, COARSE, COUNT]
+        copy_panels(sides, panels, count, first, p)
+        return count
+    spread = math.inf
+    for q in range(p, len(parts)):
+        if laid[q, COARSE, TWIN] == p:
+            spread = min(spread, spread_of(parts, q))
+    return lay_panels(parts, sides, panels, p, series, spread)
+
+
+@scalar
+def _sum_gaps(parts, work, laid, rule):
+    """Lay the sums over the squeeze of parts that are summed over gaps, those of twins together."""
+    keep_apart()
+    _, sides, panels, _, _, _, _, _, sums, _ = work
+    some = laid[:-1, FINE, TWIN]
+    for p in range(len(parts)):
+        some[p] = NOTHING
+        for q in range(p + 1):
+            if laid[p, COARSE, WAY] == BY_GAPS and laid[q, COARSE, WAY] == BY_GAPS and (
+                laid[p, COARSE, TWIN] == laid[q, COARSE, TWIN]
+            ):  # fmt: skip
+                some[p] = q
+                break
+    for p in range(len(parts)):
+        if some[p] != p:
+            continue
+        count = laid[p, COARSE, COUNT]
+        left = sum_panels(parts, sides, panels, p, some, count, rule, sums)
+        for q in range(p, len(parts)):
+            if some[q] == p:
+                panels[q, count, SHARE] += left
+
+
+@scalar
 def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
     """Separation, evaluations, fate and error of one state; its columns into ``row``.
 
@@ -549,13 +598,10 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
             if given[p, SEAT] == PRINTED:
                 continue
             series = rules[len(rules) - 1, POLYNOMIAL:]
-            count = lay_panels(given, work[1], work[2], p, series)
+            count = _lay_part(given, work[1], work[2], laid, p, series)
             laid[p, COARSE, WAY] = PIECES
             if count > 0 and goes_by_gaps(given, work[2], p, count):
                 laid[p, COARSE, WAY] = BY_GAPS
-                finest = rules[len(rules) - 2, POLYNOMIAL:]
-                left = sum_panels(given, work[1], work[2], p, count, finest, work[8])
-                work[2][p, count, SHARE] += left
             if count > 0 and given[p, BREAKS] == 1:
                 count = lay_tension(given, work[1], work[2], p, count, series, work[6])
                 if count > 0 and goes_by_fragments(given, work[2], p, count):
@@ -563,7 +609,9 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
             laid[p, COARSE, COUNT] = count
             if count < 0:
                 return h, 0, TOO_LONG, math.inf
+        _sum_gaps(given, work, laid, rules[len(rules) - 2, POLYNOMIAL:])
     count, slope, error = 0, 0.0, math.inf
+    aim, enough = rules[len(rules) - 1, 0, ASKED], rules[len(rules) - 1, 0, ENOUGH]
     for level in range(LEVELS):
         own = rules[2 * level :]
         if ready[0] != level:
@@ -572,7 +620,7 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
                 lay(given, skin, work, laid, own, few)
                 and lay(given, skin, work, laid, own, few + 1)
             ):
-                return h, count, OK if error <= ENOUGH else TOO_LONG, error
+                return h, count, OK if error <= enough else TOO_LONG, error
             ready[0] = level
         if target > 0:
             h, slope, n, fate = _root(given, skin, work, laid, own, target, row, out)
@@ -585,9 +633,9 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
             if load != load:
                 return h, count, UNSOLVED, math.inf
         error = estimate(given, skin, work, laid, own, h, slope, row, out)
-        if error <= ASKED:
+        if error <= aim:
             break
-    return h, count, OK if error <= ENOUGH else NOT_RESOLVED, error
+    return h, count, OK if error <= enough else NOT_RESOLVED, error
 
 
 @Cached
@@ -631,6 +679,7 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
             for s in range(2 * most):
                 for k in range(bodies.shape[2]):
                     sides[s, k] = bodies[i, s, k]
+            _find_twins(parts[i], sides, laid)
         h[i], count[i], fate[i], error[i] = _own_state(
             parts[i], skins[i], work, laid, rules, ready, target[i], h[i], rows[i], out
         )

@@ -62,6 +62,8 @@ NODES = (
 """Of each level, few and all: nodes of a panel over heights and how many widths of a density it
 covers, then the same of sizes on a rough seat, and of polynomials over a seat; nodes of a panel of
 a squeeze, and widths of a rough seat and of the sizes on a plane that it covers."""
+CARE, CARE_OF_SAMPLES = (1e-10, 5e-10), (1e-7, 1e-6)
+"""Error that is asked for, and with which a state is solved at the finest nodes."""
 MOST_SECTIONS = 40
 """Classes of size of a population: each costs as much as a population of its own."""
 WIDEST = math.log(2.5)
@@ -80,12 +82,13 @@ BREAKING = (8, 16)
 what one carries."""
 
 
-@lru_cache(maxsize=2)
-def rules(breaks: bool = False) -> Array:
+@lru_cache(maxsize=4)
+def rules(breaks: bool = False, samples: bool = False) -> Array:
     """Rules of every level, then places and transform of the series of a panel."""
     most = max(asked[4] for asked in itertools.chain(*NODES))
     out = np.zeros((2 * len(NODES) + 1, f.POLYNOMIAL + 1 + most, most))
     _add_series(out[-1], TERMS)
+    out[-1, 0, [f.ASKED, f.ENOUGH]] = CARE_OF_SAMPLES if samples else CARE
     for i, asked in enumerate(itertools.chain(*NODES)):
         if breaks and i < len(BREAKING):
             asked = (BREAKING[i], *asked[1:])

@@ -109,3 +109,7 @@ NODES, SPAN, SIZE_NODES, SIZE_SPAN, SEAT_NODES, SEAT_SPAN = range(6)
 PANEL_NODES, PANEL_SPAN, PLANE_SPAN, NARROW_NODES, HALF_NODES, ALL_KINKS = range(6, 12)
 RULE, SIZE_RULE, NARROW_RULE, PANEL_RULE, HALF_RULE, POLYNOMIAL = 1, 3, 5, 7, 9, 11
 """Rows of Gauss nodes, each before one of weights, and of Chebyshev nodes before their series."""
+ASKED, ENOUGH = range(2)
+"""In the first row of the last of the rules: error of loads, areas and the separation that is asked
+for, and with which a state is solved where the finest nodes do not reach that, or there is no room
+for finer ones."""

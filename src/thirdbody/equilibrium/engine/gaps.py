@@ -16,6 +16,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from ...numerics.chebyshev import chebyshev_transform
+from ...numerics.quadrature import gauss_legendre
 from ..compiled.machine import exp, keep_apart
 from .curves import (
     AREA_1,
@@ -33,10 +37,13 @@ from .curves import (
 )
 from .curves import LOAD as CARRIED
 from .fields import (
+    A_SA,
+    A_SA2,
     BREAKS,
     COVERED,
     DENSITY,
     EQUAL,
+    F_SA,
     FOOTPRINT,
     HALF_NODES,
     HALF_RULE,
@@ -51,6 +58,7 @@ from .fields import (
     POWER,
     ROUGH,
     SEAT,
+    SHADE,
     SHADOW,
     SIZE_1,
     SIZE_2,
@@ -86,7 +94,18 @@ from .skins import ROOT_2PI
 from .sums import above, add_last, lay_sizes
 from .vectors import ln
 
-__all__ = ["SUMS", "add_below", "fill_gaps", "goes_by_gaps", "lay_cells", "sum_panels"]
+__all__ = [
+    "SUMS",
+    "TERMS",
+    "add_below",
+    "add_between",
+    "fill_gaps",
+    "goes_by_gaps",
+    "has_powers",
+    "lay_cells",
+    "sum_onset",
+    "sum_panels",
+]
 
 TERMS = 32
 """Of a series of sums: as many as the finest polynomial over a seat has nodes."""
@@ -106,14 +125,32 @@ ONE, TWO = NODE, NODE_END
 """Of segments, more: the panels of the smallest and of the largest size there."""
 
 
+def _onset_matrix() -> tuple[np.ndarray, np.ndarray]:
+    """Places of w(u), u from 0 to 1, and from w there to terms of the series ∫_0^1 v³ w(u v) dv."""
+    x, series = chebyshev_transform(TERMS)
+    nodes, weights = gauss_legendre(TERMS)
+    v = 0.5 * (1 + nodes)
+    angle = np.arccos(np.clip((1 + x[:, None]) * v - 1, -1.0, 1.0))
+    terms = np.cos(np.arange(TERMS) * angle[:, :, None])
+    return x, series @ np.einsum("v,jvm->jm", 0.5 * weights * v**3, terms) @ series
+
+
+PLACES_OF_ONSET, FROM_ONSET = _onset_matrix()
+
+
+@scalar
+def has_powers(parts, p):
+    """Whether the sizes of part p are a power, and its shadow is part of what is summed."""
+    kind, shadow = parts[p, KIND], parts[p, SHADOW]
+    shades = shadow in (FOOTPRINT, COVERED, NOTHING)
+    return shades and kind in (POWER, UNIFORM)
+
+
 @scalar
 def goes_by_gaps(given, panels, p, count):
     """Whether part p is summed over gaps."""
     keep_apart()
-    kind, shadow = given[p, KIND], given[p, SHADOW]
-    if given[p, SEAT] != ROUGH or given[p, BREAKS] == 1 or (kind != POWER and kind != UNIFORM):
-        return False
-    if shadow != FOOTPRINT and shadow != COVERED and shadow != NOTHING:
+    if given[p, SEAT] != ROUGH or given[p, BREAKS] == 1 or not has_powers(given, p):
         return False
     broad = given[p, HIGH] - given[p, LOW] > BROAD * given[p, WIDTH]
     return broad and panels[p, count - 1, TO] < 1 and 2 * SLOTS * len(given) <= MOST_NODES
@@ -135,22 +172,22 @@ def _variable_of(given, panels, p, n):
 
 
 @exact
-def _weigh_squeezes(power, at, mass):
+def _weigh_squeezes(power, at, mass, weighed):
     """Weights of nodes over ε times a power of 1 − ε."""
     for j in range(len(at)):
-        mass[j] *= exp(power * ln(1 - at[j]))
+        weighed[j] = mass[j] * exp(power * ln(1 - at[j]))
 
 
 @scalar
-def _sum_row(rule, values, mass, terms, series):
+def _sum_row(rule, values, mass, weighed, terms, series):
     """Series of the integral from the start of a panel of what has these values at its places.
 
     The integral over the panel, and what the series leaves out of it, at most.
     """
     start = whole = 0.0
     for j in range(TERMS):
-        values[j] *= mass[j]
-    transform(rule, values, terms)
+        weighed[j] = values[j] * mass[j]
+    transform(rule, weighed, terms)
     for k in range(1, TERMS + 1):
         below = terms[k - 1] * (2 if k == 1 else 1)
         series[k] = (below - (terms[k + 1] if k + 1 < TERMS else 0.0)) / (2 * k)
@@ -175,45 +212,154 @@ def _place_of(variable, eps):
 
 
 @scalar
-def sum_panels(given, sides, panels, p, count, rule, sums):
-    """Fill in Q of part p on every panel; what its series leave out, at most, over all so far."""
+def _sum_panel(parts, panels, p, q, n, rule, sums):
+    """Fill in Q of part q on panel n, from what stands at its nodes in the room of part p.
+
+    What its series leave out, at most.
+    """
     keep_apart()
-    room, power, worst = panels[p, len(panels[p]) - ROOM :], _exponent(given, p) - 4, 0.0
-    at, mass, ones = room[AT, :TERMS], room[MASS, :TERMS], room[SLOPE, :TERMS]
+    room, row, following = panels[p, len(panels[p]) - ROOM :], sums[q, n], sums[q, n + 1]
+    mass, weighed, series = room[OFF, :TERMS], room[OTHER, :TERMS], room[SLOPE, :TERMS]
+    _weigh_squeezes(_exponent(parts, q) - 4, room[AT, :TERMS], room[MASS, :TERMS], mass)
+    variable = _variable_of(parts, panels, p, n)
+    row[VARIABLE], row[START] = variable, _place_of(variable, panels[p, n, EDGE])
+    row[RATE] = 2 / (_place_of(variable, panels[p, n, TO]) - row[START])
+    middle = TERMS // 2
+    row[SECOND_LARGER] = 1.0 if room[AREA_2, middle] > room[AREA_1, middle] else 0.0
+    load, left = _sum_row(
+        rule, room[CARRIED, :TERMS], mass, weighed, series, row[OF_LOAD:OF_AREA_1]
+    )
+    worst = left / (row[BEFORE] + load)
+    one, left = _sum_row(
+        rule, room[AREA_1, :TERMS], mass, weighed, series, row[OF_AREA_1:OF_AREA_2]
+    )
+    worst = max(worst, left / (row[BEFORE + SECOND - LOAD] + one))
+    two = one
+    if parts[p, EQUAL] == 1:
+        for k in range(TERMS + 1):
+            row[OF_AREA_2 + k] = row[OF_AREA_1 + k]
+    else:
+        two, left = _sum_row(rule, room[AREA_2, :TERMS], mass, weighed, series, row[OF_AREA_2:SUMS])
+        worst = max(worst, left / (row[BEFORE + SECOND - LOAD] + two))
     for k in range(COLUMNS):
-        sums[p, 0, BEFORE + k] = 0.0
+        following[BEFORE + k] = row[BEFORE + k]
+    following[BEFORE] += load
+    following[BEFORE + SECOND - LOAD] += two
+    if parts[p, SHADOW] == FOOTPRINT:
+        following[BEFORE + LARGER - LOAD] += two if row[SECOND_LARGER] == 1 else one
+    following[BEFORE + FIRST - LOAD + int(panels[p, n, REGIME])] += one
+    return worst
+
+
+@scalar
+def sum_panels(given, sides, panels, p, some, count, rule, sums):
+    """Fill in Q on every panel of those parts of which ``some`` (P,) says p: p and its twins.
+
+    What their series leave out, at most, over all so far.
+    """
+    keep_apart()
+    worst, room = 0.0, panels[p, len(panels[p]) - ROOM :]
+    at, mass, ones = room[AT, :TERMS], room[MASS, :TERMS], room[SLOPE, :TERMS]
+    for q in range(p, len(some)):
+        for k in range(COLUMNS if some[q] == p else 0):
+            sums[q, 0, BEFORE + k] = 0.0
     for n in range(count):
-        own = sums[p, n]
         a, b, variable = panels[p, n, EDGE], panels[p, n, TO], _variable_of(given, panels, p, n)
         for j in range(TERMS):
             ones[j] = 1.0
         place_nodes(variable, 1.0, a, b, rule[0, :TERMS], ones, at, mass)
         fill_particles(given, sides, panels, p, n, TERMS)
-        _weigh_squeezes(power, at, mass)
-        own[VARIABLE], own[START] = variable, _place_of(variable, a)
-        own[RATE] = 2 / (_place_of(variable, b) - own[START])
-        middle = TERMS // 2
-        own[SECOND_LARGER] = 1.0 if room[AREA_2, middle] > room[AREA_1, middle] else 0.0
-        load, left = _sum_row(rule, room[CARRIED, :TERMS], mass, ones, own[OF_LOAD:OF_AREA_1])
-        worst = max(worst, left / (own[BEFORE] + load))
-        one, left = _sum_row(rule, room[AREA_1, :TERMS], mass, ones, own[OF_AREA_1:OF_AREA_2])
-        worst = max(worst, left / (own[BEFORE + SECOND - LOAD] + one))
-        two = one
-        if given[p, EQUAL] == 1:
-            for k in range(TERMS + 1):
-                own[OF_AREA_2 + k] = own[OF_AREA_1 + k]
-        else:
-            two, left = _sum_row(rule, room[AREA_2, :TERMS], mass, ones, own[OF_AREA_2:SUMS])
-            worst = max(worst, left / (own[BEFORE + SECOND - LOAD] + two))
-        following = sums[p, n + 1]
-        for k in range(COLUMNS):
-            following[BEFORE + k] = own[BEFORE + k]
-        following[BEFORE] += load
-        following[BEFORE + SECOND - LOAD] += two
-        if given[p, SHADOW] == FOOTPRINT:
-            following[BEFORE + LARGER - LOAD] += two if own[SECOND_LARGER] == 1 else one
-        following[BEFORE + FIRST - LOAD + int(panels[p, n, REGIME])] += one
+        for q in range(p, len(some)):
+            if some[q] == p:
+                worst = max(worst, _sum_panel(given, panels, p, q, n, rule, sums))
     return worst
+
+
+@scalar
+def sum_onset(parts, sides, panels, p, onset):
+    """Series of Q(ε)/ε² of part p on the first panel, for load and both areas.
+
+    Q sets in like ε^2.5 for a load and like ε² for an area: with a series of Q itself, digits of
+    what is hardly squeezed are lost.
+    """
+    keep_apart()
+    room, power = panels[p, len(panels[p]) - ROOM :], _exponent(parts, p) - 4
+    at, mass, last = room[AT, :TERMS], room[MASS, :TERMS], panels[p, 0, TO]
+    for j in range(TERMS):
+        at[j] = 0.25 * last * (1 + PLACES_OF_ONSET[j]) ** 2
+    fill_particles(parts, sides, panels, p, 0, TERMS)
+    for j in range(TERMS):
+        mass[j] = 2 * math.exp(power * math.log(1 - at[j])) / at[j]
+    for k in range(3):
+        values = room[CARRIED + k, :TERMS]  # load, then the areas
+        for i in range(TERMS):
+            total = 0.0
+            for j in range(TERMS):
+                total += FROM_ONSET[i, j] * mass[j] * values[j]
+            onset[k * TERMS + i] = total
+
+
+@scalar
+def _read_three(series, first, second, third, count, x):
+    """Three series of so many terms at a place."""
+    b_1, c_1, b_2, c_2, b_3, c_3, twice = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2 * x
+    for k in range(count - 1, 0, -1):
+        b_1, c_1 = series[first + k] + twice * b_1 - c_1, b_1
+        b_2, c_2 = series[second + k] + twice * b_2 - c_2, b_2
+        b_3, c_3 = series[third + k] + twice * b_3 - c_3, b_3
+    one = series[first] + x * b_1 - c_1
+    return one, series[second] + x * b_2 - c_2, series[third] + x * b_3 - c_3
+
+
+@scalar
+def _add_to_end(parts, panels, p, count, eps, factor, sums, onset, out):
+    """Add Q(ε) of part p times a factor, up to the last panel."""
+    keep_apart()
+    n = count - count  # no constant, for which numba would compile twice
+    while n < count and eps > panels[p, n, TO]:
+        n += 1
+    row, shadow = sums[p, n], parts[p, SHADOW]
+    out[F_SA] += factor * row[BEFORE]
+    out[A_SA2] += factor * row[BEFORE + SECOND - LOAD]
+    out[SHADE] += factor * row[BEFORE + LARGER - LOAD]
+    for k in range(3):
+        out[A_SA + k] += factor * row[BEFORE + FIRST - LOAD + k]
+    if n == count:
+        return
+    if n == 0:
+        x = 2 * math.sqrt(eps / panels[p, 0, TO]) - 1
+        load, one, two = _read_three(onset, 0, TERMS, 2 * TERMS, TERMS, x)
+        squared = eps * eps
+        load, one, two = squared * load, squared * one, squared * two
+    else:
+        x = row[RATE] * (_place_of(row[VARIABLE], eps) - row[START]) - 1
+        load, one, two = _read_three(row, OF_LOAD, OF_AREA_1, OF_AREA_2, TERMS + 1, x)
+    out[F_SA] += factor * load
+    out[A_SA2] += factor * two
+    out[A_SA + int(panels[p, n, REGIME])] += factor * one
+    if shadow == FOOTPRINT:
+        out[SHADE] += factor * (two if row[SECOND_LARGER] == 1 else one)
+
+
+@scalar
+def add_between(parts, sides, panels, p, count, gap, sums, onset, out):
+    """What part p carries on a plane, as `add_plane` does, by the sums over the squeeze."""
+    keep_apart()
+    low, high, middle = parts[p, LOW], parts[p, HIGH], parts[p, SIZE_1]
+    if gap >= high:
+        return
+    n, norm = _exponent(parts, p), parts[p, DENSITY] * parts[p, NORM]
+    factor = norm * middle**3 * math.exp((3 - n) * math.log(gap / middle))
+    _add_to_end(parts, panels, p, count, (high - gap) / high, factor, sums, onset, out)
+    if gap < low:
+        _add_to_end(parts, panels, p, count, (low - gap) / low, -factor, sums, onset, out)
+    begin = max(low, gap / (1 - panels[p, count - 1, TO]))
+    if begin < high:  # squeezed beyond the last panel: ∫ x^(2 − n) dx
+        over = math.log(high / begin)
+        rise = (3 - n) * over
+        squares = over * (math.expm1(rise) / rise if rise != 0 else 1.0)
+        squared = norm * middle**3 * math.exp((3 - n) * math.log(begin / middle)) * squares
+        add_last(parts, sides, panels, p, count, squared, out)
 
 
 # ------------------------------------------------------------------------------ cells

@@ -36,6 +36,7 @@ from .fields import (
 from .fields import (
     LOW as SMALLEST,
 )
+from .gaps import add_between, has_powers, sum_onset, sum_panels
 from .shares import particle_at
 from .sides import exact, scalar, summed
 from .sums import add_plane
@@ -112,9 +113,11 @@ VALUE, SLOPE, PRESSED, TURNED, BASIS, U = range(6)
 
 # ------------------------------------------------------------------------------ cells over the gap
 @scalar
-def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, values, series, terms):
+def _fill_cell(given, sides, panels, count, rule, places, sums, onset, top, power, a, b, values,
+               series, terms):  # fmt: skip
     """Fill series of all columns between two gaps; their last terms over the largest value."""
     keep_apart()
+    by_sums = has_powers(given, 0)
     rooted = a + b > top
     low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
     for j in range(OF_CELL):
@@ -122,7 +125,9 @@ def _fill_cell(given, sides, panels, count, rule, places, top, power, a, b, valu
         gap = top - place * place if rooted else place
         for k in range(10):
             terms[k] = 0.0
-        if not add_plane(given, sides, panels, 0, count, gap, rule, terms):
+        if by_sums:
+            add_between(given, sides, panels, 0, count, gap, sums, onset, terms)
+        elif not add_plane(given, sides, panels, 0, count, gap, rule, terms):
             return math.nan
         over = (top - gap) ** (-0.5 * power) if rooted else 1.0
         for k in range(COLUMNS - 1):
@@ -215,8 +220,8 @@ def _middle(a, b, high):
 
 
 @scalar
-def lay_gaps(given, sides, panels, count, rule, places, settled, cells, floor, edges, values,
-             series, terms):  # fmt: skip
+def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, floor, edges,
+             values, series, terms, some, sums, onset):  # fmt: skip
     """Lay cells over the gap, from the largest size down; how many, and what they leave out.
 
     −1 where there is no room, and 0 where particles are squeezed by more than their size.
@@ -247,6 +252,9 @@ def lay_gaps(given, sides, panels, count, rule, places, settled, cells, floor, e
     for k in range(COLUMNS):
         floor[k] = terms[F_SA + k]
     found, n, many, worst = 0, 0, 1, 0.0
+    if has_powers(given, 0):
+        worst = sum_panels(given, sides, panels, 0, some, count, finest, sums)
+        sum_onset(given, sides, panels, 0, onset)
     while n < marked:
         # where formulas change little at their ends, one series does over several of them
         b, last_n, alone = edges[n], min(n + many, marked), False
@@ -255,8 +263,9 @@ def lay_gaps(given, sides, panels, count, rule, places, settled, cells, floor, e
             if found + CUTS > MOST_CELLS:
                 return -1, 0.0
             left = _fill_cell(
-                given, sides, panels, count, rule, places, high, power, a, b, values, series, terms
-            )
+                given, sides, panels, count, rule, places, sums, onset, high, power, a, b, values,
+                series, terms,
+            )  # fmt: skip
             if left != left:
                 return -1, 0.0
             if left > settled and b - a > THINNEST * high:

@@ -32,6 +32,8 @@ from .fields import (
     TOO_MUCH,
     UNSOLVED,
 )
+from .gaps import SUMS
+from .gaps import TERMS as OF_ONSET
 from .ground import (
     A_CELL,
     BETA,
@@ -61,7 +63,7 @@ from .ground import (
     weigh_ground,
 )
 from .sides import is_alike, scalar
-from .squeeze import lay_panels
+from .squeeze import lay_panels, spread_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -604,13 +606,15 @@ def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts
 def _lay_section(given, sides, rules, care, scratch, cells, floor, section):
     """Lay the cells of a section; what they leave out, and whether they are laid, or why not."""
     keep_apart()
-    panels, edges, values, out = scratch
-    count = lay_panels(given, sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:])
+    panels, edges, values, out, some, sums, onset = scratch
+    spread = spread_of(given, 0)
+    count = lay_panels(given, sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:], spread)
     if count <= 0:
         return 0.0, TOO_LONG
     laid, left = lay_gaps(
-        given, sides, panels, count, rules[1], rules[0, POLYNOMIAL:], care[OF_CELLS],
-        cells, floor, edges, values[0], values[1], out,
+        given, sides, panels, count, rules[1], rules[0, POLYNOMIAL:],
+        rules[len(rules) - 2, POLYNOMIAL:], care[OF_CELLS], cells, floor, edges,
+        values[0], values[1], out, some, sums, onset,
     )  # fmt: skip
     section[CELLS] = laid
     if laid > 0:
@@ -684,6 +688,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
     scratch = (
         np.empty((1, MOST_PANELS + ROOM, PANEL)), np.empty(MOST_CELLS),
         np.empty((2, COLUMNS, OF_CELL)), np.zeros(10),
+        np.zeros(1, np.int64), np.empty((1, MOST_PANELS, SUMS)), np.empty(3 * OF_ONSET),
     )  # fmt: skip
     cells, floor = np.zeros((every, MOST_CELLS, A_CELL)), np.zeros((every, COLUMNS))
     surface, held = np.zeros((HEIGHTS_OF_TABLE, TERMS, OF_SURFACE)), np.zeros((2, 2 * OF_SURFACE))

@@ -17,7 +17,6 @@ from ..load_scan import RESIDUAL
 from ..status import Status
 from . import fields as f
 from .columns import Numbers, rules
-from .grounds import Grounds
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -48,6 +47,8 @@ CODES = {
 }
 
 
+AGAIN = f.NOT_RESOLVED, f.NOT_MONOTONE, f.UNSOLVED
+"""What may become of samples that are solved roughly, for which more care may find a state."""
 CLEARLY = 0.999
 """Part of a load that is carried at most where it is too much for sure."""
 ROUGH = 1e-6
@@ -124,29 +125,20 @@ def solve(
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
     if numbers.ground is not None:
         fate[~numbers.ground.displacements.known] = f.NO_SERIES
-    rule, samples = rules(bool(numbers.inside[0, 0] > 0)), is_rough()  # threads do not see that
+    samples = is_rough()  # threads do not see that
 
     def solve_from(start: int) -> None:
         here = slice(start, start + AT_ONCE)
         found = goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]
-        if numbers.ground is not None:
-            solve_on_ground(numbers, numbers.ground, here, rule, found, samples=samples)
-            if samples:
-                solve_with_care(numbers.ground, start + np.flatnonzero(found[3] == f.NOT_RESOLVED))
-            return
-        from .balance import solve_own
+        solve_states(numbers, here, found, samples)
+        if samples and len(some := start + np.flatnonzero(np.isin(found[3], AGAIN))):
+            solve_with_care(some)
 
-        solve_own(
-            *(numbers.skins[here], numbers.parts[here], numbers.bodies[here], rule),
-            *(numbers.inside, numbers.coating),
-            *found,
-        )
-
-    def solve_with_care(ground: Grounds, some: Index) -> None:
+    def solve_with_care(some: Index) -> None:
         results = h, evaluations, fate, error, rows
         fate[some] = f.OK
         found = tuple(values[some] for values in results)
-        solve_on_ground(numbers, ground, some, rule, (goal[some], *found))
+        solve_states(numbers, some, (goal[some], *found), samples=False)
         for values, again in zip(results, found, strict=True):
             values[some] = again
 
@@ -159,46 +151,46 @@ def solve(
         for start in starts:
             solve_from(start)
     if numbers.skins.shape[2] == f.OF_FIELD and numbers.ground is None:
-        doubt_ends(numbers, goal, fate, rule)
+        doubt_ends(numbers, goal, fate)
     fate[numbers.outside] = f.NO_TABLE
     return h, evaluations, fate, error, rows
 
 
-def doubt_ends(numbers: Numbers, goal: Array, fate: Index, rule: Array) -> None:
+def doubt_ends(numbers: Numbers, goal: Array, fate: Index) -> None:
     """Leave to NumPy loads that are too much by less than a thousandth on one field of heights."""
-    from .balance import solve_own
-
     some = np.flatnonzero(fate == f.TOO_MUCH)
     if not len(some):
         return
     h = np.broadcast_to(numbers.deepest, numbers.count)[some]
     counts, fates = np.zeros((2, len(some)), np.int64)
     rows = np.zeros((len(some), len(f.COLUMNS)))
-    solve_own(
-        *(numbers.skins[some], numbers.parts[some], numbers.bodies[some], rule),
-        *(numbers.inside, numbers.coating, np.zeros(len(some)), np.array(h)),
-        *(counts, fates, np.zeros(len(some)), rows),
-    )
+    results = np.zeros(len(some)), np.array(h), counts, fates, np.zeros(len(some)), rows
+    solve_states(numbers, some, results, samples=False)
     most = (1 - np.minimum(rows[:, f.SHADE], 1.0)) * rows[:, f.F_SS] + rows[:, f.F_SA]
     fate[some[~(most < CLEARLY * goal[some])]] = f.UNSOLVED
 
 
-def solve_on_ground(
+def solve_states(
     numbers: Numbers,
-    ground: Grounds,
     here: slice | Index,
-    rule: Array,
     found: tuple[NDArray[np.generic], ...],
-    samples: bool = False,
+    samples: bool,
 ) -> None:
-    """Solve states of particles on one field of heights, into what is to be found."""
+    """Solve some states, into what is to be found; samples roughly."""
+    breaks, ground = bool(numbers.inside[0, 0] > 0), numbers.ground
+    own = numbers.skins[here], numbers.parts[here], numbers.bodies[here]
+    if ground is None:
+        from .balance import solve_own
+
+        solve_own(*own, rules(breaks, samples), numbers.inside, numbers.coating, *found)
+        return
     from .grounded import EXACT, ROUGH, SPLINES, solve_grounded
 
     known = ground.displacements
     solve_grounded(
-        *(numbers.skins[here], ground.parts[here], numbers.bodies[here], ground.tables[here]),
+        *(own[0], ground.parts[here], own[2], ground.tables[here]),
         *(ground.numbers[here], ground.seats[here], ground.sections[here]),
         *(known.series, known.alone, known.which[here], known.basis[here]),
-        *(SPLINES, rule, ROUGH if samples else EXACT),
+        *(SPLINES, rules(), ROUGH if samples else EXACT),
         *found,
     )

@@ -64,9 +64,9 @@ __all__ = [
     "add_nodes",
     "add_rough",
     "gather_gaps",
-    "is_end_felt",
     "lay_broken",
     "lay_pieces",
+    "left_at_end",
     "pays",
     "weigh_gaps",
 ]
@@ -96,9 +96,6 @@ SMOOTH_END = 7.5
 """Standard deviations from the mean at which a normal density ends without a jump."""
 VECTOR = 8
 """Numbers that a processor takes at once: loops over the rest are slow."""
-FEW_AT_END = 29.0
-"""−ln of the density where sizes end over that at the gap from which on the end is not felt: what
-is left out is then 3e-13."""
 ONSET, ALIKE = 0.4, 0.5
 """Part of the width of a panel that one from the onset may have; 1 − ε from which on sizes may lie
 as close as before."""
@@ -275,18 +272,19 @@ def _own_width(given, p, span):
 
 
 @scalar
-def is_end_felt(parts, p, span, gap):
-    """Whether panels are as wide as sizes spread, under a gap so large that these end too soon.
+def left_at_end(parts, p, span, gap):
+    """Part of what particles carry that is left out where panels are as wide as sizes spread.
 
-    Squares of deviations from the middle say how many sizes there are at the gap and at the end.
+    Under a large gap sizes end too soon. Squares of deviations from the middle say how many sizes
+    there are at the gap and at the end.
     """
     if _own_width(parts, p, span) == 0:
-        return False
+        return 0.0
     middle, spread, high = parts[p, SIZE_1], parts[p, SIZE_2], parts[p, HIGH]
     if parts[p, KIND] == LOGNORMAL:
         gap, high, middle = math.log(max(gap, 1e-300)), math.log(high), math.log(middle)
     deviation = max(gap - middle, 0.0)
-    return (high - middle) ** 2 - deviation**2 < 2 * FEW_AT_END * spread**2
+    return math.exp(-max((high - middle) ** 2 - deviation**2, 0.0) / (2 * spread**2))
 
 
 @scalar

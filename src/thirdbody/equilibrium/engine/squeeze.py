@@ -37,6 +37,7 @@ from .fields import (
     LIMIT,
     ONE_SIZE,
     PLANE,
+    PRINTED,
     PROJECTED,
     SEAT,
     SHADOW,
@@ -54,10 +55,20 @@ from .shares import (
     settle,
     share_out,
 )
-from .sides import EARLIEST, chord, is_split, narrow_ends, prepare, regime_of, scalar, side_at
+from .sides import (
+    EARLIEST,
+    chord,
+    is_alike,
+    is_split,
+    narrow_ends,
+    prepare,
+    regime_of,
+    scalar,
+    side_at,
+)
 from .vectors import ANY, VECTOR, formula_of
 
-__all__ = ["lay_panels"]
+__all__ = ["are_twins", "copy_panels", "lay_panels", "spread_of"]
 
 RATIO, FARTHEST = 4.0, 128.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far; of
@@ -238,8 +249,42 @@ def _cut_far(given, sides, panels, p, count):
 
 
 @scalar
-def lay_panels(given, sides, panels, p, rule):
-    """Lay the panels of part p; how many, or −1 where the formulas do not cover it."""
+def spread_of(parts, p):
+    """Part of a squeeze over which most of a load of part p is carried, at least."""
+    if parts[p, SEAT] == PLANE and parts[p, KIND] == ONE_SIZE:
+        return 0.0  # what is squeezed is squeezed alike
+    return PART * max(parts[p, WIDTH], scale_of(parts, p, parts[p, HIGH])) / parts[p, HIGH]
+
+
+@scalar
+def are_twins(parts, sides, p, q):
+    """Whether particles of two parts with these sides carry the same at each squeeze."""
+    if parts[p, SEAT] == PRINTED or parts[p, BREAKS] == 1 or parts[q, BREAKS] == 1:
+        return False
+    if parts[p, SEAT] != parts[q, SEAT] or parts[p, SHADOW] != parts[q, SHADOW]:
+        return False
+    if parts[p, EQUAL] != parts[q, EQUAL]:
+        return False
+    return is_alike(sides[2 * p], sides[2 * q]) and is_alike(sides[2 * p + 1], sides[2 * q + 1])
+
+
+@scalar
+def copy_panels(sides, panels, count, q, p):
+    """Take the sides and panels of part q for part p."""
+    for i in range(2):
+        for k in range(sides.shape[1]):
+            sides[2 * p + i, k] = sides[2 * q + i, k]
+    for n in range(count + 1):
+        for k in range(panels.shape[2]):
+            panels[p, n, k] = panels[q, n, k]
+
+
+@scalar
+def lay_panels(given, sides, panels, p, rule, spread):
+    """Lay the panels of part p; how many, or −1 where the formulas do not cover it.
+
+    ``spread`` is that of the part, or the least of several that share their panels.
+    """
     keep_apart()
     if not prepare(sides, 2 * p):
         return -1
@@ -261,10 +306,7 @@ def lay_panels(given, sides, panels, p, rule):
         panels[p, n, TO], panels[p, n, UNTIL] = panels[p, n + 1, EDGE], 0.0
     count -= 1
     if not equal:
-        spread = max(given[p, WIDTH], scale_of(given, p, given[p, HIGH])) / given[p, HIGH]
-        if given[p, SEAT] == PLANE and given[p, KIND] == ONE_SIZE:
-            spread = 0.0  # what is squeezed is squeezed alike
-        count, worst = share_out(sides, panels, p, count, rule, PART * spread)
+        count, worst = share_out(sides, panels, p, count, rule, spread)
         count = _cut_at_crossings(given, sides, panels, p, count)
     for n in range(count):
         eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])
