@@ -19,7 +19,7 @@ from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
 from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.states import OWN_SPOTS, vary_contact
+from ..equilibrium.states import FEWEST, OWN_SPOTS, fewest_of, vary_contact
 from ..errors import (
     InvalidValue,
     Mistake,
@@ -274,7 +274,8 @@ class _Work:
         if isinstance(progress, Stages):
             self.progress, self.within = progress, progress.report_contacts
             alone = costly(contact, vary)
-            progress.expect((count if alone else 0) + self.ends + self.ways)
+            few = 0 if fewest_of(contact) < FEWEST else self.ends + self.ways
+            progress.expect(count + self.ends + self.ways if alone else few)
             if alone:
                 self.tell = progress.tell
 

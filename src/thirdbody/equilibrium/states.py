@@ -31,7 +31,15 @@ from .status import Status, Statuses
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["OWN_SPOTS", "solve_states", "state_columns", "unknown_inputs", "vary_contact"]
+__all__ = [
+    "FEWEST",
+    "OWN_SPOTS",
+    "fewest_of",
+    "solve_states",
+    "state_columns",
+    "unknown_inputs",
+    "vary_contact",
+]
 
 OWN_SPOTS = "each has spots of its own"
 """Why states with outputs take long."""
