@@ -109,9 +109,21 @@ def test_long_values_are_shortened():
 def test_pint_is_loaded_only_for_an_unusual_unit():
     code = (
         "import sys, thirdbody.study; from thirdbody.quantities.units import to_si; to_si('3 nm', 'm');"
+        "from thirdbody.effects.single.dent import sink; import thirdbody as tb;"
+        "sink(tb.materials['quartz'], hardness=7e9, debris=True);"  # a truth value, where one may be
         "assert 'pint' not in sys.modules; to_si('3 inch', 'm'); assert 'pint' in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_symbols_of_si_are_those_of_the_registry():
+    """Where a unit is made of these alone, the registry is not asked, nor loaded."""
+    from thirdbody.quantities.kinds import SYMBOLS, library_unit, registry
+
+    for symbol in SYMBOLS:
+        unit = registry().Unit(symbol)
+        assert f"{unit:~}" == symbol.replace("ohm", "Ω"), symbol
+    assert library_unit("W/(m² K)") == "W/m**2/K"
 
 
 def entries(table):

@@ -344,7 +344,6 @@ def _refuse_no_numbers(
     """Refuse masked and huge values, and truth values where a number with a unit is needed."""
     arguments = _signature_of(function).bind_partial(*args, **named).arguments
     owner: type = type(args[0]) if args else object
-    units = units_of(function, owner)
     problems: list[str] = []
     for name, value in arguments.items():
         for key, argument in value.items() if isinstance(value, dict) else [(name, value)]:
@@ -360,7 +359,7 @@ def _refuse_no_numbers(
                 continue
             if why := next(filter(None, map(masked_words, some)), ""):
                 problems.append(Problem(key, why))
-            elif units.get(key) is not None and any(map(_is_truth, some)):
+            elif any(map(_is_truth, some)) and units_of(function, owner).get(key) is not None:
                 rule = "must be a number, not a truth value"
                 problems.append(Problem(key, rule, repr(argument), code=Mistake.KIND))
     if problems:
