@@ -110,7 +110,7 @@ def test_pint_is_loaded_only_for_an_unusual_unit():
     code = (
         "import sys, thirdbody.study; from thirdbody.quantities.units import to_si; to_si('3 nm', 'm');"
         "from thirdbody.effects.single.dent import sink; import thirdbody as tb;"
-        "sink(tb.materials['quartz'], hardness=7e9, debris=True);"  # a truth value, where one may be
+        "sink(tb.materials['quartz'], hardness=7e9, computed=True);"  # a truth value, where one may be
         "assert 'pint' not in sys.modules; to_si('3 inch', 'm'); assert 'pint' in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
