@@ -137,13 +137,16 @@ class SizeAverage:
         first = np.maximum(of_sizes[:, :1], np.where(start, 0.0, gap_at))
         edges = np.sort(np.clip(edges, first, of_sizes[:, -1:]), axis=1)
         # Gauss panels in √δ, in which the response is smooth where it sets in
-        root = np.sqrt(np.maximum(np.where(start, edges, edges - gap_at), 0.0))
-        sums = root[:, 1:] + root[:, :-1]
-        step = np.divide(np.diff(edges, axis=1), sums, out=np.zeros_like(sums), where=sums > 0)
+        begin, end = _drop_empty_panels(edges)
+        root, last = (
+            np.sqrt(np.maximum(np.where(start, ends, ends - gap_at), 0.0)) for ends in (begin, end)
+        )
+        sums = last + root
+        step = np.divide(end - begin, sums, out=np.zeros_like(sums), where=sums > 0)
         x, weight = gauss_legendre(nodes)
         from_edge = 0.5 * step[..., None] * (1 + x)
-        root = root[:, :-1, None]
-        place = edges[:, :-1, None] + from_edge * (2 * root + from_edge)
+        root = root[..., None]
+        place = begin[..., None] + from_edge * (2 * root + from_edge)
         root = root + from_edge
         weight = root * step[..., None] * weight
         root, place, weight = (
@@ -301,6 +304,20 @@ class SizeAverage:
         """Ends of the panels of the tables, as gaps."""
         below = self.lower.edges if self.lower is not None else np.empty(0)
         return np.concatenate([below, self.top - self.upper.edges**2])
+
+
+def _drop_empty_panels(edges: Array) -> tuple[Array, Array]:
+    """Begin and end of panels between increasing edges (N, B + 1), as many as most rows have.
+
+    Rows in which fewer have room end with some that have none.
+    """
+    begin, end = edges[:, :-1], edges[:, 1:]
+    empty = end == begin
+    most = int(np.max(np.count_nonzero(~empty, axis=1), initial=0))
+    if most == begin.shape[1]:
+        return begin, end
+    order = np.argsort(empty, axis=1, kind="stable")[:, :most]
+    return np.take_along_axis(begin, order, axis=1), np.take_along_axis(end, order, axis=1)
 
 
 def _drop_empty_nodes(x: Array, delta: Array, number: Array) -> tuple[Array, Array, Array]:
