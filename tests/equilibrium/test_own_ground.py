@@ -235,6 +235,17 @@ def test_next_to_nothing_changes_nothing():
     same(own_columns(contact((few, HARD)), vary, "F_star", loads), alone, 1e-9)
 
 
+@pytest.mark.parametrize("size", [0.2e-6, 6e-6])
+def test_none_of_another_size_change_nothing(size):
+    """Nodes over heights begin where a particle is squeezed, not where none is."""
+    vary, loads = drawn({}, 20, 8, ROUGH)
+    none = UNIFORM.replace(
+        areal_density=0.0, diameter=tb.distributions.Uniform(low=size, high=2 * size)
+    )
+    alone = own_columns(contact(), vary, "F_star", loads)
+    same(own_columns(contact((none, HARD)), vary, "F_star", loads), alone, 1e-12)
+
+
 def test_populations_in_any_order():
     case, _ = SEVERAL["three kinds of sizes"]
     vary, loads = drawn({}, 20, 9, ROUGH)

@@ -413,3 +413,13 @@ def test_nonsense_is_refused_or_read_never_a_crash(tmp_path_factory, text):
     except tb.errors.InvalidValue as error:
         problems = error.problems
     assert len(problems) <= 1
+
+
+@pytest.mark.parametrize(("width", "slope"), [(1.6e-9, -1.0), (1e-8, 2.64), (1e-6, 5.0)])
+def test_a_narrow_class_of_powers_holds_all_its_particles(width, slope):
+    low, high = 3e-7, 3e-7 * (1 + width)
+    sizes = PowerLaw(edges=(low, high), counts=(1,), slopes=(slope,))
+    middle = 0.5 * (low + high)
+    assert float(sizes.pdf(middle)) * (high - low) == pytest.approx(1, rel=1e-11)
+    assert float(sizes.partial_moment(0, low, high)) == pytest.approx(1, rel=1e-14)
+    assert float(sizes.partial_moment(3, low, high)) == pytest.approx(middle**3, rel=1e-11)

@@ -232,7 +232,7 @@ class PowerLaw(Distribution):
     def pdf(self, x: ArrayLike) -> Array:
         x = np.asarray(x, dtype=float)
         lo, hi, s, share = self._sections
-        long = np.log(hi / lo)
+        long = np.log1p((hi - lo) / lo)
         i = np.clip(np.searchsorted(lo, x, side="right") - 1, 0, len(lo) - 1)
         inside = (x >= lo[0]) & (x <= hi[-1])
         u = np.where(inside, x, lo[0]) / lo[i]
@@ -247,7 +247,7 @@ class PowerLaw(Distribution):
         i = filled[np.clip(np.searchsorted(above, q), 0, len(filled) - 1)]
         start = (np.cumsum(share) - share)[i]
         fraction = np.clip((q - start) / share[i], 0.0, 1.0)
-        long, slope = np.log(hi / lo)[i], s[i]
+        long, slope = np.log1p((hi - lo) / lo)[i], s[i]
         safe = np.where(slope == 0, 1.0, slope)
         with np.errstate(divide="ignore"):
             step = -np.log1p(fraction * np.expm1(-safe * long)) / safe
@@ -259,7 +259,7 @@ class PowerLaw(Distribution):
         lo, hi, s, share = self._sections
         left = np.clip(low[..., None], lo, hi)
         right = np.clip(high[..., None], lo, hi)
-        long, stretch = np.log(hi / lo), np.log1p((right - left) / left)
+        long, stretch = np.log1p((hi - lo) / lo), np.log1p((right - left) / left)
         power = n - s
         start = (left / lo) ** power * stretch * special.exprel(power * stretch)
         return np.sum(share * lo**n * start / (long * special.exprel(-s * long)), axis=-1)

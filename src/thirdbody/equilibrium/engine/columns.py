@@ -645,7 +645,9 @@ class Numbers:
             return (high**2 + high * low + low**2) / 3
         if type(one) is Power:
             low, high, slope = one
-            long = math.log(high / low)
+            if high - low < NARROWEST * high:
+                raise NotCompiled("sizes that lie very close together")
+            long = math.log1p((high - low) / low)
             kind = {f.KIND: f.POWER, f.SIZE_1: low, f.SIZE_2: slope + 1, f.LOW: low, f.HIGH: high}
             _fill_columns(rows, {**kind, f.NORM: 1 / (low * long * special.exprel(-slope * long))})
             ratio = special.exprel((2 - slope) * long) / special.exprel(-slope * long)

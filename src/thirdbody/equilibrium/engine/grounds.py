@@ -339,7 +339,8 @@ class Grounds:
         self.sections[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
         self.sections[:, :, g.DARKER] = parts[:, :, f.SHADOW] == f.PROJECTED
         self.seats = np.zeros((count, found[-1].component + 1, g.OF_SEAT))
-        top = parts[:, :, f.HIGH] / sigma
+        # none are seated where there are none
+        top = np.where(parts[:, :, f.DENSITY] > 0, parts[:, :, f.HIGH], 0.0) / sigma
         for s, each in enumerate(found):
             seat = self.seats[:, each.component]
             if seat[0, g.LAST_SECTION] == 0:
