@@ -15,6 +15,7 @@ import numpy as np
 
 from ..contact.broken_averages import roughly
 from ..contact.contact import Contact
+from ..equilibrium.compiled.batch import threads
 from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
 from ..equilibrium.engine.run import own_columns
 from ..equilibrium.load import Load, as_load
@@ -328,6 +329,8 @@ class _Work:
             except NotCompiled:
                 return
             seconds = min(seconds, (time.monotonic() - start) / few)
+        if not alone:  # so few are solved by one thread
+            seconds /= threads()
         states = count * len(held) + CRITICAL_COST * self.critical
         items = [(states, seconds, "states")]
         if outputs and not alone:
