@@ -131,7 +131,7 @@ def test_load_of_particles_on_their_ground():
             return force * math.exp(-(zeta**2) / 2) / math.sqrt(2 * math.pi)
 
         expected = 1e11 * quad(load, h - x / SIGMA - 1, 8, limit=400, epsrel=1e-9)[0]
-        assert bound.fields(d)["F_sa"][0] == pytest.approx(expected, rel=2e-4)
+        assert bound.fields(d)["F_sa"][0] == pytest.approx(expected, rel=1e-6)
 
 
 def test_ground_by_its_own_equation():

@@ -337,6 +337,10 @@ class BrokenAverage(SizeAverage):
             [high - table.edges**2 for table, high in zip(self.tables, self.ends[1:], strict=True)]
         )
 
+    @property
+    def onsets(self) -> Array:
+        return self.ends[1:]
+
     def _stretches(self, gaps: Array) -> list[tuple[int, NDArray[np.intp]]]:
         """The stretches in which gaps lie, and which of the gaps."""
         where = np.clip(np.searchsorted(self.ends, gaps, side="right") - 1, 0, len(self.ends) - 2)

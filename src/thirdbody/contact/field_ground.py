@@ -24,7 +24,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -61,8 +61,9 @@ BEFORE = np.array([5.0, -10.0, 10.0, -5.0, 1.0])
 """Parts of the rows above one that is solved by itself, of which the iteration begins."""
 FINE, MORE = 1e-12, 6
 """Change of u/σ and w that is aimed at, in so many more rounds."""
-CHORDS, SET_IN = 40, 1e-14
-"""Of the search for the ground on which particles begin to be squeezed, and how near [σ]."""
+CHORDS, SET_IN, GRID = 40, 1e-14, 69
+"""Of the search for the ground that leaves a gap: chords at most, how near [σ], and heights at which
+the search begins."""
 SPOTS = 0.25
 """Width of panels of gaps of single particles over that of the seat."""
 HIGHEST_SEAT = 4.0
@@ -80,9 +81,8 @@ LIFTS, LEAP, CREEPS, KINK = 12, 0.5, (4, 32), 4.0
 """Chords by which the lift of asperities is found, at most; second difference of it, over the step
 between two separations, from which on it may belong to another ground; steps between two
 separations that show whether it does, as differences of a kink are so many times less in them."""
-PANELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.33, 0.4, 0.5, 0.6, 0.75, 1.0])
-NODES = 12
-"""Of sums over seats: 2e-5 of a load."""
+NODES, WIDTH = 8, 1.25
+"""Of sums over seats: nodes of a panel, and how wide one is over the width of the seat."""
 TERMS = 16
 """Of k_n over τ."""
 TINY = 1e-250
@@ -123,6 +123,23 @@ def heights(u: Array, zeta: Array) -> Array:
     return after
 
 
+class Nodes(NamedTuple):
+    """Nodes of sums over seats, row by row: which row, height ζ, gap over σ and weight dN, (M,)."""
+
+    rows: NDArray[np.intp]
+    zeta: Array
+    gap: Array
+    weight: Array
+
+    def sum_rows(self, values: Array, count: int) -> Array:
+        """Sums of values (M, K) over the nodes of each row: (count, K)."""
+        out = np.zeros((count, values.shape[1]))
+        first = np.flatnonzero(np.diff(self.rows, prepend=-1))
+        if len(first):
+            out[self.rows[first]] = np.add.reduceat(values, first)
+        return out
+
+
 class Seat:
     """Particles of one shape of size distribution on ground that gives way."""
 
@@ -144,85 +161,102 @@ class Seat:
         self.unit = component.scale / sigma
         """Size of the standardised particles over σ."""
 
-    def gaps(self, h: Array, u: Array) -> tuple[Array, Array, Array]:
-        """Heights ζ, gaps over σ and weights dN of sums at h (N,) with u (N, 13): (N, M) each.
+    def _gap(self, h: Array, u: Array, zeta: Array) -> Array:
+        """Gaps over σ at h (N,) on ground u (N, 13) of heights ζ (N, M)."""
+        return h[:, None] - self.height(zeta) + heights(u, zeta)
 
-        From the lowest ground on which the largest particle is squeezed, in the root of the
-        distance from there, as loads set in like powers of it.
+    def nodes(self, h: Array, u: Array, more: Sequence[float] = ()) -> Nodes:
+        """Nodes of sums over seats at h (N,) with u (N, 13), where particles are squeezed.
+
+        Panels end where a gap is one at which the columns over sizes have a kink, or one of
+        ``more`` [σ], and where the ground levels out. Within them the variable is the root of the
+        distance from the ground on which a size sets in, as loads go like powers of it.
         """
         low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
-        top = self.unit * self.average.average.top
-        grid = np.linspace(low, high, 69)
-        wide = (
-            h[:, None] - self.height(grid) + heights(u, np.broadcast_to(grid, (len(h), 69))) - top
+        average = self.average.average
+        gaps = np.unique(np.concatenate([self.unit * average.edges, more]))[::-1]
+        onsets = self.unit * np.sort(average.onsets)[::-1]
+        ends, starts = np.split(
+            self._heights_at(h, u, np.concatenate([gaps, onsets])), [len(gaps)], axis=1
         )
-        first = np.argmax(wide < 0, axis=1)
-        first = np.where((wide < 0).any(axis=1), first, 68)
-        right = self._first_squeezed(h, u, grid, wide, first)
-        root, weight = panel_rule(np.sqrt(PANELS), NODES)
-        span = np.maximum(high - right, 0.0)[:, None]
-        zeta = right[:, None] + span * root**2
+        fixed = np.linspace(low, high, math.ceil((high - low) / (WIDTH * self.width)) + 1)
+        level = np.array([-HIGHEST_SEAT, HIGHEST_SEAT])
+        fixed = np.append(fixed, level[(level > low) & (level < high)])
+        ends = np.concatenate([ends, np.broadcast_to(fixed, (len(h), len(fixed)))], axis=1)
+        ends.sort(axis=1)
+        rows, panel = np.nonzero((ends[:, 1:] > ends[:, :-1]) & (ends[:, :-1] >= starts[:, :1]))
+        begin, end = ends[rows, panel], ends[rows, panel + 1]
+        start = starts[rows, 0]
+        for later in starts.T[1:]:
+            start = np.where(begin >= later[rows], later[rows], start)
+        root, weight = panel_rule(np.sqrt(np.stack([begin - start, end - start], axis=1)), NODES)
+        zeta, rows = (start[:, None] + root**2).ravel(), np.repeat(rows, NODES)
         z = (zeta - self.mean) / self.width
         normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
-        weight = 2 * span * root * weight * normal
-        return zeta, h[:, None] - self.height(zeta) + heights(u, zeta), weight
+        gap = self._gap(h[rows], u[rows], zeta[:, None])[:, 0]
+        return Nodes(rows, zeta, gap, (2 * root * weight).ravel() * normal)
 
-    def _first_squeezed(
-        self, h: Array, u: Array, grid: Array, wide: Array, first: NDArray[np.intp]
-    ) -> Array:
-        """The lowest ground on which the largest particle is squeezed: ζ (N,).
+    def _heights_at(self, h: Array, u: Array, gaps: Array) -> Array:
+        """Heights ζ at which gaps over σ are these (K,), or the lowest or highest: (N, K).
 
-        By chords with the weight of an end that stays halved, from the cells of a grid, over which
-        ``wide`` says how much wider than the particle gaps are.
+        By chords with the weight of an end that stays halved, from the cells of a grid.
         """
-        rows, before = np.arange(len(h)), np.maximum(first - 1, 0)
-        left, right = grid[before], grid[first]
-        f_left, f_right = wide[rows, before], wide[rows, first]
-        crosses = (f_left >= 0) & (f_right < 0)
-        f_left, f_right = np.where(crosses, f_left, 1.0), np.where(crosses, f_right, -1.0)
-        top = self.unit * self.average.average.top
-        last = np.zeros(len(h), np.intp)
+        low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
+        grid = np.linspace(low, high, GRID)
+        beside = np.minimum.accumulate(
+            self._gap(h, u, np.broadcast_to(grid, (len(h), GRID))), axis=1
+        )
+        after = np.stack([np.count_nonzero(beside >= gap, axis=1) for gap in gaps], axis=1)
+        rows, which = np.nonzero((after > 0) & (after < GRID))
+        out = np.where(after == 0, low, high)
+        right = after[rows, which]
+        a, b = grid[right - 1], grid[right]
+        f_a, f_b = beside[rows, right - 1] - gaps[which], beside[rows, right] - gaps[which]
+        last = np.zeros(len(rows), np.intp)
+        close = SET_IN * np.maximum(1.0, 0.1 * np.abs(h[rows]))
+        left = np.arange(len(rows))
         for _ in range(CHORDS):
-            zeta = (left * f_right - right * f_left) / (f_right - f_left)
-            f = h - self.height(zeta) + heights(u, zeta[:, None])[:, 0] - top
-            under = f < 0
-            f_left = np.where(under & (last == 1), 0.5 * f_left, f_left)
-            f_right = np.where(~under & (last == -1), 0.5 * f_right, f_right)
-            left, f_left = np.where(under, left, zeta), np.where(under, f_left, f)
-            right, f_right = np.where(under, zeta, right), np.where(under, f, f_right)
-            last = np.where(under, 1, -1)
-            if not np.any(crosses & (np.abs(f) > SET_IN)):
+            zeta = (a * f_b - b * f_a) / (f_b - f_a)
+            here, at = rows[left], which[left]
+            f = self._gap(h[here], u[here], zeta[:, None])[:, 0] - gaps[at]
+            out[here, at] = zeta
+            more = np.abs(f) > close[left]
+            if not more.any():
                 break
-        return np.where(crosses, zeta, grid[first])
+            under = f < 0
+            f_a = np.where(under & (last == 1), 0.5 * f_a, f_a)
+            f_b = np.where(~under & (last == -1), 0.5 * f_b, f_b)
+            a, f_a = np.where(under, a, zeta), np.where(under, f_a, f)
+            b, f_b = np.where(under, zeta, b), np.where(under, f, f_b)
+            last = np.where(under, 1, -1)
+            left, last, a, b, f_a, f_b = (one[more] for one in (left, last, a, b, f_a, f_b))
+        return out
 
     def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
         """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""
-        zeta, gaps, weight = self.gaps(h, u)
-        values = self.average.average((gaps / self.unit).ravel()).reshape(*gaps.shape, -1)
-        values = np.maximum(values, 0.0)
-        columns = np.einsum("hm,hmk->hk", weight, values)
-        moments = np.empty((len(h), MOMENTS + 1))
-        x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
-        before, now = np.zeros_like(x), weight * values[:, :, 0]
+        nodes = self.nodes(h, u)
+        values = np.maximum(self.average.average(nodes.gap / self.unit), 0.0)
+        values *= nodes.weight[:, None]
+        moments = np.empty((len(nodes.gap), MOMENTS + 1))
+        x = np.clip(nodes.zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+        before, now = np.zeros_like(x), values[:, 0]
         for n in range(MOMENTS + 1):
-            moments[:, n] = now.sum(axis=1)
+            moments[:, n] = now
             before, now = now, (x * now - math.sqrt(n) * before) / math.sqrt(n + 1)
-        return columns, moments
+        return nodes.sum_rows(values, len(h)), nodes.sum_rows(moments, len(h))
 
-    def shares(self, h: Array, u: Array, nodes: Array) -> Array:
+    def shares(self, h: Array, u: Array, gaps: Array) -> Array:
         """Number of particles in each of these gaps over σ, which increase: (N, M).
 
         Those between two gaps count to both, by their distances: sums over what is linear in
         between are exact.
         """
-        _, gaps, weight = self.gaps(h, u)
-        inside = (gaps >= nodes[0]) & (gaps <= nodes[-1])
-        gaps = np.clip(gaps, nodes[0], nodes[-1])
-        after = np.clip(np.searchsorted(nodes, gaps, side="right"), 1, len(nodes) - 1)
-        share = (gaps - nodes[after - 1]) / (nodes[after] - nodes[after - 1])
-        weight = np.where(inside, weight, 0.0)
-        out = np.zeros((len(h), len(nodes)))
-        rows = np.arange(len(h))[:, None]
+        nodes = self.nodes(h, u)
+        inside = (nodes.gap >= gaps[0]) & (nodes.gap <= gaps[-1])
+        rows, gap, weight = nodes.rows[inside], nodes.gap[inside], nodes.weight[inside]
+        after = np.clip(np.searchsorted(gaps, gap, side="right"), 1, len(gaps) - 1)
+        share = (gap - gaps[after - 1]) / (gaps[after] - gaps[after - 1])
+        out = np.zeros((len(h), len(gaps)))
         np.add.at(out, (rows, after - 1), weight * (1 - share))
         np.add.at(out, (rows, after), weight * share)
         return out
@@ -550,9 +584,10 @@ class GroundedPart(Part):
     def load_in_gaps(self, d: Array, squeeze: float) -> Array:
         narrow = self._gap_under_largest(squeeze) * self.seat.unit
         h = self._h(d)
-        _, gaps, weight = self.seat.gaps(h, self.ground.patch_moments(h)[:, :-1])
-        load = self.seat.average.average((gaps / self.seat.unit).ravel())[:, 0]
-        return self.factor * np.sum(weight * load.reshape(gaps.shape) * (gaps < narrow), axis=1)
+        nodes = self.seat.nodes(h, self.ground.patch_moments(h)[:, :-1], (narrow,))
+        load = nodes.weight * self.seat.average.average(nodes.gap / self.seat.unit)[:, 0]
+        inside = np.where(nodes.gap < narrow, load, 0.0)
+        return self.factor * nodes.sum_rows(inside[:, None], len(d))[:, 0]
 
     def most_in_gaps(self, d: Array, squeeze: float) -> Array:
         return np.full(len(d), math.inf)  # no bound without its ground: it is looked at
@@ -561,9 +596,9 @@ class GroundedPart(Part):
         h, seat = self._h(d), self.seat
         average, u = seat.average.average, self.ground.patch_moments(h)[:, :-1]
         gaps, rise, _ = average.gaps(SPOTS * seat.average.width, splits)
-        _, seat_gaps, _ = seat.gaps(h, u)
+        lowest = float(np.min(seat.nodes(h, u).gap, initial=math.inf)) / seat.unit
         # below the gaps of the tables loads no longer change, but depths do
-        low = min(float(seat_gaps.min()) / seat.unit, float(gaps[0]) - seat.average.width)
+        low = min(lowest, float(gaps[0]) - seat.average.width)
         count = max(8, math.ceil(4 * (gaps[0] - low) / seat.average.width))
         below = np.linspace(low, gaps[0], count + 1)[:-1]
         gaps = np.concatenate([below, gaps, [average.top]])

@@ -305,6 +305,11 @@ class SizeAverage:
         below = self.lower.edges if self.lower is not None else np.empty(0)
         return np.concatenate([below, self.top - self.upper.edges**2])
 
+    @property
+    def onsets(self) -> Array:
+        """Gaps in the root of the distance to which the columns are smooth below."""
+        return np.array([self.top])
+
 
 def _drop_empty_panels(edges: Array) -> tuple[Array, Array]:
     """Begin and end of panels between increasing edges (N, B + 1), as many as most rows have.

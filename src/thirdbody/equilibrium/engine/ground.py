@@ -1,9 +1,9 @@
 """Particles on the ground of one field of heights: one separation of a state.
 
 Particles press the ground under them down, and the ground of asperities: the equations are those of
-`thirdbody.contact.field_ground`, and so are the nodes over heights, the rows of separations and the
-splines between them. What particles carry under a gap stands in cells over the gap, once for states
-whose particles are alike: of each section of the sizes on a seat its own.
+`thirdbody.contact.field_ground`, and so are the rows of separations and the splines between them.
+What the particles of a seat carry under a gap stands in cells over the gap, once for states whose
+particles are alike. Sums over heights have panels that end where cells do.
 """
 
 from __future__ import annotations
@@ -13,16 +13,18 @@ import math
 import numpy as np
 
 from ...contact.field_ground import DENSITY as REACH
-from ...contact.field_ground import FAR, HIGHEST_SEAT, LEVEL, LEVELS, LIFTS, NODES, PANELS, SET_IN
+from ...contact.field_ground import FAR, HIGHEST_SEAT, LEVEL, LEVELS, LIFTS, NODES
+from ...contact.field_ground import WIDTH as WIDEST
 from ...laws.field.programme import MOMENTS
 from ...laws.field.table import COLUMNS as OF_SURFACE
 from ...laws.field.table import FIRST, LOW, TAU
-from ...numerics.quadrature import panel_rule
+from ...numerics.quadrature import gauss_legendre
 from ..compiled.machine import exp, keep_apart, normal_cdf
 from .curves import EDGE, ONE, TO, transform
 from .field import COUNTS, ENDS, PIECES, ROOT_2PI, TERMS, mean_pressure
 from .fields import (
     CHI,
+    DENSITY,
     EQUAL,
     F_SA,
     HEIGHTS_OF_TABLE,
@@ -55,52 +57,42 @@ shade beside what those do that carry; what series leave out."""
 MEAN, SPREAD, TOP, DENSE, SECTION, LAST_SECTION, OF_SEAT = range(7)
 """Of a seat: its mean and width, and the largest size on it [σ]; particles per area; the first of
 its sections of sizes, and where they end."""
-POWER, DARKER, CELLS, OF_SECTION = range(4)
-"""Of a section: power of the root of the distance from its largest size like which all sets in, and
-whether the shadow sets in like one power less; how many cells there are."""
 WAVES = 2 * math.sqrt(2)
-PLACES = NODES * (len(PANELS) - 1)
-_ROOTS, _WEIGHTS = panel_rule(np.sqrt(PANELS), NODES)
+_ROOTS, _WEIGHTS = gauss_legendre(NODES)
 ROOTS, WEIGHTS = np.array(_ROOTS), np.array(_WEIGHTS)
 HERMITE = np.zeros((BETA, BETA))
 """Powers of each he_n."""
 for _n in range(BETA):
     HERMITE[_n, : _n + 1] = np.polynomial.hermite_e.herme2poly([0.0] * _n + [1.0])
     HERMITE[_n] /= math.sqrt(math.factorial(_n))
-_HEIGHTS = np.linspace(-HIGHEST_SEAT, HIGHEST_SEAT, 2001)
-TALLEST = np.abs(np.polynomial.hermite_e.hermevander(_HEIGHTS, MOMENTS)).max(0) * HERMITE.diagonal()
-"""The largest |he_n| at heights of the ground."""
 AFTER = 1 / np.sqrt(np.arange(1.0, BETA + 1))
 LATER = np.sqrt(np.arange(1.0, BETA + 1) / np.arange(2.0, BETA + 2))
-ZETA, CUT, GAP, MASS, LOADS, POLYNOMIALS, SUMS, OF_NODES = range(8)
-"""Rows of the nodes over heights, then of powers of the height: of the ground, and sums."""
-GRID = 69
-FROM, UNTIL, ROOTED, START, RATE, POWERS = range(6)
-"""Of a part of a cell: its gaps [m], whether its variable is the root of what the gap lacks to the
-largest size, the middle of that and its rate; powers of load and shadow side by side, then of the
-others."""
-OF_CELL, CUTS, POWER_TERMS = 16, 4, 10
-COLUMNS = 6
-AREAS = POWERS + 2 * POWER_TERMS
-A_CELL = POWERS + COLUMNS * POWER_TERMS
-MOST_CELLS = 960
-
-
-def _conversion() -> tuple[np.ndarray, np.ndarray]:
-    """Powers on each part of a cell from its series, highest first; what they leave of a term."""
-    out, left = np.zeros((CUTS, POWER_TERMS, OF_CELL)), np.zeros(OF_CELL)
-    x, fine = np.cos((np.arange(POWER_TERMS) + 0.5) * math.pi / POWER_TERMS), np.linspace(-1, 1, 99)
-    powers = np.linalg.inv(np.vander(x))
-    for part in range(CUTS):
-        places = np.clip((2 * part + 1 + np.stack([x])) / CUTS - 1, -1, 1)[0]
-        terms = np.cos(np.arange(OF_CELL) * np.arccos(places)[:, None])
-        out[part] = powers @ terms
-        exact_ = np.cos(np.arange(OF_CELL) * np.arccos((2 * part + 1 + fine) / CUTS - 1)[:, None])
-        left = np.maximum(left, np.abs(np.vander(fine, POWER_TERMS) @ out[part] - exact_).max(0))
-    return out, left
-
-
-CONVERT, LEAVES = _conversion()
+MOST_CELLS = 400
+ZETA, CUT, GAP, MASS, LOADS, SHADES, ENDS_AT, WANTED, POLYNOMIALS, SUMS, OF_NODES = range(11)
+"""Rows of the nodes over heights: height, that of the ground, gap, weight, load, shade; of ends of
+cells: their heights, and gaps; then powers of the height: of the ground, and sums."""
+FIRST_PLACE, LAST_PLACE, BY_ROOT, BEGIN, WHICH, OF_PLACE = range(6)
+"""Of a panel over heights: between what its variable lies, whether that is the root of the distance
+from a height or the height itself, that height, and its cell, or −1 below the last."""
+MOST_PLACES = MOST_CELLS + 60
+PLACES = NODES * MOST_PLACES
+HEIGHTS = np.linspace(-HIGHEST_SEAT, HIGHEST_SEAT, 33)
+"""Between which ends of cells are sought."""
+NEWTON, STEEPEST, MISSED, SHORTEST = 4, -0.05, 1e-11, 1e-300
+"""Steps of the search, the slope of a gap over the height at most, and what a gap may be off before
+the last of them [σ]; a difference that is none."""
+FROM, UNTIL, ROOT, ROOT_CELL, START, RATE, OVER, POWERS = range(8)
+"""Of a cell: its gaps [m]; the gap to which the distance has the root that is its variable, or 0
+where it is the gap itself, and the cell that begins there; where the variable starts and its rate;
+the power of that root like which all sets in; from there on powers of each column in turn."""
+OF_CELL, COLUMNS = 16, 6
+A_CELL = POWERS + COLUMNS * OF_CELL
+CONVERT = np.zeros((OF_CELL, OF_CELL))
+"""From a series to powers, highest first."""
+for _n in range(OF_CELL):
+    CONVERT[:, _n] = np.append(
+        np.polynomial.chebyshev.cheb2poly([0.0] * _n + [1.0]), [0.0] * (OF_CELL - 1 - _n)
+    )[::-1]
 SETTLED, THINNEST = 2e-11, 1e-6
 """Last terms of a series over its largest value, at most; width of a cell over the largest size
 below which it is not halved."""
@@ -113,27 +105,42 @@ VALUE, SLOPE, PRESSED, TURNED, BASIS, U = range(6)
 
 # ------------------------------------------------------------------------------ cells over the gap
 @scalar
-def _fill_cell(given, sides, panels, count, rule, places, sums, onset, top, power, a, b, values,
-               series, terms):  # fmt: skip
-    """Fill series of all columns between two gaps; their last terms over the largest value."""
+def _add_under(given, sides, panels, count, gap, rule, sums, onsets, out):
+    """Add what the particles of all sections carry under a gap; False below their range."""
     keep_apart()
-    by_sums = has_powers(given, 0)
-    rooted = a + b > top
-    low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
+    for s in range(len(given)):
+        one = given[s : s + 1]
+        if one[0, DENSITY] == 0:
+            continue
+        if has_powers(one, 0):
+            add_between(one, sides, panels, 0, count, gap, sums[s : s + 1], onsets[s], out)
+        elif not add_plane(one, sides, panels, 0, count, gap, rule, out):
+            return False
+    return True
+
+
+@scalar
+def _fill_cell(given, sides, panels, count, rule, places, sums, onsets, root, power, a, b, values,
+               series, terms):  # fmt: skip
+    """Fill series of all columns between two gaps; their last terms over the largest value.
+
+    In the root of the distance to ``root``, if it is one, and over its ``power``.
+    """
+    keep_apart()
+    low, high = (math.sqrt(root - b), math.sqrt(max(root - a, 0.0))) if root > 0 else (a, b)
     for j in range(OF_CELL):
         place = low + 0.5 * (high - low) * (1 + places[0, j])
-        gap = top - place * place if rooted else place
+        gap = root - place * place if root > 0 else place
         for k in range(10):
             terms[k] = 0.0
-        if by_sums:
-            add_between(given, sides, panels, 0, count, gap, sums, onset, terms)
-        elif not add_plane(given, sides, panels, 0, count, gap, rule, terms):
+        if not _add_under(given, sides, panels, count, gap, rule, sums, onsets, terms):
             return math.nan
-        over = (top - gap) ** (-0.5 * power) if rooted else 1.0
+        # by the gap as it is rounded, as is what is carried
+        over = (root - gap) ** (-0.5 * power) if power > 0 else 1.0
         for k in range(COLUMNS - 1):
             values[k, j] = terms[F_SA + k] * over
-        if rooted and given[0, SHADOW] == PROJECTED:
-            over *= (top - gap) / top  # all of a size is dark once it is touched
+        if power > 0 and given[0, SHADOW] == PROJECTED:
+            over *= (root - gap) / root  # all of a size is dark once it is touched
         values[COLUMNS - 1, j] = terms[F_SA + COLUMNS - 1] * over
     worst = wide = load = 0.0
     for j in range(OF_CELL):
@@ -142,60 +149,44 @@ def _fill_cell(given, sides, panels, count, rule, places, sums, onset, top, powe
             wide = max(wide, abs(values[k, j]))
     for k in range(COLUMNS):
         transform(places, values[k], series[k])
-        most, left = wide if k > 0 else load, abs(series[k, OF_CELL - 1])
-        left += abs(series[k, OF_CELL - 2])
-        for j in range(POWER_TERMS, OF_CELL):
-            left += LEAVES[j] * abs(series[k, j])
+        most = wide if k > 0 else load
         if most > 0:
+            left = abs(series[k, OF_CELL - 1]) + abs(series[k, OF_CELL - 2])
             worst = max(worst, left / most)
     return worst
 
 
 @scalar
-def _keep_cell(top, a, b, series, cells, found):
-    """Keep the parts of a cell, from its largest gap down."""
+def _keep_cell(root, start, power, a, b, series, cell):
+    """Keep a cell between two gaps."""
     keep_apart()
-    rooted = a + b > top
-    low, high = (math.sqrt(top - b), math.sqrt(max(top - a, 0.0))) if rooted else (a, b)
-    ends = b
-    for m in range(CUTS):
-        part = m if rooted else CUTS - 1 - m
-        cell, step = cells[found + m], (high - low) / CUTS
-        cell[ROOTED] = 1.0 if rooted else 0.0
-        cell[START], cell[RATE] = low + (part + 0.5) * step, 2 / step
-        edge = low + (part + (1 if rooted else 0)) * step
-        cell[UNTIL] = ends
-        ends = top - edge * edge if rooted else edge
-        if m == CUTS - 1:
-            ends = a
-        cell[FROM] = ends
-        for j in range(POWER_TERMS):
-            for k in range(COLUMNS):
-                total = 0.0
-                for i in range(OF_CELL):
-                    total += CONVERT[part, j, i] * series[k, i]
-                place = 2 * j + (1 if k > 0 else 0)
-                if 0 < k < COLUMNS - 1:
-                    place = 2 * POWER_TERMS + 4 * j + k - 1
-                cell[POWERS + place] = total
+    low, high = (math.sqrt(root - b), math.sqrt(max(root - a, 0.0))) if root > 0 else (a, b)
+    cell[FROM], cell[UNTIL], cell[ROOT], cell[ROOT_CELL], cell[OVER] = a, b, root, start, power
+    cell[START], cell[RATE] = 0.5 * (low + high), 2 / (high - low)
+    for k in range(COLUMNS):
+        for j in range(OF_CELL):
+            total = 0.0
+            for i in range(OF_CELL - 1 - j, OF_CELL):
+                total += CONVERT[j, i] * series[k, i]
+            cell[POWERS + OF_CELL * k + j] = total
 
 
 @scalar
-def _note(edges, count, gap, low, high):
-    """Note a gap at which a cell ends, in falling order."""
+def _note(edges, count, gap, onset, low, high):
+    """Note a gap at which a cell ends, in falling order, and whether sizes set in there."""
     keep_apart()
-    if not low < gap < high or count == len(edges):
+    if not low < gap <= high or count == edges.shape[1]:
         return count
     place = count
-    while place > 0 and edges[place - 1] < gap:
+    while place > 0 and edges[0, place - 1] < gap:
         place -= 1
-    if place > 0 and edges[place - 1] - gap < 1e-12 * high:
-        return count
-    if place < count and gap - edges[place] < 1e-12 * high:
-        return count
+    for near in range(max(place - 1, 0), min(place + 1, count)):
+        if abs(edges[0, near] - gap) < 1e-12 * high:
+            edges[1, near] = max(edges[1, near], onset)
+            return count
     for j in range(count, place, -1):
-        edges[j] = edges[j - 1]
-    edges[place] = gap
+        edges[0, j], edges[1, j] = edges[0, j - 1], edges[1, j - 1]
+    edges[0, place], edges[1, place] = gap, onset
     return count + 1
 
 
@@ -212,58 +203,91 @@ def _differs(given, sides, panels, n):
 
 
 @scalar
-def _middle(a, b, high):
-    """The middle of a cell in its variable."""
-    if a + b <= high:
-        return 0.5 * (a + b)
-    return high - 0.25 * (math.sqrt(high - a) + math.sqrt(high - b)) ** 2
-
-
-@scalar
-def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, floor, edges,
-             values, series, terms, some, sums, onset):  # fmt: skip
-    """Lay cells over the gap, from the largest size down; how many, and what they leave out.
-
-    −1 where there is no room, and 0 where particles are squeezed by more than their size.
-    """
+def _note_sizes(given, sides, panels, count, low, high, edges):
+    """Note the gaps at which a size begins to be squeezed or comes to another panel."""
     keep_apart()
-    low, high, last = given[0, SMALLEST], given[0, HIGH], panels[0, count - 1, TO]
-    power = 2.0 if given[0, KIND] == ONE_SIZE else 4.0
-    if last >= 1:
-        return 0, 0.0
-    bottom = low * (1 - last)
-    edges[0], marked = high, 1
+    last, marked = panels[0, count - 1, TO], 0
     for n in range(count + 1):
         eps = panels[0, n, EDGE] if n < count else last
         # an end of panels alone: the formula is the same behind it
         alone = 0 < n < count and panels[0, n, ONE] < 0
         if alone and (given[0, EQUAL] == 1 or not _differs(given, sides, panels, n)):
             continue
-        marked = _note(edges, marked, low * (1 - eps), bottom, high)
-        marked = _note(edges, marked, high * (1 - eps), bottom, high)
-    marked = _note(edges, marked, 0.5 * high, bottom, high)
-    if marked >= len(edges) - 1:
+        onset = 1.0 if n == 0 else 0.0
+        for s in range(len(given)):
+            if given[s, DENSITY] > 0:
+                for k in (SMALLEST, HIGH):
+                    marked = _note(edges, marked, given[s, k] * (1 - eps), onset, low, high)
+    return marked
+
+
+@scalar
+def _begin_sections(given, sides, panels, count, finest, some, sums, onsets):
+    """Sum over the squeeze what sizes that are powers carry.
+
+    The smallest and the largest size, the power of the root of the distance from that like which
+    all sets in, and what the sums leave out.
+    """
+    keep_apart()
+    low, high, power, worst, powers = math.inf, 0.0, 4.0, 0.0, False
+    for s in range(len(given)):
+        one = given[s : s + 1]
+        some[s] = len(given)  # not summed
+        if one[0, DENSITY] == 0:
+            continue
+        if one[0, HIGH] >= high:
+            high, power = one[0, HIGH], 2.0 if one[0, KIND] == ONE_SIZE else 4.0
+        low = min(low, one[0, SMALLEST])
+        if has_powers(one, 0):
+            some[s], powers = 0, True
+            sum_onset(one, sides, panels, 0, onsets[s])
+    if powers:
+        worst = sum_panels(given, sides, panels, 0, some, count, finest, sums)
+    return low, high, power, worst
+
+
+@scalar
+def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, floor, edges,
+             values, series, terms, some, sums, onsets):  # fmt: skip
+    """Lay cells over the gap, from the largest size down; how many, and what they leave out.
+
+    Of all sections of a seat, whose sides are those of the first. −1 where there is no room, and 0
+    where particles are squeezed by more than their size.
+    """
+    keep_apart()
+    last = panels[0, count - 1, TO]
+    if last >= 1:
+        return 0, 0.0
+    low, high, power, worst = _begin_sections(
+        given, sides, panels, count, finest, some, sums, onsets
+    )
+    bottom = low * (1 - last)
+    marked = _note_sizes(given, sides, panels, count, bottom, high, edges)
+    if marked >= edges.shape[1] - 1:
         return -1, 0.0
-    edges[marked] = bottom
+    edges[0, marked], edges[1, marked] = bottom, 0.0
     for k in range(10):
         terms[k] = 0.0
     # of one size, what all are squeezed beyond begins below the last panel
-    add_plane(given, sides, panels, 0, count, bottom * (1 - BELOW), rule, terms)
+    _add_under(
+        given, sides, panels, count, bottom * (1 - BELOW), rule, sums, onsets, terms
+    )  # fmt: skip
     for k in range(COLUMNS):
         floor[k] = terms[F_SA + k]
-    found, n, many, worst = 0, 0, 1, 0.0
-    if has_powers(given, 0):
-        worst = sum_panels(given, sides, panels, 0, some, count, finest, sums)
-        sum_onset(given, sides, panels, 0, onset)
+    found, n, many, start, begins = 0, 0, 1, 0, high
     while n < marked:
         # where formulas change little at their ends, one series does over several of them
-        b, last_n, alone = edges[n], min(n + many, marked), False
-        a = edges[last_n]
+        b, last_n, alone = edges[0, n], min(n + many, marked), False
+        if edges[1, n] == 1:
+            start, begins = found, b
+        a = edges[0, last_n]
         while True:
-            if found + CUTS > MOST_CELLS:
+            if found == MOST_CELLS:
                 return -1, 0.0
+            root = begins if begins - b < b - a else 0.0
+            over = power if root == high else 0.0
             left = _fill_cell(
-                given, sides, panels, count, rule, places, sums, onset, high, power, a, b, values,
+                given, sides, panels, count, rule, places, sums, onsets, root, over, a, b, values,
                 series, terms,
             )  # fmt: skip
             if left != left:
@@ -272,79 +296,23 @@ def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, 
                 if last_n > n + 1:
                     last_n = many = n + (last_n - n) // 2
                     many -= n
-                    a = edges[last_n]
+                    a = edges[0, last_n]
                 else:
                     alone = True
-                    a = _middle(a, b, high)
+                    a = 0.5 * (a + b)
+                    if root > 0:
+                        middle = 0.5 * (math.sqrt(root - b) + math.sqrt(root - 2 * a + b))
+                        a = root - middle * middle
                 continue
             worst = max(worst, left)
-            _keep_cell(high, a, b, series, cells, found)
-            found += CUTS
-            if a <= edges[last_n]:
+            _keep_cell(root, start, over, a, b, series, cells[found])
+            found += 1
+            if a <= edges[0, last_n]:
                 break
-            a, b = max(edges[last_n], a - 2 * (b - a)), a
+            a, b = max(edges[0, last_n], a - 2 * (b - a)), a
         many = 1 if alone else min(2 * many, 2)
         n = last_n
     return found, worst
-
-
-@scalar
-def _add_gaps(section, cells, floor, whole, nodes, columns):
-    """Add sums of the columns over the nodes, or of load and shadow, and the load at each."""
-    keep_apart()
-    count, gap, mass, loads = int(section[CELLS]), nodes[GAP], nodes[MASS], nodes[LOADS]
-    top, bottom, squared = cells[0, UNTIL], cells[count - 1, FROM], section[POWER] == 4
-    darker = section[DARKER] == 1
-    s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = 0.0
-    n = 0
-    for j in range(PLACES):
-        g, m, load = gap[j], mass[j], 0.0
-        if g < bottom:
-            load = floor[0]
-            s_1 += m * floor[1]
-            s_2 += m * floor[2]
-            s_3 += m * floor[3]
-            s_4 += m * floor[4]
-            s_5 += m * floor[5]
-        elif g < top:
-            while g < cells[n, FROM]:
-                n += 1
-            while g >= cells[n, UNTIL]:
-                n -= 1
-            cell, v, over, dark = cells[n], g, 1.0, 1.0
-            if cell[ROOTED] == 1:
-                over = top - g
-                v = math.sqrt(over)
-                dark = top if darker else over
-                if squared:
-                    dark *= over
-                    over *= over
-            x = cell[RATE] * (v - cell[START])
-            a_0, a_5 = cell[POWERS], cell[POWERS + 1]
-            for k in range(1, POWER_TERMS):
-                i = POWERS + 2 * k
-                a_0, a_5 = a_0 * x + cell[i], a_5 * x + cell[i + 1]
-            load = max(over * a_0, 0.0)
-            over *= m
-            s_5 += max(m * dark * a_5, 0.0)
-            if whole:
-                a_1, a_2, a_3, a_4 = cell[AREAS], cell[AREAS + 1], cell[AREAS + 2], cell[AREAS + 3]
-                for k in range(1, POWER_TERMS):
-                    i = AREAS + 4 * k
-                    a_1, a_2 = a_1 * x + cell[i], a_2 * x + cell[i + 1]
-                    a_3, a_4 = a_3 * x + cell[i + 2], a_4 * x + cell[i + 3]
-                s_1 += max(over * a_1, 0.0)
-                s_2 += max(over * a_2, 0.0)
-                s_3 += max(over * a_3, 0.0)
-                s_4 += max(over * a_4, 0.0)
-        loads[j] += load
-        s_0 += m * load
-    columns[0] += s_0
-    columns[1] += s_1
-    columns[2] += s_2
-    columns[3] += s_3
-    columns[4] += s_4
-    columns[5] += s_5
 
 
 # ------------------------------------------------------------------------------ asperities
@@ -476,62 +444,105 @@ def _ground_at(u, zeta):
 
 
 @scalar
-def _first_squeezed(seat, h, u, rise, guess):
-    """The lowest ground on which the largest particle is squeezed [σ].
-
-    No ground is pressed down by more than ``rise``.
-    """
-    keep_apart()
-    low, high = seat[MEAN] - REACH * seat[SPREAD], seat[MEAN] + REACH * seat[SPREAD]
-    lack = h - seat[TOP]
-    if lack - high > rise:
-        return high
-    if guess == guess:  # from one that is near; the ground is far less steep than ζ
-        a, f_a = guess, lack - guess + _ground_at(u, guess)
-        b = a + f_a
-        for _ in range(12):
-            f_b = lack - b + _ground_at(u, b)
-            if abs(f_b) <= SET_IN:
-                return b if low < b < high else math.nan
-            slope = (f_b - f_a) / (b - a)
-            if not -3 < slope < -0.3:
-                break
-            a, f_a, b = b, f_b, b - f_b / slope
-            if a == b:
-                return b if low < b < high else math.nan
-    step, left, f_left = (high - low) / (GRID - 1), low, lack - low + _ground_at(u, low)
-    if f_left < 0:
-        return low
-    for k in range(1, GRID):
-        right = low + k * step
-        f_right = lack - right + _ground_at(u, right)
-        if f_right < 0:
-            side = 0
-            for _ in range(60):
-                zeta = (left * f_right - right * f_left) / (f_right - f_left)
-                f = lack - zeta + _ground_at(u, zeta)
-                if abs(f) <= SET_IN:
-                    return zeta
-                if f < 0:
-                    f_left *= 0.5 if side == 1 else 1.0
-                    right, f_right, side = zeta, f, 1
-                else:
-                    f_right *= 0.5 if side == -1 else 1.0
-                    left, f_left, side = zeta, f, -1
-            return zeta
-        left, f_left = right, f_right
-    return high
+def _ground_lies(h, u, zeta):
+    """Gap [σ] over ground of a height."""
+    return h - zeta + _ground_at(u, zeta)
 
 
 @exact
-def _place_heights(right, span, mean, width, zeta, cut, mass):
-    """Heights of the nodes, those within the heights of the ground, and weights dN."""
-    norm = 2 * span / (width * ROOT_2PI)
-    for j in range(PLACES):
-        zeta[j] = right + span * ROOTS[j] * ROOTS[j]
+def _approach_ends(h, p, wanted, ends):
+    """One step of Newton's towards the heights at which gaps are as wanted."""
+    p_0, p_1, p_2, p_3, p_4, p_5, p_6 = p[0], p[1], p[2], p[3], p[4], p[5], p[6]
+    p_7, p_8, p_9, p_10, p_11, p_12 = p[7], p[8], p[9], p[10], p[11], p[12]
+    worst = 0.0
+    for j in range(len(ends)):
+        x = ends[j]
+        u = (((p_12 * x + p_11) * x + p_10) * x + p_9) * x + p_8
+        u = ((((u * x + p_7) * x + p_6) * x + p_5) * x + p_4) * x + p_3
+        u = ((u * x + p_2) * x + p_1) * x + p_0
+        t = (((12 * p_12 * x + 11 * p_11) * x + 10 * p_10) * x + 9 * p_9) * x + 8 * p_8
+        t = ((((t * x + 7 * p_7) * x + 6 * p_6) * x + 5 * p_5) * x + 4 * p_4) * x + 3 * p_3
+        t = (t * x + 2 * p_2) * x + p_1
+        off = h - x + u - wanted[j]
+        inside = -HIGHEST_SEAT < x < HIGHEST_SEAT
+        worst = max(worst, abs(off) if inside else 0.0)
+        ends[j] = min(max(x - off / min(t - 1, STEEPEST), -HIGHEST_SEAT), HIGHEST_SEAT)
+    return worst
+
+
+@scalar
+def _find_ends(h, u, p, wanted, ends, gaps):
+    """Heights at which gaps [σ] are as wanted, in falling order; whether they are known.
+
+    ``gaps`` gets those at `HEIGHTS`.
+    """
+    keep_apart()
+    count, k, known = len(HEIGHTS), 0, True
+    for j in range(count):
+        gaps[j] = _ground_lies(h, u, HEIGHTS[j])
+        known &= j == 0 or gaps[j] < gaps[j - 1]
+    for j in range(len(wanted)):
+        while k < count - 2 and gaps[k + 1] > wanted[j]:
+            k += 1
+        part = (gaps[k] - wanted[j]) / max(gaps[k] - gaps[k + 1], SHORTEST)
+        ends[j] = HEIGHTS[k] + min(max(part, 0.0), 1.0) * (HEIGHTS[k + 1] - HEIGHTS[k])
+    worst = 0.0
+    for _ in range(NEWTON):
+        worst = _approach_ends(h, p, wanted, ends)
+    known &= worst <= MISSED * (1 + abs(h))
+    for j in range(len(wanted)):
+        # the ground is level beyond
+        if wanted[j] > gaps[0]:
+            ends[j] = HEIGHTS[0] + gaps[0] - wanted[j]
+        elif wanted[j] < gaps[count - 1]:
+            ends[j] = HEIGHTS[count - 1] + gaps[count - 1] - wanted[j]
+    return known
+
+
+@scalar
+def _lay_panels(seat, rooted, begin, a, b, which, places, count):
+    """Lay panels between two heights, in the root of the distance from one or in the height."""
+    keep_apart()
+    while a < b and count < MOST_PLACES:
+        end = b
+        if a < -HIGHEST_SEAT < b:
+            end = -HIGHEST_SEAT
+        elif a < HIGHEST_SEAT < b:
+            end = HIGHEST_SEAT
+        parts = min(max(1, math.ceil((end - a) / (WIDEST * seat[SPREAD]))), MOST_PLACES - count)
+        for m in range(parts):
+            one, two = a + (end - a) * m / parts, a + (end - a) * (m + 1) / parts
+            if rooted:
+                one, two = math.sqrt(max(one - begin, 0.0)), math.sqrt(two - begin)
+            places[FIRST_PLACE, count], places[LAST_PLACE, count] = one, two
+            places[BY_ROOT, count] = 1.0 if rooted else 0.0
+            places[BEGIN, count], places[WHICH, count] = begin, which
+            count += 1
+        a = end
+    return count
+
+
+@exact
+def _place_nodes(first, last, rooted, begin, zeta, mass):
+    """Heights of the nodes of a panel, and their weights."""
+    half, middle = 0.5 * (last - first), 0.5 * (last + first)
+    if rooted:
+        for j in range(NODES):
+            root = middle + half * ROOTS[j]
+            zeta[j], mass[j] = begin + root * root, 2 * root * half * WEIGHTS[j]
+    else:
+        for j in range(NODES):
+            zeta[j], mass[j] = middle + half * ROOTS[j], half * WEIGHTS[j]
+
+
+@exact
+def _weigh_heights(mean, width, zeta, cut, mass):
+    """Weights of nodes times the density of the seat, and heights within those of the ground."""
+    norm = 1 / (width * ROOT_2PI)
+    for j in range(len(zeta)):
         cut[j] = min(max(zeta[j], -HIGHEST_SEAT), HIGHEST_SEAT)
         z = (zeta[j] - mean) / width
-        mass[j] = norm * ROOTS[j] * WEIGHTS[j] * exp(-0.5 * z * z)
+        mass[j] *= norm * exp(-0.5 * z * z)
 
 
 @exact
@@ -539,18 +550,136 @@ def _find_gaps(h, sigma, p, zeta, cut, gap):
     """Gaps of nodes on ground that is a polynomial of the height."""
     p_0, p_1, p_2, p_3, p_4, p_5, p_6 = p[0], p[1], p[2], p[3], p[4], p[5], p[6]
     p_7, p_8, p_9, p_10, p_11, p_12 = p[7], p[8], p[9], p[10], p[11], p[12]
-    for j in range(PLACES):
+    for j in range(len(zeta)):
         x = cut[j]
         u = (((p_12 * x + p_11) * x + p_10) * x + p_9) * x + p_8
         u = ((((u * x + p_7) * x + p_6) * x + p_5) * x + p_4) * x + p_3
         gap[j] = sigma * (h - zeta[j] + ((u * x + p_2) * x + p_1) * x + p_0)
 
 
+@exact
+def _take_places(cell, gap, places):
+    """Gaps of the nodes of a panel in the variable of its cell, from −1 to 1."""
+    start, rate, root = cell[START], cell[RATE], cell[ROOT]
+    if root > 0:
+        for j in range(NODES):
+            x = rate * (math.sqrt(max(root - gap[j], 0.0)) - start)
+            places[j] = min(max(x, -1.0), 1.0)
+    else:
+        for j in range(NODES):
+            places[j] = min(max(rate * (gap[j] - start), -1.0), 1.0)
+
+
+@exact
+def _read_powers(c, places, out):
+    """A series of a cell at the nodes of a panel."""
+    c_0, c_1, c_2, c_3, c_4, c_5, c_6, c_7 = c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]
+    c_8, c_9, c_10, c_11, c_12, c_13 = c[8], c[9], c[10], c[11], c[12], c[13]
+    c_14, c_15 = c[14], c[15]
+    for j in range(NODES):
+        x = places[j]
+        v = (((c_0 * x + c_1) * x + c_2) * x + c_3) * x + c_4
+        v = ((((v * x + c_5) * x + c_6) * x + c_7) * x + c_8) * x + c_9
+        v = ((((v * x + c_10) * x + c_11) * x + c_12) * x + c_13) * x + c_14
+        out[j] = v * x + c_15
+
+
+@exact
+def _lower_powers(root, power, gap, out):
+    """Take what stands over a power of the root times that, and nothing below zero."""
+    if power == 4:
+        for j in range(NODES):
+            rise = max(root - gap[j], 0.0)
+            out[j] *= rise * rise
+    elif power == 2:
+        for j in range(NODES):
+            out[j] *= max(root - gap[j], 0.0)
+    for j in range(NODES):
+        out[j] = max(out[j], 0.0)
+
+
+@summed
+def _sum_products(mass, values):
+    total = 0.0
+    for j in range(len(mass)):
+        total += mass[j] * values[j]
+    return total
+
+
+@scalar
+def _read_panel(cell, darker, whole, gap, mass, loads, shades, places, columns):
+    """Loads and shades at the nodes of a panel, and sums of other columns if the whole is asked."""
+    keep_apart()
+    root, power = cell[ROOT], cell[OVER]
+    _take_places(cell, gap, places)
+    dark = power
+    if darker and power > 0:
+        dark -= 2
+    for k in range(COLUMNS):
+        if 0 < k < COLUMNS - 1 and not whole:
+            continue
+        out = loads if k == 0 else shades  # others on their way
+        _read_powers(cell[POWERS + OF_CELL * k : POWERS + OF_CELL * (k + 1)], places, out)
+        if k == COLUMNS - 1:
+            _lower_powers(root, dark, gap, out)
+            if dark != power:
+                for j in range(NODES):
+                    out[j] *= root
+        else:
+            _lower_powers(root, power, gap, out)
+        if 0 < k < COLUMNS - 1:
+            columns[k] += _sum_products(mass, out)
+
+
+@scalar
+def _lay_seat(own, seat, h, u, cells, count, nodes, places):
+    """Panels over the heights on which particles of a seat are squeezed; how many, and whether all
+    ends of cells are known."""
+    keep_apart()
+    low, high = seat[MEAN] - REACH * seat[SPREAD], seat[MEAN] + REACH * seat[SPREAD]
+    widest, narrowest = own[SIGMA] * _ground_lies(h, u, low), own[SIGMA] * _ground_lies(h, u, high)
+    first, end = 0, count
+    while first < end:  # the first cell that reaches below the widest gap
+        middle = (first + end) // 2
+        if cells[middle, FROM] >= widest:
+            first = middle + 1
+        else:
+            end = middle
+    last = first
+    while last < count and cells[last, UNTIL] > narrowest:
+        last += 1
+    if first == last and first < count:
+        return 0, True
+    if first < count:
+        nodes[WANTED, 0] = cells[first, UNTIL] / own[SIGMA]
+        for n in range(first, last):
+            nodes[WANTED, n - first + 1] = cells[n, FROM] / own[SIGMA]
+    else:
+        nodes[WANTED, 0] = cells[count - 1, FROM] / own[SIGMA]
+    ends = nodes[ENDS_AT, : last - first + 1]
+    known = _find_ends(
+        h, u, nodes[POLYNOMIALS], nodes[WANTED, : last - first + 1], ends, nodes[SUMS]
+    )
+    laid, a = 0, low
+    for n in range(first, last):
+        a, b = max(ends[n - first], low), min(ends[n - first + 1], high)
+        start = int(cells[n, ROOT_CELL])
+        rooted = cells[n, ROOT] > 0 and start >= first
+        begin = min(ends[start - first], a) if rooted else 0.0
+        laid = _lay_panels(seat, rooted, begin, a, b, n, places, laid)
+    if last == count:
+        below, rooted, begin = count - last - 1, last < count, 0.0
+        laid = _lay_panels(
+            seat, rooted, begin, max(ends[last - first], low), high, below, places, laid
+        )
+    return laid, known and laid < MOST_PLACES
+
+
 @summed
 def _take_powers(mass, load, cut, p):
     """Sums of the loads times powers of the height."""
     s_0 = s_1 = s_2 = s_3 = s_4 = s_5 = s_6 = s_7 = s_8 = s_9 = s_10 = s_11 = s_12 = 0.0
-    for j in range(PLACES):
+    for j in range(len(mass)):
         x, v = cut[j], mass[j] * load[j]
         s_0 += v
         v *= x
@@ -581,69 +710,85 @@ def _take_powers(mass, load, cut, p):
 
 
 @scalar
-def _weigh_seat(field, seat, h, right, nodes, found, columns, whole):
+def _weigh_seat(own, seat, h, u, cells, count, darker, floor, nodes, places, found, columns, whole):
     """Add what the particles of a seat carry to the loads' moments and the shadow.
 
-    From the lowest ground on which one is squeezed; their columns by themselves.
+    Their columns by themselves; a moment is NaN where the whole is asked and ends of cells are not
+    known.
     """
     keep_apart()
-    own, sections, cells, floor = field[0], field[2], field[6], field[7]
     for c in range(COLUMNS):
         columns[c] = 0.0
-    span = max(seat[MEAN] + REACH * seat[SPREAD] - right, 0.0)
-    if span == 0:
+    if seat[DENSE] == 0:
         return
-    zeta, cut, gap, mass = nodes[ZETA], nodes[CUT], nodes[GAP], nodes[MASS]
-    p, loads = nodes[SUMS], nodes[LOADS]
-    _place_heights(right, span, seat[MEAN], seat[SPREAD], zeta, cut, mass)
+    laid, known = _lay_seat(own, seat, h, u, cells, count, nodes, places)
+    size = NODES * laid
+    zeta, cut, gap, mass = (
+        nodes[ZETA, :size], nodes[CUT, :size], nodes[GAP, :size], nodes[MASS, :size]
+    )  # fmt: skip
+    loads, shades, p = nodes[LOADS, :size], nodes[SHADES, :size], nodes[SUMS]
+    for n in range(laid):
+        here = slice(NODES * n, NODES * (n + 1))
+        _place_nodes(
+            places[FIRST_PLACE, n], places[LAST_PLACE, n], places[BY_ROOT, n] == 1,
+            places[BEGIN, n], zeta[here], mass[here],
+        )  # fmt: skip
+    _weigh_heights(seat[MEAN], seat[SPREAD], zeta, cut, mass)
     _find_gaps(h, own[SIGMA], nodes[POLYNOMIALS], zeta, cut, gap)
-    for j in range(PLACES):
-        loads[j] = 0.0
-    for s in range(int(seat[SECTION]), int(seat[LAST_SECTION])):
-        _add_gaps(sections[s], cells[s], floor[s], whole, nodes, columns)
+    for n in range(laid):
+        here, which = slice(NODES * n, NODES * (n + 1)), int(places[WHICH, n])
+        if which < 0:
+            for j in range(NODES):
+                loads[NODES * n + j], shades[NODES * n + j] = floor[0], floor[COLUMNS - 1]
+            for k in range(1, COLUMNS - 1):
+                for j in range(NODES):
+                    columns[k] += floor[k] * mass[NODES * n + j]
+        else:
+            _read_panel(
+                cells[which], darker, whole, gap[here], mass[here], loads[here], shades[here],
+                zeta[here], columns,
+            )  # fmt: skip
     _take_powers(mass, loads, cut, p)
+    columns[0], columns[COLUMNS - 1] = p[0], _sum_products(mass, shades)
     over = seat[DENSE] / own[UNIT]
     for n in range(BETA):
         for k in range(n + 1):
             found[n] += over * HERMITE[n, k] * p[k]
+    if whole and not known:
+        found[0] = math.nan
     found[BETA] += seat[DENSE] * columns[COLUMNS - 1]
 
 
 @scalar
-def weigh_ground(field, h, u, lowest, nodes, found, columns, whole):
-    """Loads' moments and the shadow at h [σ] on ground u, and all columns if the whole is asked.
-
-    ``lowest`` holds guesses of the lowest ground on which a particle of each seat is squeezed, and
-    gets that.
-    """
+def weigh_ground(field, h, u, nodes, places, found, columns, whole):
+    """Loads' moments and the shadow at h [σ] on ground u, and all columns if the whole is asked."""
     keep_apart()
-    seats, p, rise = field[1], nodes[POLYNOMIALS], 0.0
+    own, seats, darker, _, _, _, cells, counts, floor = field
+    p = nodes[POLYNOMIALS]
     for n in range(BETA):
         found[n] = p[n] = 0.0
-        rise += TALLEST[n] * abs(u[n])
         for k in range(n, BETA):
             p[n] += HERMITE[k, n] * u[k]
     found[BETA] = 0.0
     for s in range(len(seats)):
-        right = _first_squeezed(seats[s], h, u, rise, math.nan if whole else lowest[s])
-        if right != right:
-            right = _first_squeezed(seats[s], h, u, rise, math.nan)
-        lowest[s] = right
-        _weigh_seat(field, seats[s], h, right, nodes, found, columns[s], whole)
+        _weigh_seat(
+            own, seats[s], h, u, cells[s], counts[s], darker[s], floor[s], nodes, places, found,
+            columns[s], whole,
+        )  # fmt: skip
 
 
 @scalar
-def round_of(field, h, state, lift, lowest, small, nodes, found, columns, whole):
+def round_of(field, h, state, lift, small, nodes, places, found, columns, whole):
     """β_n and the shadow again, from those and the lift before, at h [σ].
 
-    The lift and how far it is off; ``lowest`` as in `weigh_ground`.
+    The lift and how far it is off.
     """
     keep_apart()
-    own, _, _, kernels, skin, surface, _, _ = field
+    own, _, _, kernels, skin, surface, _, _, _ = field
     w, off = lift_of(own, kernels, skin, surface, h, state, lift, small)
     # the rows hold what asperities do a last step before, some 1e-13 of σ away
     bare, u = 1 - min(max(state[BETA], 0.0), 1.0), small[U]
     for n in range(BETA):
         u[n] = WAVES * (bare * small[PRESSED, n] + kernels[K_PP + n] * state[n])
-    weigh_ground(field, h, u, lowest, nodes, found, columns, whole)
+    weigh_ground(field, h, u, nodes, places, found, columns, whole)
     return w, off

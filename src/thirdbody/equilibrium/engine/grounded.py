@@ -25,7 +25,9 @@ from .fields import (
     NOT_RESOLVED,
     OK,
     POLYNOMIAL,
+    PROJECTED,
     SHADE,
+    SHADOW,
     SIDE,
     SQUEEZED,
     TOO_LONG,
@@ -37,18 +39,21 @@ from .gaps import TERMS as OF_ONSET
 from .ground import (
     A_CELL,
     BETA,
-    CELLS,
     COLUMNS,
     DENSE,
     FIXED,
     K_PP,
+    LAST_SECTION,
     LEFT,
     LOWEST,
     MOST_CELLS,
+    MOST_PLACES,
     OF_CELL,
     OF_NODES,
+    OF_PLACE,
     PLACES,
     ROWS,
+    SECTION,
     SETTLED,
     SIGMA,
     STEP,
@@ -184,14 +189,14 @@ def _solve_row(field, k, accuracy, whole, rows, work):
     """
     keep_apart()
     own, kernels = field[0], field[3]
-    states, lifts, columns, misses, lowest, done = rows
-    small, nodes, pairs, memory, turned, other = work
+    states, lifts, columns, misses, done = rows
+    small, nodes, places, pairs, memory, turned, other = work
     found, miss, old_state, old_miss = other[0], other[1], other[2], other[3]
     h, state, close = own[LOWEST] + k * own[STEP], states[k], False
     for n in range(ROUNDS):
         full = whole and close
         lifts[k], off = round_of(
-            field, h, state, lifts[k], lowest[k], small, nodes, found, columns[k], full
+            field, h, state, lifts[k], small, nodes, places, found, columns[k], full
         )
         size = 0.0
         for m in range(UNKNOWNS):
@@ -222,15 +227,13 @@ def _solve_row(field, k, accuracy, whole, rows, work):
 def _guess_row(k, way, rows, last):
     """Put what the rows before, on one side, say of row k into it."""
     keep_apart()
-    states, lifts, _, _, lowest, done = rows
+    states, lifts, _, _, done = rows
     known, near = 0, k + way
     while known < OLDER:
         m = k + way * (known + 1)
         if not 0 <= m <= last or done[m] == NONE or not states[m, 0] > 0:
             break
         known += 1
-    for s in range(lowest.shape[1]):
-        lowest[k, s] = math.nan if known == 0 else 0.0
     if known == 0:
         lifts[k] = 0.0
         for n in range(UNKNOWNS):
@@ -251,8 +254,6 @@ def _guess_row(k, way, rows, last):
         states[k, 0] -= part * math.log(states[m, 0])
         for n in range(1, UNKNOWNS):
             states[k, n] -= part * states[m, n] / states[m, 0]
-        for s in range(lowest.shape[1]):
-            lowest[k, s] -= part * lowest[m, s]
     states[k, 0] = math.exp(min(max(states[k, 0], -600.0), 100.0))
     for n in range(1, UNKNOWNS):
         states[k, n] *= states[k, 0]
@@ -272,13 +273,11 @@ def _plain_load(field, held, k, rows, work, out):
     """Load at row k on ground that does not give way: more than is carried there, or nearly."""
     keep_apart()
     own, skin = field[0], field[4]
-    columns, lowest, found, spare = rows[2], rows[4], work[5][0], len(rows[0])
+    columns, found, spare = rows[2], work[6][0], len(rows[0])
     h, u = own[LOWEST] + k * own[STEP], work[0][U]
     for n in range(BETA):
         u[n] = 0.0
-    for s in range(lowest.shape[1]):
-        lowest[spare, s] = math.nan
-    weigh_ground(field, h, u, lowest[spare], work[1], found, columns[spare], False)
+    weigh_ground(field, h, u, work[1], work[2], found, columns[spare], False)
     if not add_field(skin, held, h, out):
         return math.inf
     return out[F_SS] + found[0] * own[UNIT]
@@ -319,11 +318,11 @@ def _come_down(field, held, k, target, h, rows, work, out):
     own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
     last, rounds, before, left = int(own[ROWS]) - 1, 0, 0.0, False
     while k >= 0:
-        if rows[5][k] == NONE:
+        if rows[4][k] == NONE:
             _guess_row(k, 1, rows, last)
             n = _solve_row(field, k, LOOSE, False, rows, work)
-            if n < 0 or _leaps(lifts, rows[5], k, 1, own[STEP]):
-                rows[5][k] = NONE
+            if n < 0 or _leaps(lifts, rows[4], k, 1, own[STEP]):
+                rows[4][k] = NONE
                 return -1, rounds, UNSOLVED
             rounds += n
         at = own[LOWEST] + k * own[STEP]
@@ -350,7 +349,7 @@ def _finish_rows(field, care, k, low, high, rows, work):
     Rounds, or −1, and where the window begins: above a row whose ground is not found.
     """
     keep_apart()
-    done, rounds, last = rows[5], 0, int(field[0][ROWS]) - 1
+    done, rounds, last = rows[4], 0, int(field[0][ROWS]) - 1
     step, first = field[0][STEP], high
     while first > low and done[first] == NONE:
         first -= 1
@@ -514,7 +513,7 @@ def _begin(field, held, care, target, h, rows, work, out):
     keep_apart()
     own, load, least = field[0], target, 0
     count = int(own[ROWS])
-    work[3][0] = 0.0
+    work[4][0] = 0.0
     if not target > 0:
         k = math.floor((h - own[LOWEST]) / own[STEP])
         least = min(k + 1 + int(care[MANY]), count - 1)
@@ -603,52 +602,66 @@ def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts
 
 
 @scalar
-def _lay_section(given, sides, rules, care, scratch, cells, floor, section):
-    """Lay the cells of a section; what they leave out, and whether they are laid, or why not."""
+def _lay_section(given, sides, rules, care, scratch, cells, floor):
+    """Lay the cells of the sections of a seat.
+
+    What they leave out, whether they are laid, or why not, and how many there are.
+    """
     keep_apart()
-    panels, edges, values, out, some, sums, onset = scratch
-    spread = spread_of(given, 0)
+    panels, edges, values, out, some, sums, onsets = scratch
+    spread = math.inf
+    for s in range(len(given)):
+        spread = min(spread, spread_of(given, s))
     count = lay_panels(given, sides, panels, 0, rules[len(rules) - 1, POLYNOMIAL:], spread)
     if count <= 0:
-        return 0.0, TOO_LONG
+        return 0.0, TOO_LONG, 0
     laid, left = lay_gaps(
         given, sides, panels, count, rules[1], rules[0, POLYNOMIAL:],
         rules[len(rules) - 2, POLYNOMIAL:], care[OF_CELLS], cells, floor, edges,
-        values[0], values[1], out, some, sums, onset,
+        values[0], values[1], out, some[: len(given)], sums, onsets,
     )  # fmt: skip
-    section[CELLS] = laid
     if laid > 0:
-        return left, OK
-    return left, TOO_LONG if laid < 0 else SQUEEZED
+        return left, OK, laid
+    return left, TOO_LONG if laid < 0 else SQUEEZED, 0
 
 
 @scalar
-def _lay_sections(
-    i, parts, bodies, rules, care, scratch, cells, floor, sections, left, fates, sides
-):
-    """Lay the cells of every section of state i anew that differs from that of the state before.
+def _is_seat_alike(i, parts, bodies, first, last):
+    """Whether particles of sections of state i are those of the state before."""
+    for s in range(first, last):
+        if not (
+            is_alike(parts[i, s], parts[i - 1, s])
+            and is_alike(bodies[i, 2 * s], bodies[i - 1, 2 * s])
+            and is_alike(bodies[i, 2 * s + 1], bodies[i - 1, 2 * s + 1])
+        ):
+            return False
+    return True
+
+
+@scalar
+def _lay_seats(i, parts, bodies, seats, rules, care, scratch, cells, counts, darker, floor, left,
+               fates, sides):  # fmt: skip
+    """Lay the cells of every seat of state i anew that differs from that of the state before.
 
     What they leave out, at most, what became of them, and whether none differs.
     """
     keep_apart()
     worst, fate, same = 0.0, OK, i > 0
-    for s in range(sections.shape[1]):
-        if i > 0 and (
-            is_alike(parts[i, s], parts[i - 1, s])
-            and is_alike(bodies[i, 2 * s], bodies[i - 1, 2 * s])
-            and is_alike(bodies[i, 2 * s + 1], bodies[i - 1, 2 * s + 1])
-        ):
-            sections[i, s, CELLS] = sections[i - 1, s, CELLS]
-        else:
+    for m in range(seats.shape[1]):
+        first, last = int(seats[i, m, SECTION]), int(seats[i, m, LAST_SECTION])
+        if i == 0 or not _is_seat_alike(i, parts, bodies, first, last):
             same = False
             for one in range(2):
                 for k in range(bodies.shape[2]):
-                    sides[one, k] = bodies[i, 2 * s + one, k]
-            left[s], fates[s] = _lay_section(
-                parts[i, s : s + 1], sides, rules, care, scratch, cells[s], floor[s], sections[i, s]
-            )
-        worst = max(worst, left[s])
-        fate = max(fate, fates[s])
+                    sides[one, k] = bodies[i, 2 * first + one, k]
+            left[m], fates[m], counts[m] = 0.0, OK, 0
+            darker[m] = parts[i, first, SHADOW] == PROJECTED
+            if seats[i, m, DENSE] > 0:
+                left[m], fates[m], counts[m] = _lay_section(
+                    parts[i, first:last], sides, rules, care, scratch, cells[m], floor[m]
+                )
+        worst = max(worst, left[m])
+        fate = max(fate, fates[m])
     return worst, fate, same
 
 
@@ -669,11 +682,11 @@ def _is_ground_alike(i, skins, tables, grounds, seats, which, basis):
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, series, alone, which,
+def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, alone, which,
                    basis, splines, rules, care, target, h, count, fate, error, rows):  # fmt: skip
     """Solve states by their own numbers: skins (N, 1, ...), sections of sizes ``parts`` (N, S, ...)
-    and their sides (N, 2S, ...), tables of surfaces (N, M, ...), grounds (N, ...), seats (N, P,
-    ...), and of ``sections`` (N, S, ...) what their cells are.
+    and their sides (N, 2S, ...), tables of surfaces (N, M, ...), grounds (N, ...) and seats (N, P,
+    ...).
 
     Displacements are ``basis`` (N, K) times ``series`` (C, K, ...), of which each state has the one
     that ``which`` says, or rows of ``alone``. For the loads target [Pa] or, where they are zero, at
@@ -681,32 +694,34 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
     ``care`` is `EXACT` or `ROUGH`. Fills ``h``, the rounds ``count``, ``fate``, the estimated
     ``error`` and the columns ``rows`` (N, 10).
     """
-    most, every, length = seats.shape[1], sections.shape[1], 0
+    most, every, length = seats.shape[1], parts.shape[1], 0
     for i in range(len(target)):
         length = max(length, int(min(grounds[i, ROWS], MOST_ROWS)))
-    sides, left, fates = np.zeros((2, SIDE)), np.zeros(every), np.zeros(every, np.int64)
+    sides, left, fates = np.zeros((2, SIDE)), np.zeros(most), np.zeros(most, np.int64)
     scratch = (
-        np.empty((1, MOST_PANELS + ROOM, PANEL)), np.empty(MOST_CELLS),
-        np.empty((2, COLUMNS, OF_CELL)), np.zeros(10),
-        np.zeros(1, np.int64), np.empty((1, MOST_PANELS, SUMS)), np.empty(3 * OF_ONSET),
+        np.empty((1, MOST_PANELS + ROOM, PANEL)), np.empty((2, MOST_CELLS)),
+        np.empty((2, COLUMNS, OF_CELL)), np.zeros(10), np.zeros(every, np.int64),
+        np.empty((every, MOST_PANELS, SUMS)), np.empty((every, 3 * OF_ONSET)),
     )  # fmt: skip
-    cells, floor = np.zeros((every, MOST_CELLS, A_CELL)), np.zeros((every, COLUMNS))
+    cells, floor = np.zeros((most, MOST_CELLS, A_CELL)), np.zeros((most, COLUMNS))
+    counts, darker = np.zeros(most, np.int64), np.zeros(most, np.bool_)
     surface, held = np.zeros((HEIGHTS_OF_TABLE, TERMS, OF_SURFACE)), np.zeros((2, 2 * OF_SURFACE))
     kernels, out = np.empty(series.shape[2]), np.zeros(10)
     poly, lasts = np.zeros((most + 1, TERMS, COLUMNS)), np.zeros(most, np.int64)
     lines = (
         np.zeros((length, UNKNOWNS)), np.zeros(length), np.zeros((length + 1, most, COLUMNS)),
-        np.zeros(length), np.zeros((length + 1, most)), np.zeros(length, np.int64),
+        np.zeros(length), np.zeros(length, np.int64),
     )  # fmt: skip
     work = (
         np.zeros((6, max(OF_SURFACE, TAUS))), np.zeros((OF_NODES, PLACES)),
-        np.zeros((2, KEPT, UNKNOWNS)), np.zeros(1), np.zeros((3, KEPT + 1, UNKNOWNS)),
-        np.zeros((4, UNKNOWNS)),
+        np.zeros((OF_PLACE, MOST_PLACES)), np.zeros((2, KEPT, UNKNOWNS)), np.zeros(1),
+        np.zeros((3, KEPT + 1, UNKNOWNS)), np.zeros((4, UNKNOWNS)),
     )  # fmt: skip
     for i in range(len(target)):
-        worst, laid, same = _lay_sections(
-            i, parts, bodies, rules, care, scratch, cells, floor, sections, left, fates, sides
-        )
+        worst, laid, same = _lay_seats(
+            i, parts, bodies, seats, rules, care, scratch, cells, counts, darker, floor, left,
+            fates, sides,
+        )  # fmt: skip
         fate[i] = max(fate[i], laid)
         if fate[i] != OK:
             error[i] = math.inf
@@ -716,7 +731,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
         if not (same and care[SHARES] == 1 and fate[i - 1] == OK and _is_ground_alike(
             i, skins, tables, grounds, seats, which, basis
         )):  # fmt: skip
-            lines[5][:] = NONE
+            lines[4][:] = NONE
             lay_surface(skins[i], tables[i], surface)
             for m in range(series.shape[2]):
                 kernels[m] = alone[-1 - which[i], m] if which[i] < 0 else 0.0
@@ -725,7 +740,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, sections, serie
                     kernels[m] += basis[i, j] * series[which[i], j, m]
         lay_field(held)
         own[LEFT] += worst
-        field = own, seats[i], sections[i], kernels, skins[i], surface, cells, floor
+        field = own, seats[i], darker, kernels, skins[i], surface, cells, counts, floor
         h[i], count[i], fate[i], error[i] = _ground_state(
             field, held, splines, care, target[i], h[i], lines, work, poly, lasts, rows[i], out
         )

@@ -335,9 +335,6 @@ class Grounds:
         self.parts[:, :, f.DENSITY] = [each.part for each in found]
         for column, value in {f.SEAT: f.PLANE, f.OFFSET: 0, f.WIDTH: 0, f.COVERAGE: 0}.items():
             self.parts[:, :, column] = value
-        self.sections = np.zeros((*parts.shape[:2], g.OF_SECTION))
-        self.sections[:, :, g.POWER] = np.where(parts[:, :, f.KIND] == f.ONE_SIZE, 2.0, 4.0)
-        self.sections[:, :, g.DARKER] = parts[:, :, f.SHADOW] == f.PROJECTED
         self.seats = np.zeros((count, found[-1].component + 1, g.OF_SEAT))
         # none are seated where there are none
         top = np.where(parts[:, :, f.DENSITY] > 0, parts[:, :, f.HIGH], 0.0) / sigma

@@ -189,7 +189,7 @@ def solve_states(
     known = ground.displacements
     solve_grounded(
         *(own[0], ground.parts[here], own[2], ground.tables[here]),
-        *(ground.numbers[here], ground.seats[here], ground.sections[here]),
+        *(ground.numbers[here], ground.seats[here]),
         *(known.series, known.alone, known.which[here], known.basis[here]),
         *(SPLINES, rules(), ROUGH if samples else EXACT),
         *found,
