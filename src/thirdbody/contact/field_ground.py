@@ -33,7 +33,7 @@ from ..laws.base import COLUMNS, SeatedLaw
 from ..laws.field.programme import MOMENTS
 from ..laws.field.table import FIRST, TAU
 from ..numerics.chebyshev import chebyshev_transform
-from ..numerics.quadrature import panel_rule
+from ..numerics.quadrature import panel_rule, subdivide
 from .field_sums import FieldSum
 from .particle_averages import SeatAverage
 from .particle_sums import Part, SeatedParticles
@@ -61,9 +61,9 @@ BEFORE = np.array([5.0, -10.0, 10.0, -5.0, 1.0])
 """Parts of the rows above one that is solved by itself, of which the iteration begins."""
 FINE, MORE = 1e-12, 6
 """Change of u/σ and w that is aimed at, in so many more rounds."""
-CHORDS, SET_IN, GRID = 40, 1e-14, 69
-"""Of the search for the ground that leaves a gap: chords at most, how near [σ], and heights at which
-the search begins."""
+CHORDS, SET_IN, TURNS = 40, 1e-14, 80
+"""Of the search for the ground that leaves a gap: chords at most, how near [σ], and steps to the
+ground of the widest or narrowest gap."""
 SPOTS = 0.25
 """Width of panels of gaps of single particles over that of the seat."""
 HIGHEST_SEAT = 4.0
@@ -81,8 +81,9 @@ LIFTS, LEAP, CREEPS, KINK = 12, 0.5, (4, 32), 4.0
 """Chords by which the lift of asperities is found, at most; second difference of it, over the step
 between two separations, from which on it may belong to another ground; steps between two
 separations that show whether it does, as differences of a kink are so many times less in them."""
-NODES, WIDTH = 8, 1.25
-"""Of sums over seats: nodes of a panel, and how wide one is over the width of the seat."""
+NODES, WIDTH, GRID = 8, 1.7, 0.25
+"""Of sums over seats: nodes of a panel, how wide one is over the width of the seat at most, and how
+far heights lie apart from which ends of panels are sought."""
 TERMS = 16
 """Of k_n over τ."""
 TINY = 1e-250
@@ -140,6 +141,14 @@ class Nodes(NamedTuple):
         return out
 
 
+def _in_rows(rows: NDArray[np.intp], values: Array, count: int, rest: float) -> Array:
+    """Values of rows that do not fall, beside each other, and a rest where rows have fewer."""
+    most = np.bincount(rows, minlength=count)
+    out = np.full((count, int(most.max(initial=0))), rest)
+    out[rows, np.arange(len(rows)) - np.repeat(np.cumsum(most) - most, most)] = values
+    return out
+
+
 class Seat:
     """Particles of one shape of size distribution on ground that gives way."""
 
@@ -169,68 +178,99 @@ class Seat:
         """Nodes of sums over seats at h (N,) with u (N, 13), where particles are squeezed.
 
         Panels end where a gap is one at which the columns over sizes have a kink, or one of
-        ``more`` [σ], and where the ground levels out. Within them the variable is the root of the
-        distance from the ground on which a size sets in, as loads go like powers of it.
+        ``more`` [σ], where gaps are narrowest or widest, and where the ground levels out. The
+        variable is the root of the distance from the ground on which a size sets in, as loads go
+        like powers of it.
         """
-        low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
         average = self.average.average
-        gaps = np.unique(np.concatenate([self.unit * average.edges, more]))[::-1]
-        onsets = self.unit * np.sort(average.onsets)[::-1]
-        ends, starts = np.split(
-            self._heights_at(h, u, np.concatenate([gaps, onsets])), [len(gaps)], axis=1
-        )
-        fixed = np.linspace(low, high, math.ceil((high - low) / (WIDTH * self.width)) + 1)
-        level = np.array([-HIGHEST_SEAT, HIGHEST_SEAT])
-        fixed = np.append(fixed, level[(level > low) & (level < high)])
-        ends = np.concatenate([ends, np.broadcast_to(fixed, (len(h), len(fixed)))], axis=1)
+        gaps = np.unique(np.concatenate([self.unit * average.edges, more]))
+        onsets = self.unit * average.onsets
+        fixed, grid, turns = self._turning_points(h, u)
+        beside = self._gap(h, u, grid)
+        ends = [np.broadcast_to(fixed, (len(h), len(fixed))), turns]
+        ends = np.concatenate([*ends, self._heights_at(h, u, gaps, grid, beside)], axis=1)
         ends.sort(axis=1)
-        rows, panel = np.nonzero((ends[:, 1:] > ends[:, :-1]) & (ends[:, :-1] >= starts[:, :1]))
+        starts = [grid[:, :1], self._heights_at(h, u, onsets, grid, beside), grid[:, -1:]]
+        starts = np.sort(np.concatenate(starts, axis=1), axis=1)
+        rows, panel = np.nonzero(ends[:, 1:] > ends[:, :-1])
         begin, end = ends[rows, panel], ends[rows, panel + 1]
-        start = starts[rows, 0]
-        for later in starts.T[1:]:
-            start = np.where(begin >= later[rows], later[rows], start)
-        root, weight = panel_rule(np.sqrt(np.stack([begin - start, end - start], axis=1)), NODES)
-        zeta, rows = (start[:, None] + root**2).ravel(), np.repeat(rows, NODES)
+        between = self._gap(h[rows], u[rows], np.stack([begin, 0.5 * (begin + end), end], axis=1))
+        some = between[:, 1] < onsets.max()
+        rows, begin, end, between = rows[some], begin[some], end[some], between[some]
+        falls = between[:, 2] < between[:, 0]
+        # from the next ground below a falling gap, or above a rising one, on which sizes set in
+        after = np.count_nonzero(starts[rows] <= begin[:, None], axis=1)
+        start, sign = starts[rows, after - falls], np.where(falls, 1.0, -1.0)
+        distances = np.stack([begin - start, end - start], axis=1) * sign[:, None]
+        distances.sort(axis=1)
+        root, weight = panel_rule(np.sqrt(np.maximum(distances, 0.0)), NODES)
+        zeta = (start[:, None] + sign[:, None] * root**2).ravel()
+        rows = np.repeat(rows, NODES)
         z = (zeta - self.mean) / self.width
         normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
         gap = self._gap(h[rows], u[rows], zeta[:, None])[:, 0]
         return Nodes(rows, zeta, gap, (2 * root * weight).ravel() * normal)
 
-    def _heights_at(self, h: Array, u: Array, gaps: Array) -> Array:
-        """Heights ζ at which gaps over σ are these (K,), or the lowest or highest: (N, K).
+    def _turning_points(self, h: Array, u: Array) -> tuple[Array, Array, Array]:
+        """Heights at which panels end (K,), and between which gaps only fall or rise: (N, M).
 
-        By chords with the weight of an end that stays halved, from the cells of a grid.
+        Last those of widest and narrowest gaps (N, L), or the lowest in rows with fewer of them.
         """
         low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
-        grid = np.linspace(low, high, GRID)
-        beside = np.minimum.accumulate(
-            self._gap(h, u, np.broadcast_to(grid, (len(h), GRID))), axis=1
-        )
-        after = np.stack([np.count_nonzero(beside >= gap, axis=1) for gap in gaps], axis=1)
-        rows, which = np.nonzero((after > 0) & (after < GRID))
-        out = np.where(after == 0, low, high)
-        right = after[rows, which]
-        a, b = grid[right - 1], grid[right]
-        f_a, f_b = beside[rows, right - 1] - gaps[which], beside[rows, right] - gaps[which]
-        last = np.zeros(len(rows), np.intp)
-        close = SET_IN * np.maximum(1.0, 0.1 * np.abs(h[rows]))
-        left = np.arange(len(rows))
+        fixed = np.linspace(low, high, math.ceil((high - low) / (WIDTH * self.width)) + 1)
+        level = np.array([-HIGHEST_SEAT, HIGHEST_SEAT])
+        fixed = np.sort(np.append(fixed, level[(level > low) & (level < high)]))
+        grid = subdivide(fixed, width=GRID * self.width)
+        gaps = self._gap(h, u, np.broadcast_to(grid, (len(h), len(grid))))
+        step = np.diff(gaps, axis=1)
+        rows, left = np.nonzero(step[:, 1:] * step[:, :-1] < 0)
+        a, b, sign = grid[left], grid[left + 2], np.sign(step[rows, left])
+        for _ in range(TURNS if len(rows) else 0):  # thirds, in which it stays
+            one, two = (2 * a + b) / 3, (a + 2 * b) / 3
+            both = self._gap(h[rows], u[rows], np.stack([one, two], axis=1)) * sign[:, None]
+            first = both[:, 0] > both[:, 1]
+            a, b = np.where(first, a, one), np.where(first, two, b)
+        turns = _in_rows(rows, 0.5 * (a + b), len(h), low)
+        every = np.concatenate([np.broadcast_to(grid, gaps.shape), turns], axis=1)
+        return fixed, np.sort(every, axis=1), turns
+
+    def _heights_at(self, h: Array, u: Array, wanted: Array, grid: Array, beside: Array) -> Array:
+        """Heights ζ at which gaps over σ are wanted ones (K,), as many as a row has, or the lowest.
+
+        By chords with the weight of an end that stays halved, from heights ``grid`` (N, M) with
+        gaps ``beside``, between which gaps only fall or only rise.
+        """
+        rows, which, left = [], [], []
+        for k, gap in enumerate(wanted):
+            above = beside >= gap
+            row, cell = np.nonzero(above[:, 1:] != above[:, :-1])
+            rows.append(row)
+            left.append(cell)
+            which.append(np.full(len(row), k))
+        row, cell, want = np.concatenate(rows), np.concatenate(left), np.concatenate(which)
+        a, b = grid[row, cell], grid[row, cell + 1]
+        f_a, f_b = beside[row, cell] - wanted[want], beside[row, cell + 1] - wanted[want]
+        found, last = np.where(f_a == 0, a, b), np.zeros(len(row))
+        close = SET_IN * np.maximum(1.0, 0.1 * np.abs(h[row]))
+        here = np.flatnonzero((f_a != 0) & (f_b != 0))
+        a, b, f_a, f_b, last = (one[here] for one in (a, b, f_a, f_b, last))
         for _ in range(CHORDS):
-            zeta = (a * f_b - b * f_a) / (f_b - f_a)
-            here, at = rows[left], which[left]
-            f = self._gap(h[here], u[here], zeta[:, None])[:, 0] - gaps[at]
-            out[here, at] = zeta
-            more = np.abs(f) > close[left]
-            if not more.any():
+            if not len(here):
                 break
-            under = f < 0
-            f_a = np.where(under & (last == 1), 0.5 * f_a, f_a)
-            f_b = np.where(~under & (last == -1), 0.5 * f_b, f_b)
-            a, f_a = np.where(under, a, zeta), np.where(under, f_a, f)
-            b, f_b = np.where(under, zeta, b), np.where(under, f, f_b)
-            last = np.where(under, 1, -1)
-            left, last, a, b, f_a, f_b = (one[more] for one in (left, last, a, b, f_a, f_b))
-        return out
+            zeta = (a * f_b - b * f_a) / (f_b - f_a)
+            at = row[here]
+            f = self._gap(h[at], u[at], zeta[:, None])[:, 0] - wanted[want[here]]
+            found[here] = zeta
+            behind = (f < 0) == (f_b < 0)
+            f_a = np.where(behind & (last == 1), 0.5 * f_a, f_a)
+            f_b = np.where(~behind & (last == -1), 0.5 * f_b, f_b)
+            a, f_a = np.where(behind, a, zeta), np.where(behind, f_a, f)
+            b, f_b = np.where(behind, zeta, b), np.where(behind, f, f_b)
+            last = np.where(behind, 1, -1)
+            far = np.abs(f) > close[here]
+            here, a, b, f_a, f_b, last = (one[far] for one in (here, a, b, f_a, f_b, last))
+        order = np.argsort(row, kind="stable")
+        return _in_rows(row[order], found[order], len(h), grid[0, 0])
 
     def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
         """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""

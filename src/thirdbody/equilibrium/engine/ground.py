@@ -72,15 +72,16 @@ ZETA, CUT, GAP, MASS, LOADS, SHADES, ENDS_AT, WANTED, POLYNOMIALS, SUMS, OF_NODE
 """Rows of the nodes over heights: height, that of the ground, gap, weight, load, shade; of ends of
 cells: their heights, and gaps; then powers of the height: of the ground, and sums."""
 FIRST_PLACE, LAST_PLACE, BY_ROOT, BEGIN, WHICH, OF_PLACE = range(6)
-"""Of a panel over heights: between what its variable lies, whether that is the root of the distance
-from a height or the height itself, that height, and its cell, or −1 below the last."""
+"""Of a panel over heights: between what its variable lies, 0 if that is the height itself, and 1 or
+−1 if it is the root of the distance above or below a height, that height, and its cell, or −1 below
+the last."""
 MOST_PLACES = MOST_CELLS + 60
 PLACES = NODES * MOST_PLACES
-HEIGHTS = np.linspace(-HIGHEST_SEAT, HIGHEST_SEAT, 33)
+HEIGHTS = np.linspace(-HIGHEST_SEAT, HIGHEST_SEAT, 64)
 """Between which ends of cells are sought."""
-NEWTON, STEEPEST, MISSED, SHORTEST = 4, -0.05, 1e-11, 1e-300
-"""Steps of the search, the slope of a gap over the height at most, and what a gap may be off before
-the last of them [σ]; a difference that is none."""
+NEWTON, FLATTEST, MISSED, TURNS = 60, 1e-9, 1e-10, 60
+"""Steps of the search at most, the slope of a gap over the height at least, what a gap may be off
+before the last step [σ], and steps to the height of the widest or narrowest gap."""
 FROM, UNTIL, ROOT, ROOT_CELL, START, RATE, OVER, POWERS = range(8)
 """Of a cell: its gaps [m]; the gap to which the distance has the root that is its variable, or 0
 where it is the gap itself, and the cell that begins there; where the variable starts and its rate;
@@ -444,105 +445,9 @@ def _ground_at(u, zeta):
 
 
 @scalar
-def _ground_lies(h, u, zeta):
+def _gap_at(h, u, zeta):
     """Gap [σ] over ground of a height."""
     return h - zeta + _ground_at(u, zeta)
-
-
-@exact
-def _approach_ends(h, p, wanted, ends):
-    """One step of Newton's towards the heights at which gaps are as wanted."""
-    p_0, p_1, p_2, p_3, p_4, p_5, p_6 = p[0], p[1], p[2], p[3], p[4], p[5], p[6]
-    p_7, p_8, p_9, p_10, p_11, p_12 = p[7], p[8], p[9], p[10], p[11], p[12]
-    worst = 0.0
-    for j in range(len(ends)):
-        x = ends[j]
-        u = (((p_12 * x + p_11) * x + p_10) * x + p_9) * x + p_8
-        u = ((((u * x + p_7) * x + p_6) * x + p_5) * x + p_4) * x + p_3
-        u = ((u * x + p_2) * x + p_1) * x + p_0
-        t = (((12 * p_12 * x + 11 * p_11) * x + 10 * p_10) * x + 9 * p_9) * x + 8 * p_8
-        t = ((((t * x + 7 * p_7) * x + 6 * p_6) * x + 5 * p_5) * x + 4 * p_4) * x + 3 * p_3
-        t = (t * x + 2 * p_2) * x + p_1
-        off = h - x + u - wanted[j]
-        inside = -HIGHEST_SEAT < x < HIGHEST_SEAT
-        worst = max(worst, abs(off) if inside else 0.0)
-        ends[j] = min(max(x - off / min(t - 1, STEEPEST), -HIGHEST_SEAT), HIGHEST_SEAT)
-    return worst
-
-
-@scalar
-def _find_ends(h, u, p, wanted, ends, gaps):
-    """Heights at which gaps [σ] are as wanted, in falling order; whether they are known.
-
-    ``gaps`` gets those at `HEIGHTS`.
-    """
-    keep_apart()
-    count, k, known = len(HEIGHTS), 0, True
-    for j in range(count):
-        gaps[j] = _ground_lies(h, u, HEIGHTS[j])
-        known &= j == 0 or gaps[j] < gaps[j - 1]
-    for j in range(len(wanted)):
-        while k < count - 2 and gaps[k + 1] > wanted[j]:
-            k += 1
-        part = (gaps[k] - wanted[j]) / max(gaps[k] - gaps[k + 1], SHORTEST)
-        ends[j] = HEIGHTS[k] + min(max(part, 0.0), 1.0) * (HEIGHTS[k + 1] - HEIGHTS[k])
-    worst = 0.0
-    for _ in range(NEWTON):
-        worst = _approach_ends(h, p, wanted, ends)
-    known &= worst <= MISSED * (1 + abs(h))
-    for j in range(len(wanted)):
-        # the ground is level beyond
-        if wanted[j] > gaps[0]:
-            ends[j] = HEIGHTS[0] + gaps[0] - wanted[j]
-        elif wanted[j] < gaps[count - 1]:
-            ends[j] = HEIGHTS[count - 1] + gaps[count - 1] - wanted[j]
-    return known
-
-
-@scalar
-def _lay_panels(seat, rooted, begin, a, b, which, places, count):
-    """Lay panels between two heights, in the root of the distance from one or in the height."""
-    keep_apart()
-    while a < b and count < MOST_PLACES:
-        end = b
-        if a < -HIGHEST_SEAT < b:
-            end = -HIGHEST_SEAT
-        elif a < HIGHEST_SEAT < b:
-            end = HIGHEST_SEAT
-        parts = min(max(1, math.ceil((end - a) / (WIDEST * seat[SPREAD]))), MOST_PLACES - count)
-        for m in range(parts):
-            one, two = a + (end - a) * m / parts, a + (end - a) * (m + 1) / parts
-            if rooted:
-                one, two = math.sqrt(max(one - begin, 0.0)), math.sqrt(two - begin)
-            places[FIRST_PLACE, count], places[LAST_PLACE, count] = one, two
-            places[BY_ROOT, count] = 1.0 if rooted else 0.0
-            places[BEGIN, count], places[WHICH, count] = begin, which
-            count += 1
-        a = end
-    return count
-
-
-@exact
-def _place_nodes(first, last, rooted, begin, zeta, mass):
-    """Heights of the nodes of a panel, and their weights."""
-    half, middle = 0.5 * (last - first), 0.5 * (last + first)
-    if rooted:
-        for j in range(NODES):
-            root = middle + half * ROOTS[j]
-            zeta[j], mass[j] = begin + root * root, 2 * root * half * WEIGHTS[j]
-    else:
-        for j in range(NODES):
-            zeta[j], mass[j] = middle + half * ROOTS[j], half * WEIGHTS[j]
-
-
-@exact
-def _weigh_heights(mean, width, zeta, cut, mass):
-    """Weights of nodes times the density of the seat, and heights within those of the ground."""
-    norm = 1 / (width * ROOT_2PI)
-    for j in range(len(zeta)):
-        cut[j] = min(max(zeta[j], -HIGHEST_SEAT), HIGHEST_SEAT)
-        z = (zeta[j] - mean) / width
-        mass[j] *= norm * exp(-0.5 * z * z)
 
 
 @exact
@@ -555,6 +460,207 @@ def _find_gaps(h, sigma, p, zeta, cut, gap):
         u = (((p_12 * x + p_11) * x + p_10) * x + p_9) * x + p_8
         u = ((((u * x + p_7) * x + p_6) * x + p_5) * x + p_4) * x + p_3
         gap[j] = sigma * (h - zeta[j] + ((u * x + p_2) * x + p_1) * x + p_0)
+
+
+@exact
+def _approach(h, p, low, high, sign, wanted, ends):
+    """One step of Newton's towards the heights at which gaps are as wanted; how far they were off.
+
+    Between two heights, where gaps rise or fall as ``sign`` says.
+    """
+    p_0, p_1, p_2, p_3, p_4, p_5, p_6 = p[0], p[1], p[2], p[3], p[4], p[5], p[6]
+    p_7, p_8, p_9, p_10, p_11, p_12 = p[7], p[8], p[9], p[10], p[11], p[12]
+    worst = 0.0
+    for j in range(len(ends)):
+        x = ends[j]
+        u = (((p_12 * x + p_11) * x + p_10) * x + p_9) * x + p_8
+        u = ((((u * x + p_7) * x + p_6) * x + p_5) * x + p_4) * x + p_3
+        u = ((u * x + p_2) * x + p_1) * x + p_0
+        t = (((12 * p_12 * x + 11 * p_11) * x + 10 * p_10) * x + 9 * p_9) * x + 8 * p_8
+        t = ((((t * x + 7 * p_7) * x + 6 * p_6) * x + 5 * p_5) * x + 4 * p_4) * x + 3 * p_3
+        t = (t * x + 2 * p_2) * x + p_1
+        off = h - x + u - wanted[j]
+        worst = max(worst, abs(off))
+        ends[j] = min(max(x - sign * off / max(sign * (t - 1), FLATTEST), low), high)
+    return worst
+
+
+@scalar
+def _turn_between(u, a, b, sign):
+    """Height between two at which gaps are widest or narrowest, as ``sign`` says."""
+    keep_apart()
+    for _ in range(TURNS):
+        one, two = (2 * a + b) / 3, (a + 2 * b) / 3
+        if sign * (_ground_at(u, one) - one) > sign * (_ground_at(u, two) - two):
+            b = two
+        else:
+            a = one
+    return 0.5 * (a + b)
+
+
+@scalar
+def _lay_panels(seat, sign, rooted, begin, a, b, which, places, count):
+    """Lay panels from one height to another, in the root of the distance from where it begins or in
+    the height."""
+    keep_apart()
+    if not sign * (b - a) > 0:
+        return count
+    parts = max(1, math.ceil(abs(b - a) / (WIDEST * seat[SPREAD])))
+    for m in range(min(parts, MOST_PLACES - count)):
+        one, two = a + (b - a) * m / parts, a + (b - a) * (m + 1) / parts
+        if rooted:
+            one, two = (
+                math.sqrt(max(sign * (one - begin), 0.0)), math.sqrt(max(sign * (two - begin), 0.0))
+            )  # fmt: skip
+        places[FIRST_PLACE, count], places[LAST_PLACE, count] = one, two
+        places[BY_ROOT, count] = sign if rooted else 0.0
+        places[BEGIN, count], places[WHICH, count] = begin, which
+        count += 1
+    return count
+
+
+@scalar
+def _find_ends(h, p, a, b, sign, gaps, wanted, ends):
+    """Heights between two at which gaps [σ] are as wanted, in falling order; whether all are known.
+
+    ``gaps`` are those at `HEIGHTS`.
+    """
+    keep_apart()
+    last, low, high = len(HEIGHTS) - 1, min(a, b), max(a, b)
+    step = HEIGHTS[1] - HEIGHTS[0]
+    k = min(max(math.floor((a - HEIGHTS[0]) / step), 0), last - 1)
+    way = 1 if sign < 0 else -1
+    for j in range(len(wanted)):
+        while 0 <= k + way < last and (
+            gaps[k + 1 if way > 0 else k] > wanted[j]
+            and low < HEIGHTS[k + 1 if way > 0 else k] < high
+        ):
+            k += way
+        part = (gaps[k] - wanted[j]) / (gaps[k] - gaps[k + 1])
+        ends[j] = min(max(HEIGHTS[k] + min(max(part, 0.0), 1.0) * step, low), high)
+    for _ in range(NEWTON):  # noqa: SIM110
+        if _approach(h, p, low, high, sign, wanted, ends) <= MISSED:
+            return True
+    return False
+
+
+@scalar
+def _lay_stretch(own, seat, h, u, a, b, level, cells, count, nodes, places, laid):
+    """Lay panels where gaps only fall or only rise, from the widest gap at a to the narrowest at b.
+
+    How many panels there are then, and whether all their ends are known. ``level`` says that the
+    ground does not change.
+    """
+    keep_apart()
+    sigma, sign = own[SIGMA], 1.0 if b > a else -1.0
+    widest, narrowest = _gap_at(h, u, a), _gap_at(h, u, b)
+    first, last = 0, count
+    while first < last:  # the first cell that reaches below the widest gap
+        middle = (first + last) // 2
+        if cells[middle, FROM] >= sigma * widest:
+            first = middle + 1
+        else:
+            last = middle
+    while last < count and cells[last, UNTIL] > sigma * narrowest:
+        last += 1
+    if first == last and first < count:
+        return laid, True
+    many, wanted, ends = 0, nodes[WANTED], nodes[ENDS_AT]
+    for n in range(first, last + 1):
+        gap = (cells[n, UNTIL] if n < count else cells[count - 1, FROM]) / sigma
+        wanted[many] = min(max(gap, narrowest), widest)
+        many += 1
+    known = True
+    if level:
+        for j in range(many):
+            ends[j] = a + widest - wanted[j]
+    else:  # gaps fall with the height where panels follow it
+        known = _find_ends(
+            h, nodes[POLYNOMIALS], a, b, -sign, nodes[SUMS], wanted[:many], ends[:many]
+        )
+        for j in range(many):  # near a turn a height is not as sure as a gap
+            if wanted[j] == widest:
+                ends[j] = a
+            elif wanted[j] == narrowest:
+                ends[j] = b
+    slope = (_gap_at(h, u, a + 1e-6 * (b - a)) - widest) / (1e-6 * (b - a))
+    for n in range(first, last):
+        start, begin = int(cells[n, ROOT_CELL]), a
+        rooted, above = cells[n, ROOT] > 0, cells[n, ROOT] / sigma - widest
+        if rooted and above <= 0:
+            begin = ends[start - first]
+        elif rooted and slope * sign < 0:
+            begin = a + above / slope  # where it would lie
+        laid = _lay_panels(
+            seat, sign, rooted, begin, ends[n - first], ends[n + 1 - first], n, places, laid
+        )
+    if last == count:
+        below, rooted, begin = count - last - 1, last < count, 0.0
+        laid = _lay_panels(seat, sign, rooted, begin, ends[many - 1], b, below, places, laid)
+    return laid, known
+
+
+@scalar
+def _lay_seat(own, seat, h, u, cells, count, nodes, places):
+    """Panels over the heights on which particles of a seat are squeezed; how many, and whether all
+    their ends are known."""
+    keep_apart()
+    low, high = seat[MEAN] - REACH * seat[SPREAD], seat[MEAN] + REACH * seat[SPREAD]
+    gaps, last = nodes[SUMS], len(HEIGHTS) - 1
+    _find_gaps(h, 1.0, nodes[POLYNOMIALS], HEIGHTS, HEIGHTS, gaps)
+    bottom, top = HEIGHTS[0], HEIGHTS[last]
+    laid, known, level = 0, True, low < bottom
+    if level:
+        laid, good = _lay_stretch(
+            own, seat, h, u, low, min(bottom, high), level, cells, count, nodes, places, laid
+        )
+        known &= good
+    level, a, falls = False, max(low, bottom), True
+    for j in range(1, last + 1):
+        if j < last and (gaps[j + 1] < gaps[j]) == (gaps[j] < gaps[j - 1]):
+            continue
+        falls = gaps[j] < gaps[j - 1]
+        b = top
+        if j < last:
+            b = _turn_between(u, HEIGHTS[j - 1], HEIGHTS[j + 1], -1.0 if falls else 1.0)
+        b = min(b, high)
+        if b > a:
+            one, two = (a, b) if falls else (b, a)
+            laid, good = _lay_stretch(
+                own, seat, h, u, one, two, level, cells, count, nodes, places, laid
+            )
+            known &= good
+            a = b
+    level = high > top
+    if level:
+        laid, good = _lay_stretch(
+            own, seat, h, u, max(low, top), high, level, cells, count, nodes, places, laid
+        )
+        known &= good
+    return laid, known and laid < MOST_PLACES
+
+
+@exact
+def _place_nodes(first, last, sign, begin, zeta, mass):
+    """Heights of the nodes of a panel, and their weights."""
+    half, middle = 0.5 * (last - first), 0.5 * (last + first)
+    if sign == 0:
+        for j in range(NODES):
+            zeta[j], mass[j] = middle + half * ROOTS[j], abs(half) * WEIGHTS[j]
+    else:
+        for j in range(NODES):
+            root = middle + half * ROOTS[j]
+            zeta[j], mass[j] = begin + sign * root * root, 2 * root * half * WEIGHTS[j]
+
+
+@exact
+def _weigh_heights(mean, width, zeta, cut, mass):
+    """Weights of nodes times the density of the seat, and heights within those of the ground."""
+    norm = 1 / (width * ROOT_2PI)
+    for j in range(len(zeta)):
+        cut[j] = min(max(zeta[j], -HIGHEST_SEAT), HIGHEST_SEAT)
+        z = (zeta[j] - mean) / width
+        mass[j] *= norm * exp(-0.5 * z * z)
 
 
 @exact
@@ -631,50 +737,6 @@ def _read_panel(cell, darker, whole, gap, mass, loads, shades, places, columns):
             columns[k] += _sum_products(mass, out)
 
 
-@scalar
-def _lay_seat(own, seat, h, u, cells, count, nodes, places):
-    """Panels over the heights on which particles of a seat are squeezed; how many, and whether all
-    ends of cells are known."""
-    keep_apart()
-    low, high = seat[MEAN] - REACH * seat[SPREAD], seat[MEAN] + REACH * seat[SPREAD]
-    widest, narrowest = own[SIGMA] * _ground_lies(h, u, low), own[SIGMA] * _ground_lies(h, u, high)
-    first, end = 0, count
-    while first < end:  # the first cell that reaches below the widest gap
-        middle = (first + end) // 2
-        if cells[middle, FROM] >= widest:
-            first = middle + 1
-        else:
-            end = middle
-    last = first
-    while last < count and cells[last, UNTIL] > narrowest:
-        last += 1
-    if first == last and first < count:
-        return 0, True
-    if first < count:
-        nodes[WANTED, 0] = cells[first, UNTIL] / own[SIGMA]
-        for n in range(first, last):
-            nodes[WANTED, n - first + 1] = cells[n, FROM] / own[SIGMA]
-    else:
-        nodes[WANTED, 0] = cells[count - 1, FROM] / own[SIGMA]
-    ends = nodes[ENDS_AT, : last - first + 1]
-    known = _find_ends(
-        h, u, nodes[POLYNOMIALS], nodes[WANTED, : last - first + 1], ends, nodes[SUMS]
-    )
-    laid, a = 0, low
-    for n in range(first, last):
-        a, b = max(ends[n - first], low), min(ends[n - first + 1], high)
-        start = int(cells[n, ROOT_CELL])
-        rooted = cells[n, ROOT] > 0 and start >= first
-        begin = min(ends[start - first], a) if rooted else 0.0
-        laid = _lay_panels(seat, rooted, begin, a, b, n, places, laid)
-    if last == count:
-        below, rooted, begin = count - last - 1, last < count, 0.0
-        laid = _lay_panels(
-            seat, rooted, begin, max(ends[last - first], low), high, below, places, laid
-        )
-    return laid, known and laid < MOST_PLACES
-
-
 @summed
 def _take_powers(mass, load, cut, p):
     """Sums of the loads times powers of the height."""
@@ -730,8 +792,8 @@ def _weigh_seat(own, seat, h, u, cells, count, darker, floor, nodes, places, fou
     for n in range(laid):
         here = slice(NODES * n, NODES * (n + 1))
         _place_nodes(
-            places[FIRST_PLACE, n], places[LAST_PLACE, n], places[BY_ROOT, n] == 1,
-            places[BEGIN, n], zeta[here], mass[here],
+            places[FIRST_PLACE, n], places[LAST_PLACE, n], places[BY_ROOT, n], places[BEGIN, n],
+            zeta[here], mass[here],
         )  # fmt: skip
     _weigh_heights(seat[MEAN], seat[SPREAD], zeta, cut, mass)
     _find_gaps(h, own[SIGMA], nodes[POLYNOMIALS], zeta, cut, gap)
