@@ -79,9 +79,9 @@ MOST_PLACES = MOST_CELLS + 60
 PLACES = NODES * MOST_PLACES
 HEIGHTS = np.linspace(-HIGHEST_SEAT, HIGHEST_SEAT, 64)
 """Between which ends of cells are sought."""
-NEWTON, FLATTEST, MISSED, TURNS = 60, 1e-9, 1e-10, 60
-"""Steps of the search at most, the slope of a gap over the height at least, what a gap may be off
-before the last step [σ], and steps to the height of the widest or narrowest gap."""
+NEWTON, FLATTEST, MISSED, TURNS = 8, 1e-3, 1e-10, 60
+"""Steps of the search, the slope of a gap over the height at least, what a gap may be off before
+the last step [σ], and halvings near the height of a widest or narrowest gap."""
 FROM, UNTIL, ROOT, ROOT_CELL, START, RATE, OVER, POWERS = range(8)
 """Of a cell: its gaps [m]; the gap to which the distance has the root that is its variable, or 0
 where it is the gap itself, and the cell that begins there; where the variable starts and its rate;
@@ -520,10 +520,10 @@ def _lay_panels(seat, sign, rooted, begin, a, b, which, places, count):
 
 
 @scalar
-def _find_ends(h, p, a, b, sign, gaps, wanted, ends):
-    """Heights between two at which gaps [σ] are as wanted, in falling order; whether all are known.
+def _find_ends(h, u, p, a, b, sign, gaps, wanted, ends):
+    """Heights between two, from the widest gap to the narrowest, at which gaps [σ] are as wanted.
 
-    ``gaps`` are those at `HEIGHTS`.
+    These fall; ``gaps`` are those at `HEIGHTS`.
     """
     keep_apart()
     last, low, high = len(HEIGHTS) - 1, min(a, b), max(a, b)
@@ -538,18 +538,26 @@ def _find_ends(h, p, a, b, sign, gaps, wanted, ends):
             k += way
         part = (gaps[k] - wanted[j]) / (gaps[k] - gaps[k + 1])
         ends[j] = min(max(HEIGHTS[k] + min(max(part, 0.0), 1.0) * step, low), high)
-    for _ in range(NEWTON):  # noqa: SIM110
+    for _ in range(NEWTON):
         if _approach(h, p, low, high, sign, wanted, ends) <= MISSED:
-            return True
-    return False
+            return
+    for j in range(len(wanted)):  # near a turn, where the gap is level
+        zeta, one, two = ends[j], a, b
+        if abs(_gap_at(h, u, zeta) - wanted[j]) > MISSED:
+            for _ in range(TURNS):
+                zeta = 0.5 * (one + two)
+                if _gap_at(h, u, zeta) > wanted[j]:
+                    one = zeta
+                else:
+                    two = zeta
+        ends[j] = zeta
 
 
 @scalar
 def _lay_stretch(own, seat, h, u, a, b, level, cells, count, nodes, places, laid):
     """Lay panels where gaps only fall or only rise, from the widest gap at a to the narrowest at b.
 
-    How many panels there are then, and whether all their ends are known. ``level`` says that the
-    ground does not change.
+    How many panels there are then. ``level`` says that the ground does not change.
     """
     keep_apart()
     sigma, sign = own[SIGMA], 1.0 if b > a else -1.0
@@ -564,19 +572,18 @@ def _lay_stretch(own, seat, h, u, a, b, level, cells, count, nodes, places, laid
     while last < count and cells[last, UNTIL] > sigma * narrowest:
         last += 1
     if first == last and first < count:
-        return laid, True
+        return laid
     many, wanted, ends = 0, nodes[WANTED], nodes[ENDS_AT]
     for n in range(first, last + 1):
         gap = (cells[n, UNTIL] if n < count else cells[count - 1, FROM]) / sigma
         wanted[many] = min(max(gap, narrowest), widest)
         many += 1
-    known = True
     if level:
         for j in range(many):
             ends[j] = a + widest - wanted[j]
     else:  # gaps fall with the height where panels follow it
-        known = _find_ends(
-            h, nodes[POLYNOMIALS], a, b, -sign, nodes[SUMS], wanted[:many], ends[:many]
+        _find_ends(
+            h, u, nodes[POLYNOMIALS], a, b, -sign, nodes[SUMS], wanted[:many], ends[:many]
         )
         for j in range(many):  # near a turn a height is not as sure as a gap
             if wanted[j] == widest:
@@ -597,24 +604,22 @@ def _lay_stretch(own, seat, h, u, a, b, level, cells, count, nodes, places, laid
     if last == count:
         below, rooted, begin = count - last - 1, last < count, 0.0
         laid = _lay_panels(seat, sign, rooted, begin, ends[many - 1], b, below, places, laid)
-    return laid, known
+    return laid
 
 
 @scalar
 def _lay_seat(own, seat, h, u, cells, count, nodes, places):
-    """Panels over the heights on which particles of a seat are squeezed; how many, and whether all
-    their ends are known."""
+    """Lay panels over the heights on which particles of a seat are squeezed; how many."""
     keep_apart()
     low, high = seat[MEAN] - REACH * seat[SPREAD], seat[MEAN] + REACH * seat[SPREAD]
     gaps, last = nodes[SUMS], len(HEIGHTS) - 1
     _find_gaps(h, 1.0, nodes[POLYNOMIALS], HEIGHTS, HEIGHTS, gaps)
     bottom, top = HEIGHTS[0], HEIGHTS[last]
-    laid, known, level = 0, True, low < bottom
+    laid, level = 0, low < bottom
     if level:
-        laid, good = _lay_stretch(
+        laid = _lay_stretch(
             own, seat, h, u, low, min(bottom, high), level, cells, count, nodes, places, laid
         )
-        known &= good
     level, a, falls = False, max(low, bottom), True
     for j in range(1, last + 1):
         if j < last and (gaps[j + 1] < gaps[j]) == (gaps[j] < gaps[j - 1]):
@@ -626,18 +631,16 @@ def _lay_seat(own, seat, h, u, cells, count, nodes, places):
         b = min(b, high)
         if b > a:
             one, two = (a, b) if falls else (b, a)
-            laid, good = _lay_stretch(
+            laid = _lay_stretch(
                 own, seat, h, u, one, two, level, cells, count, nodes, places, laid
             )
-            known &= good
             a = b
     level = high > top
     if level:
-        laid, good = _lay_stretch(
+        laid = _lay_stretch(
             own, seat, h, u, max(low, top), high, level, cells, count, nodes, places, laid
         )
-        known &= good
-    return laid, known and laid < MOST_PLACES
+    return laid
 
 
 @exact
@@ -775,15 +778,14 @@ def _take_powers(mass, load, cut, p):
 def _weigh_seat(own, seat, h, u, cells, count, darker, floor, nodes, places, found, columns, whole):
     """Add what the particles of a seat carry to the loads' moments and the shadow.
 
-    Their columns by themselves; a moment is NaN where the whole is asked and ends of cells are not
-    known.
+    Their columns by themselves. A moment is NaN where there is no room for all panels.
     """
     keep_apart()
     for c in range(COLUMNS):
         columns[c] = 0.0
     if seat[DENSE] == 0:
         return
-    laid, known = _lay_seat(own, seat, h, u, cells, count, nodes, places)
+    laid = _lay_seat(own, seat, h, u, cells, count, nodes, places)
     size = NODES * laid
     zeta, cut, gap, mass = (
         nodes[ZETA, :size], nodes[CUT, :size], nodes[GAP, :size], nodes[MASS, :size]
@@ -816,7 +818,7 @@ def _weigh_seat(own, seat, h, u, cells, count, darker, floor, nodes, places, fou
     for n in range(BETA):
         for k in range(n + 1):
             found[n] += over * HERMITE[n, k] * p[k]
-    if whole and not known:
+    if laid == MOST_PLACES:
         found[0] = math.nan
     found[BETA] += seat[DENSE] * columns[COLUMNS - 1]
 
