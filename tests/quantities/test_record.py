@@ -10,6 +10,7 @@ import pytest
 import thirdbody as tb
 from thirdbody.explicit.ensemble import surface_of
 from thirdbody.quantities.record import VERSION, Record, StateRecord, declared_columns, with_names
+from thirdbody.results import Status
 from thirdbody.study import check, run_film, run_study
 
 STEEL = tb.materials["S45C"]
@@ -52,8 +53,13 @@ def test_every_form_of_states_holds_the_same_numbers(every, name):
     assert type(state).__name__ == name
     plain, data, table = state.to_dict(), state.to_dataset(title="two"), state.to_dataframe()
     assert json.loads(json.dumps(plain, allow_nan=False)) == plain
-    if name == "Equilibrium":
-        assert plain.pop("status_code") == state.status_code.tolist()
+    if name != "ExplicitState":  # which says of each state whether it converged
+        codes = plain["status_code"]
+        assert codes == list(state.status_code) == list(table["status_code"])
+        assert codes == data.status_code.values.tolist()
+        words = data.status_code.flag_meanings.split()
+        assert [words[code] for code in codes] == [Status(code).word for code in codes]
+        assert table.attrs["long_name"]["status_code"] == data.status_code.long_name
     assert list(plain) == list(table.columns) == [str(each) for each in data.data_vars]
     assert data.title == "two"
     for column, told in declared_columns(type(state)).items():
@@ -176,6 +182,7 @@ def test_the_table_of_a_study_has_the_units_of_each_population():
     for part, told in zip(found.states.populations, found.to_dict()["populations"], strict=True):
         assert told == part.to_dict()
         assert "PopulationShare, 2 states" in part._repr_html_()
+        assert "status_code" not in told
         assert part.to_dataframe()["load_share"].tolist() == pytest.approx(
             part.load_share.tolist(), nan_ok=True
         )

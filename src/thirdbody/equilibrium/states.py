@@ -576,8 +576,7 @@ def _by_groups(
         )
         result = solve_untold(state, load, loads[which])
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
-        more = {"engine": _all(len(which), path), CODE: np.atleast_1d(result.status_code)}
-        parts.append((which, result.columns() | more))
+        parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
         report_solved(len(which), why)
     return _join_columns(len(loads), parts)
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..contact.citations import cite
-from ..equilibrium.columns import CODE, about
+from ..equilibrium.columns import CODE
 from ..equilibrium.transitions import Transitions
 from ..errors import NoEquilibrium, note_data
 from ..quantities.carried import takes_units
@@ -217,7 +217,7 @@ class StudyResult(_Result):
         """
         columns = self._coded_states()
         codes = columns.pop(CODE)
-        units = {name: about(name).unit for name in self.states.columns()}
+        units = {name: self.states.about(name).unit for name in self.states.columns()}
         for population in self.states.populations:
             for name, values in population.columns().items():
                 columns[f"{population.name}: {name}"] = plain_data(values)

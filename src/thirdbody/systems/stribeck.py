@@ -9,7 +9,6 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.columns import CODE, MARKS
 from ..errors import RangeWarning, tell_of_range
 from ..quantities.carried import takes_units
 from ..quantities.record import Column
@@ -18,6 +17,7 @@ from .mixed_film import (
     COLUMNS,
     FEW,
     MOST,
+    MixedFilm,
     _loads_and_speeds,
     check_lubricated,
     mean_gap,
@@ -93,9 +93,10 @@ def stribeck(
     )
 
     hersey = Column("ηu/w", "1", "Hersey number")
+    abouts = {**COLUMNS, **MixedFilm.more_columns}
     return xr.Dataset(
         {
-            name: ("speed", values, MARKS.get(name) or COLUMNS[name].labels)
+            name: ("speed", values, abouts[name].attributes)
             for name, values in columns.items()
             if name not in ("speed", "hersey")
         },
@@ -130,7 +131,6 @@ def stribeck_columns(
     if conjunction.shape == "point":
         hersey = hersey * conjunction.R
     columns = {k: v for k, v in state.columns().items() if k not in ("speed", "load")}
-    columns[CODE] = np.asarray(state.state.status_code)
     return {"speed": speeds, "hersey": hersey} | columns, state.warnings
 
 

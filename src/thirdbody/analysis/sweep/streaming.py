@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from ...equilibrium.columns import CODE
+from ...equilibrium.status import STATUS_CODE
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Cost, Report, reporting, solving
@@ -28,7 +30,7 @@ from .folder import (
     text_of,
     unchecked_words,
 )
-from .plan import Arrays, Layout, Plan, all_notes
+from .plan import STORED, Arrays, Layout, Plan, all_notes
 from .reduction import Reduction
 from .stores import _NetCDF, _Zarr
 
@@ -54,6 +56,9 @@ def in_memory(
 
     layout, notes = plan.layout(), plan.notes()
     words = {"mode", "status"}
+    if "status" in layout.variables:
+        dims = layout.variables["status"][0]
+        layout.variables[CODE] = (dims, STORED["status"], STATUS_CODE.attributes)
     data = {
         name: np.empty(
             [layout.sizes[dim] for dim in dims], object if name in words else _memory(name, kind)
@@ -85,7 +90,7 @@ def in_memory(
         name: (
             dims,
             data[name],
-            {key: value for key, value in attrs.items() if key not in flags},
+            {key: value for key, value in attrs.items() if name not in words or key not in flags},
         )
         for name, (dims, _, attrs) in layout.variables.items()
     }
