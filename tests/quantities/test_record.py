@@ -196,3 +196,100 @@ def test_states_declare_what_they_hold():
         for each in (kind, *kind.__subclasses__()):
             if hasattr(each, "__dataclass_fields__"):
                 assert {item.name for item in fields(each)} - set(declared_columns(each)) <= beside
+
+
+# ------------------------------------------------------------- results that are no states
+DUSTY = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL),
+    roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    particles=tb.Particles(
+        material=tb.materials["SiO2"],
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    ),
+)
+LOADS = [1e6, 5e6]
+
+
+def check_labels(data, table, dims):
+    """Both forms have the same columns, and each says what it is."""
+    assert set(data.sizes) == dims
+    for name, values in data.data_vars.items():
+        assert values.attrs["long_name"]
+        if "mode" not in values.dims:
+            assert table.attrs["long_name"][name] == values.long_name
+
+
+def test_bands_as_data_and_as_a_table():
+    found = tb.propagate(
+        DUSTY,
+        vary={"roughness.sigma": (9e-8, 1.1e-7)},
+        pressure=LOADS,
+        samples=64,
+        outputs=["h", "F_cr1"],
+    )
+    data, table = found.to_dataset(title="bands"), found.to_dataframe()
+    check_labels(data, table, {"pressure", "quantile", "mode"})
+    assert data.title == "bands"
+    np.testing.assert_array_equal(data.h_nominal, found.nominal["h"])
+    assert table.index.names == ["pressure", "quantile"]
+    assert table.loc[(5e6, 0.5), "h"] == found.bands["h"][1][2]
+    assert table.loc[(1e6, 0.05), "F_cr1_error"] == found.error["F_cr1"][0]
+    for mode, share in found.mode_probability.items():
+        column = table[f"mode_probability[{mode}]"]
+        assert column.loc[1e6].tolist() == [share[0]] * 5
+        assert column.loc[5e6].tolist() == [share[1]] * 5
+    assert (table.attrs["units"]["h"], table.attrs["symbol"]["h_error"]) == ("m", "h")
+    one = found.at_load(1)
+    assert set(one.to_dataset().sizes) == {"quantile", "mode"}
+    np.testing.assert_array_equal(one.to_dataframe()["h"], table.loc[5e6, "h"])
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_slopes_as_data_and_as_a_table():
+    inputs = ["roughness.sigma", "pressure"]
+    found = tb.sensitivity(DUSTY, of=["h", "F_cr1"], to=inputs, pressure=LOADS, quick=True)
+    data, table = found.to_dataset(), found.to_dataframe()
+    check_labels(data, table, {"of", "to", "pressure"})
+    for at, load in enumerate(LOADS):
+        for to in inputs:
+            row = table.loc[("h", to, load)]
+            for name in ("derivative", "elasticity", "error", "status"):
+                assert row[name] == getattr(found, name)["h"][to][at]
+            assert table.loc[("F_cr1", to, load), "value"] == found.value["F_cr1"]
+    assert table.loc[("h", "pressure", 5e6), "input"] == 5e6
+    units = data.derivative_units.sel(of="h")
+    assert [str(units.sel(to=to).values) for to in inputs] == ["1", "m/Pa"]
+    assert data.to_symbol.values.tolist() == ["σ", "p"]
+
+
+def test_critical_loads_as_data_and_as_a_table():
+    found = tb.transitions(DUSTY)
+    data, table = found.to_dataset(), found.to_dataframe()
+    check_labels(data, table, {"transition"})
+    for name, load in found.entries().items():
+        assert table.loc[name, "status"] == load.status
+        value = table.loc[name, "F_star"]
+        assert np.isnan(value) if load.value is None else value == load.value
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize("coordinate", ["h", "d"])
+def test_a_table_of_a_contact_in_every_form(coordinate, tmp_path):
+    shares = ["particle_load_share"]
+    made = tb.table(DUSTY, tolerance=1e-2, columns=shares, coordinate=coordinate)
+    data, table, plain = made.to_dataset(), made.to_dataframe(), made.to_dict()
+    check_labels(data, table, {coordinate})
+    assert json.loads(json.dumps(plain, allow_nan=False)) == plain
+    assert plain["error"]["p"] == made.error.p == data.error_p
+    np.testing.assert_array_equal(data[coordinate], made.h)
+    np.testing.assert_allclose(data.p, made.p(made.h), rtol=1e-12)
+    made.to_csv(tmp_path / "table.csv")
+    lines = (tmp_path / "table.csv").read_text("utf-8").splitlines()
+    head, *rows = [line.split(",") for line in lines if not line.startswith("#")]
+    assert [words.partition(" ")[0] for words in head] == [coordinate, *table.columns]
+    np.testing.assert_array_equal(np.array(rows, dtype=float)[:, 1:], table)
+    for name in table.columns:
+        assert plain[name] == table[name].tolist()
+        assert f"{name} [{table.attrs['units'][name]}]" in head
+    assert f"ContactTable, {len(rows)} values of {coordinate}" in made._repr_html_()

@@ -19,7 +19,7 @@ from .plain_data import plain_data
 if TYPE_CHECKING:
     import pandas
     import xarray
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     *("VERSION", "Column", "Entry", "MappedRecord", "Record", "StateRecord", "TableRecord"),
@@ -82,7 +82,7 @@ class Variable(NamedTuple):
     """What a data set holds under one name: values along dimensions, and their labels."""
 
     dims: tuple[str, ...]
-    values: Any
+    values: ArrayLike
     labels: Mapping[str, object] = MappingProxyType({})
 
 
@@ -197,7 +197,7 @@ class TableRecord(Shown, Record):
         """The places along the dimensions, and what is said of each place."""
         return {}
 
-    def attributes(self) -> dict[str, Any]:
+    def attributes(self) -> Mapping[str, object]:
         """Attributes of a data set that hold for all of it."""
         return {"warnings": "\n".join(self.warnings)}
 
@@ -229,7 +229,7 @@ class TableRecord(Shown, Record):
         """
         import xarray
 
-        attributes = {"title": title} | self.attributes()
+        attributes = {"title": title, **self.attributes()}
         return xarray.Dataset(self.variables(), coords=self.coordinates(), attrs=attributes)
 
     def to_dataframe(self) -> pandas.DataFrame:
