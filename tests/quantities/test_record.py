@@ -293,3 +293,82 @@ def test_a_table_of_a_contact_in_every_form(coordinate, tmp_path):
         assert plain[name] == table[name].tolist()
         assert f"{name} [{table.attrs['units'][name]}]" in head
     assert f"ContactTable, {len(rows)} values of {coordinate}" in made._repr_html_()
+
+
+OIL = tb.oil.OilCircuit(
+    volume=0.2,
+    start=tb.oil.OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"]),
+    ingress=(),
+    filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
+)
+RESULTS = {
+    "LifeHistory": (lambda: tb.life(oil=OIL, duration=1800.0), "time"),
+    "RoughBody": (lambda: tb.systems.rough_body.rough_sphere(CONTACT, radius=5e-3, load=10.0), "r"),
+    "WavyContact": (
+        lambda: tb.systems.waviness.rigid_wave(CONTACT, amplitude=150e-9, pressure=5e6),
+        "height",
+    ),
+    "RadialShare": (
+        lambda: tb.systems.load_sharing.share_radial_load(900.0, bodies=9, stiffness=1e10),
+        "angles",
+    ),
+    "OilReports": (
+        lambda: tb.oil.oil_reports(
+            [0.0, 1e6],
+            reports=[[1e9], [3e9]],
+            sizes=[6e-6],
+            circuit=OIL.replace(filters=()),
+        ),
+        "time",
+    ),
+    "StudyResult": (lambda: run_study(check(STUDY)), "state"),
+    "FilmResult": (lambda: run_film(check(STUDY)), "speed"),
+    "Ensemble": (
+        lambda: tb.explicit.ensemble(CONTACT, surfaces=2, size=64, F_star=[1e-4, 1e-3]),
+        "F_star",
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize("name", RESULTS)
+def test_other_results_in_every_form(name):
+    make, along = RESULTS[name]
+    found = make()
+    assert type(found).__name__ == name
+    data, table = found.to_dataset(title="a title"), found.to_dataframe()
+    assert data.title == "a title"
+    assert found.to_dict()
+    assert table.index.names[0] == along
+    for column, values in data.data_vars.items():
+        assert values.attrs["long_name"]
+        if values.dims == (along,) and len(table) == data.sizes[along]:
+            np.testing.assert_array_equal(table[column], values)
+            assert table.attrs["units"][column] == values.attrs.get("units", "")
+        if column in declared_columns(type(found)):
+            value = getattr(found, column)
+            np.testing.assert_array_equal(values, np.nan if value is None else value)
+    assert f"{name}, " in found._repr_html_()
+
+
+def test_a_history_has_a_column_for_each_class_and_material():
+    found, _ = RESULTS["LifeHistory"]
+    found = found()
+    data, table = found.histories, found.to_dataframe()
+    middle = data["class"].values[3]
+    np.testing.assert_array_equal(table[f"n[{middle}][quartz]"], found.numbers[:, 3, 0])
+    np.testing.assert_array_equal(table["count[4e-06]"], found.counts[:, 0])
+    assert table.attrs["units"]["count[4e-06]"] == "1/m^3"
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_bodies_and_waves_say_their_status_by_a_number():
+    body = RESULTS["RoughBody"][0]()
+    assert (body.status, body.status_code) == ("ok", Status.OK)
+    assert body.to_dataset()["load"].units == "N"
+    cylinder = tb.systems.rough_body.rough_cylinder(CONTACT, radius=5e-3, load=1e4)
+    assert cylinder.to_dataset()["load"].units == "N/m"
+    assert cylinder.to_dataframe().attrs["units"]["real_area"] == "m^2/m"
+    wave = tb.systems.waviness.rigid_wave(CONTACT, amplitude=50e-9, pressure=2.5e9)
+    assert wave.status.startswith("crowded")
+    assert wave.status_code == Status.CROWDED == int(wave.to_dataset().status_code)

@@ -35,6 +35,7 @@ from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
 from ..quantities.plain_data import plain_data
 from ..quantities.progress import reporting
+from ..quantities.record import TableRecord, Variable
 from ..quantities.run_files import read_record, sealed_text
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connect_client, need_version, share_parts
@@ -76,8 +77,10 @@ RECORD = {
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Ensemble:
+class Ensemble(TableRecord):
     """Explicit surfaces against the statistical model; made by `ensemble`.
+
+    As labelled data and as a table it is ``table``, a row for each load.
 
     Attributes
     ----------
@@ -118,6 +121,14 @@ class Ensemble:
     left_out: int
     warnings: tuple[str, ...] = ()
 
+    def variables(self) -> dict[str, Variable]:
+        """What stands beside the statistical model."""
+        return {str(name): as_variable(values) for name, values in self.table.data_vars.items()}
+
+    def coordinates(self) -> dict[str, Variable]:
+        """The loads."""
+        return {str(name): as_variable(values) for name, values in self.table.coords.items()}
+
     @property
     def sentence(self) -> str:
         """What the numbers say, in words."""
@@ -136,6 +147,11 @@ class Ensemble:
             "summary": self.sentence,
             "warnings": list(self.warnings),
         }
+
+
+def as_variable(values: xarray.DataArray) -> Variable:
+    """A variable of a data set, for another."""
+    return Variable(tuple(map(str, values.dims)), values.values, values.attrs)
 
 
 @takes_units
@@ -485,7 +501,7 @@ def _ensemble(
     }
     table = xarray.Dataset(
         _columns(at, state, gaussian),
-        coords={"F_star": ("F_star", loads, {"units": "1"})},
+        coords={"F_star": ("F_star", loads, COLUMNS["F_star"].labels)},
     )
     if hardest != contact.surfaces.H:
         notes.append(
@@ -553,21 +569,42 @@ def _columns(at_loads: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -
     table: dict[str, Any] = {}
     for kind, at in at_loads.items():
         for name in COMPARED:
-            about = {"units": COLUMNS[name].unit}
-            table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
-            table[f"{name}_{kind}_error"] = ("F_star", at.errors[name], about)
-            if name in SHARES:
-                table[f"{name}_{kind}_least"] = ("F_star", at.least[name], about)
-                table[f"{name}_{kind}_most"] = ("F_star", at.most[name], about)
+            table[f"{name}_{kind}"] = ("F_star", at.values[name], labels_of(name, kind))
+            bounds = {"error": at.errors}
+            bounds |= {"least": at.least, "most": at.most} if name in SHARES else {}
+            for what, values in bounds.items():
+                labels = labels_of(name, kind, what)
+                table[f"{name}_{kind}_{what}"] = ("F_star", values[name], labels)
     best = "cv" if gaussian else "raw"
     for name in COMPARED:
         model = np.asarray(getattr(state, name))
         estimate, error = (table[f"{name}_{best}{what}"][1] for what in ("", "_error"))
         with np.errstate(invalid="ignore", divide="ignore"):
             difference = (estimate - model) / error
-        table[f"{name}_statistical"] = ("F_star", model, {"units": COLUMNS[name].unit})
-        table[f"{name}_difference"] = ("F_star", difference, {"units": "1"})
+        table[f"{name}_statistical"] = ("F_star", model, labels_of(name, "statistical"))
+        labels = labels_of(name, "difference") | {"units": "1"}
+        table[f"{name}_difference"] = ("F_star", difference, labels)
     return table
+
+
+def labels_of(name: str, *words: str) -> dict[str, str]:
+    """Attributes of a column of the table, by what is compared and how."""
+    about = COLUMNS[name]
+    return about._replace(
+        meaning=", ".join([about.meaning, *(WORDS[word] for word in words)])
+    ).labels
+
+
+WORDS = {
+    "raw": "of these surfaces",
+    "cv": "of these surfaces without their luck",
+    "error": "standard error",
+    "least": "the least it may be",
+    "most": "the most it may be",
+    "statistical": "of the statistical model",
+    "difference": "difference to the statistical model in standard errors",
+}
+"""What the endings of the columns of the table mean."""
 
 
 # -------------------------------------------------------------------------- what is asked

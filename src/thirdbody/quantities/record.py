@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field, fields
+from dataclasses import MISSING, field, fields
 from functools import cached_property
 from types import MappingProxyType, MethodType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
@@ -86,9 +86,9 @@ class Variable(NamedTuple):
     labels: Mapping[str, object] = MappingProxyType({})
 
 
-def column(symbol: str, unit: str, meaning: str) -> Any:
+def column(symbol: str, unit: str, meaning: str, *, default: object = MISSING) -> Any:
     """A field of a result that is a column."""
-    return field(metadata={"column": Column(symbol, unit, meaning)})
+    return field(default=default, metadata={"column": Column(symbol, unit, meaning)})
 
 
 def declared_columns(kind: type) -> Mapping[str, Column]:
@@ -181,25 +181,37 @@ class MappedRecord(Record, Mapping[str, Any]):
 class TableRecord(Shown, Record):
     """A result that is handed out as labelled data and as a table too.
 
-    A subclass says by `variables` what they hold.
+    They hold what a subclass declares with `column`, or what its `variables` are.
     """
 
     __slots__ = ()
     in_columns: ClassVar[tuple[str, ...]] = ()
     """Dimensions along which a table has columns, not rows: ``name[place]``."""
-    warnings: tuple[str, ...] = ()
+    along: ClassVar[str] = "state"
+    """Dimension of the declared columns, and the column of its places, where there is one."""
+    more_columns: ClassVar[Mapping[str, Column]] = MappingProxyType({})
+    """Columns that come last, each an attribute of the record."""
 
     def variables(self) -> Mapping[str, Variable]:
         """What there is along the dimensions, by name."""
-        raise NotImplementedError
+        out: dict[str, Variable] = {}
+        for name, about in {**declared_columns(type(self)), **self.more_columns}.items():
+            value = getattr(self, name)
+            values = np.asarray(np.nan if value is None else value)
+            if name != self.along:
+                out[name] = Variable((self.along,)[: values.ndim], values, about.attributes)
+        return out
 
     def coordinates(self) -> Mapping[str, Variable]:
         """The places along the dimensions, and what is said of each place."""
-        return {}
+        about = declared_columns(type(self)).get(self.along)
+        if about is None:
+            return {}
+        return {self.along: Variable((self.along,), getattr(self, self.along), about.attributes)}
 
     def attributes(self) -> Mapping[str, object]:
         """Attributes of a data set that hold for all of it."""
-        return {"warnings": "\n".join(self.warnings)}
+        return {"warnings": "\n".join(getattr(self, "warnings", ()))}
 
     def to_dataset(self, *, title: str = "") -> xarray.Dataset:
         """The result as labelled data; states lie along the dimension ``state``.
@@ -229,7 +241,7 @@ class TableRecord(Shown, Record):
         """
         import xarray
 
-        attributes = {"title": title, **self.attributes()}
+        attributes = {"title": title or getattr(self, "title", ""), **self.attributes()}
         return xarray.Dataset(self.variables(), coords=self.coordinates(), attrs=attributes)
 
     def to_dataframe(self) -> pandas.DataFrame:
@@ -265,7 +277,7 @@ class TableRecord(Shown, Record):
                 "to_dataset()"
             ) from None
         data = self.to_dataset()
-        for dim in set(self.in_columns).intersection(map(str, data.dims)):
+        for dim in (dim for dim in self.in_columns if dim in data.dims):
             along = [name for name, values in data.data_vars.items() if dim in values.dims]
             single = {
                 f"{name}[{place}]": data[name].sel({dim: place}, drop=True)
@@ -281,21 +293,26 @@ class TableRecord(Shown, Record):
     def _cards(self) -> Iterator[Card]:
         """A table for notebooks: a row for each column, the first and the last places."""
         every = {**self.coordinates(), **self.variables()}
-        dims = next(iter(self.variables().values())).dims
+        dim = next(variable.dims[0] for variable in every.values() if variable.dims)
+        shown = {name: one for name, one in every.items() if one.dims in ((), (dim,))}
+        cells = {
+            name: _cells(np.atleast_1d(values), str(labels.get("units", "")))
+            for name, (_, values, labels) in shown.items()
+        }
+        width = max(map(len, cells.values()))
         rows = [
             Row(
                 str(labels.get("symbol") or name),
-                _cells(np.asarray(values), str(labels.get("units", ""))),
+                cells[name] + [""] * (width - len(cells[name])),
                 str(labels.get("long_name", "")),
             )
-            for name, (along, values, labels) in every.items()
-            if along == dims
+            for name, (_, _, labels) in shown.items()
         ]
-        count = len(np.asarray(next(iter(self.variables().values())).values))
-        places = f"{count} values of {dims[0]}"
-        if dims == ("state",):
+        count = next(np.size(one.values) for one in shown.values() if one.dims)
+        places = f"{count} values of {dim}"
+        if dim == "state":
             places = "1 state" if count == 1 else f"{count} states"
-        yield Card(f"{type(self).__name__}, {places}", rows, self.warnings)
+        yield Card(f"{type(self).__name__}, {places}", rows, getattr(self, "warnings", ()))
 
 
 class StateRecord(TableRecord):
@@ -307,8 +324,6 @@ class StateRecord(TableRecord):
 
     __slots__ = ()
     in_dict: ClassVar[tuple[Entry, ...]] = (("", "columns"),)
-    more_columns: ClassVar[Mapping[str, Column]] = MappingProxyType({})
-    """Columns that come last, each an attribute of the record."""
 
     @names_arguments
     def about(self, name: str) -> Column:

@@ -92,20 +92,14 @@ def stribeck(
         contact, conjunction=conjunction, oil=oil, load=load, speed=speed, **options
     )
 
-    hersey = Column("ηu/w", "1", "Hersey number")
-    abouts = {**COLUMNS, **MixedFilm.more_columns}
-    return xr.Dataset(
-        {
-            name: ("speed", values, abouts[name].attributes)
-            for name, values in columns.items()
-            if name not in ("speed", "hersey")
-        },
-        coords={
-            "speed": ("speed", columns["speed"], COLUMNS["speed"].labels),
-            "hersey": ("speed", columns["hersey"], hersey.labels),
-        },
-        attrs={"load": float(load), "warnings": "\n".join(messages)},
-    )
+    data = {name: ("speed", v, OF_CURVE[name].attributes) for name, v in columns.items()}
+    coords = {name: data.pop(name) for name in ("speed", "hersey")}
+    attrs = {"load": float(load), "warnings": "\n".join(messages)}
+    return xr.Dataset(data, coords=coords, attrs=attrs)
+
+
+OF_CURVE = {**COLUMNS, **MixedFilm.more_columns, "hersey": Column("ηu/w", "1", "Hersey number")}
+"""What the columns of the curve are."""
 
 
 def stribeck_columns(
