@@ -121,6 +121,56 @@ def test_derivatives_that_take_long_say_so(slow):
     assert bool(told) == slow
 
 
+SURFACES = {"surfaces": 2, "size": 32, "spacing": 3e-7, "F_star": 1e-3}
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize("workers", [1, 2])
+def test_surfaces_that_take_long_say_so(slow, workers):
+    asked = {**SURFACES, "workers": workers}
+    _, told = heard(lambda: tb.explicit.ensemble(BARE, **asked))
+    assert len(told) == slow
+    counts = []
+    _, told = heard(lambda: tb.explicit.ensemble(BARE, **asked, progress=counts.append))
+    assert (counts, told) == ([1, 2], [])
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_loads_on_a_surface_that_take_long_say_so(slow):
+    surface = tb.explicit.surface_of(BARE, size=32, spacing=3e-7)
+    loads = np.geomspace(1e-4, 1e-3, 8)
+    _, told = heard(lambda: tb.explicit.solve(BARE, surface, F_star=loads))
+    assert len(told) == slow
+    counts = []
+    options = {"F_star": loads, "blocks": 2, "progress": counts.append}
+    _, told = heard(lambda: tb.explicit.solve(BARE, surface, **options))
+    assert told == []
+    assert counts == sorted(counts)
+    if slow:
+        assert counts[-1] == 16  # each load again, for the blocks
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_surfaces_are_a_part_of_a_work(monkeypatch):
+    monkeypatch.setattr(progress, "time", Clock(2.0))
+    monkeypatch.setattr(progress, "_terminal", lambda: False)
+    monkeypatch.setattr(progress, "EVERY", 10.0)
+    with progress.stages("work", 1) as parts:
+        parts("surfaces")
+        tb.explicit.ensemble(BARE, **SURFACES, progress=parts)
+
+    assert parts.said
+    assert parts.promised > progress.LONG
+    with progress.stages("work", 1) as parts:
+        parts("surfaces")
+        shown = []
+        parts.show = lambda share, words: shown.append(share)
+        tb.explicit.ensemble(BARE, **SURFACES, progress=parts)
+    assert shown == sorted(shown)
+    assert len(set(shown)) > 5
+    assert 0.9 < shown[-1] <= 1
+
+
 @pytest.fixture
 def clock(monkeypatch):
     """The time of a work in a pipe, which passes where a test says so."""

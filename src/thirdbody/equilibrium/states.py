@@ -18,7 +18,7 @@ from ..errors import InvalidValue, Mistake, NotCompiled, Problem
 from ..populations.materials import BULK
 from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
-from ..quantities.progress import Cost, report_solved, reporting, solving, weigh_states
+from ..quantities.progress import report_solved, watch_states, weigh_states
 from ..quantities.value import paths_of, warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
@@ -106,10 +106,8 @@ def solve_states(
     """
     load, loads, arrays = _loads_and_inputs(contact, pressure, F_star, d, vary)
     total = len(loads)
-    with reporting("states", total, 0, progress) as report:
-        cost = Cost(total, report, "" if progress else "states")
-        with solving(cost):
-            columns = _columns(contact, arrays, load, loads, fewest_of(contact))
+    with watch_states("states", total, progress) as cost:
+        columns = _columns(contact, arrays, load, loads, fewest_of(contact))
         cost.report_finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 

@@ -17,6 +17,7 @@ import math
 from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,7 +35,7 @@ from ..populations.measured.topography import Topography
 from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
 from ..quantities.plain_data import plain_data
-from ..quantities.progress import reporting
+from ..quantities.progress import Stages, count_states, watch_states
 from ..quantities.record import TableRecord, Variable
 from ..quantities.run_files import read_record, sealed_text
 from ..quantities.say import number, percent, plural
@@ -209,7 +210,7 @@ def ensemble(
     workers: int = 1,
     scheduler: str | None = None,
     folder: str | Path | None = None,
-    progress: bool | Callable[[int], None] = False,
+    progress: bool | Callable[[int], None] | Stages = False,
 ) -> Ensemble:
     """Many explicit surfaces against the statistical model at equal loads.
 
@@ -238,7 +239,8 @@ def ensemble(
         Where finished surfaces are kept: a run that is interrupted goes on from there. One that is
         damaged is pressed again; those of another study are refused.
     progress : bool or callable, optional
-        As in `thirdbody.sweep`; counts surfaces.
+        True shows on standard error how many separations are pressed, and the time left; a
+        callable gets the number of surfaces.
 
     Returns
     -------
@@ -249,6 +251,11 @@ def ensemble(
     InvalidValue
         As `solve`; surfaces that do not carry such a load; a scheduler that does not answer; a
         folder with surfaces of another study.
+
+    Warns
+    -----
+    SlowWarning
+        Surfaces that take more than 10 s together: how long. Without ``progress``.
 
     Notes
     -----
@@ -299,19 +306,33 @@ def ensemble(
         key = _key(contact, topographies, rule, numbers, grid)
         kept = None if folder is None else Path(folder)
         records = {} if kept is None else _read_surfaces(kept, total, key)
-        left = [(i, task(i, grid)) for i in range(total) if i not in records]
-        results = share_parts(
-            left, workers=workers, client=client, noun="surface", smaller="a smaller size"
-        )
-        with (
-            closing(results),
-            reporting("explicit", total, len(records), progress, "surfaces") as report,
-        ):
-            for i, record in results:
-                if kept is not None:
-                    write_text(_file(make_folder(kept), i), sealed_text(record | {"key": key}))
-                records[i] = record
-                report(len(records))
+        # each separation is pressed with particles, and without
+        one = len(grid) * (1 if contact.two_body else 2)
+        report = progress if callable(progress) and not isinstance(progress, Stages) else None
+        with watch_states(
+            "explicit",
+            one * total,
+            progress if report is None else _say_nothing,
+            "separations of surfaces",
+            one * len(records),
+        ) as cost:
+            tasks = {i: task(i, grid) for i in range(total) if i not in records}
+            left: list[tuple[int, Callable[[], dict[str, object]]]] = [
+                (i, press_one if client is not None else partial(count_states, press_one, cost))
+                for i, press_one in tasks.items()
+            ]
+            results = share_parts(
+                left, workers=workers, client=client, noun="surface", smaller="a smaller size"
+            )
+            with closing(results):
+                for i, record in results:
+                    if kept is not None:
+                        write_text(_file(make_folder(kept), i), sealed_text(record | {"key": key}))
+                    records[i] = record
+                    if client is not None:
+                        cost(one)
+                    if report is not None:
+                        report(len(records))
     return _ensemble(
         contact,
         [records[i] for i in range(total)],
@@ -320,6 +341,10 @@ def ensemble(
         cap=cap,
         gaussian=topographies is None,
     )
+
+
+def _say_nothing(done: int) -> None:
+    """Progress that nobody sees."""
 
 
 def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, object]]:

@@ -18,7 +18,7 @@ from ...equilibrium.columns import CODE
 from ...equilibrium.status import STATUS_CODE
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
-from ...quantities.progress import Cost, Report, reporting, solving
+from ...quantities.progress import Cost, Report, count_states, reporting
 from ...quantities.run_files import sealed_text
 from ...quantities.sharing import share_parts
 from .folder import (
@@ -155,16 +155,10 @@ def _results(
 
     def work(number: int) -> Callable[[], Result]:
         task = plan.task(number, coded=coded)
-        return task if client is not None else partial(_with_progress, task, cost)
+        return task if client is not None else partial(count_states, task, cost)
 
     tasks = ((number, work(number)) for number in numbers)
     return share_parts(tasks, workers=workers, client=client)
-
-
-def _with_progress(task: Callable[[], Result], cost: Cost) -> Result:
-    """A block whose states are told while they are solved, in whatever thread."""
-    with solving(cost):
-        return task()
 
 
 # -------------------------------------------------------------------------- on disk
