@@ -121,6 +121,40 @@ def test_derivatives_that_take_long_say_so(slow):
     assert bool(told) == slow
 
 
+RUBBING = PLANE.replace(
+    outputs=tb.outputs.Friction(tau_ss=1e8, tau_sa=1e8),
+    particle_law=tb.particle.Series(deep="off"),
+    **{"roughness.heights": tb.heights.GaussianHeights()},
+)
+"""States of it are solved together, but not their outputs."""
+
+
+@pytest.mark.parametrize("work", ["propagate", "sensitivity"])
+def test_contacts_with_outputs_are_promised_as_many_as_there_are(work, monkeypatch):
+    """And what is said names the output that makes them slow."""
+    made, reasons = [], set()
+
+    class Seen(progress.Cost):
+        def __init__(self, total, *others, **options):
+            super().__init__(total, *others, **options)
+            made.append(self)
+
+        def __call__(self, count, why=""):
+            reasons.add(why)
+            super().__call__(count, why)
+
+    monkeypatch.setattr(progress, "Cost", Seen)
+    if work == "propagate":
+        vary = {"roughness.sigma": (9e-8, 1.1e-7), "particles.diameter.mean": (290e-9, 310e-9)}
+        tb.propagate(RUBBING, vary=vary, pressure=1e6, samples=4096, outputs=["mu", "A_t"])
+    else:
+        to = ["roughness.sigma", "outputs.friction.tau_ss", "outputs.friction.tau_sa"]
+        tb.sensitivity(RUBBING, of="mu", to=to, pressure=1e6)
+    (cost,) = made
+    assert 0.5 < cost.done / cost.total < 2
+    assert all("mu" in why.split() for why in reasons)
+
+
 SURFACES = {"surfaces": 2, "size": 32, "spacing": 3e-7, "F_star": 1e-3}
 
 

@@ -26,6 +26,7 @@ from ..equilibrium.columns import Equilibrium, about, provenance, quantity_of
 from ..equilibrium.load import as_loads
 from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
+from ..equilibrium.states import carries, why_outputs
 from ..equilibrium.transitions import transitions
 from ..equilibrium.words import critical_name, happens
 from ..errors import InvalidValue, Mistake, Problem, RangeWarning, place_note, tell_of_range
@@ -452,7 +453,9 @@ def sensitivity(
     moved = [input_of(contact, name, TO) for name in dict.fromkeys(labels) if name != load]
 
     rule = QUICK if quick else FULL
-    with watch_contacts("sensitivity", 2 * rule.reach * len(moved), progress):
+    carrying = [one for one in moved if any(carries(name) for name in one.names)]
+    why = why_outputs(contact, plain)
+    with watch_contacts("sensitivity", 2 * rule.reach * len(carrying), progress, why):
         value, entries = _values_and_slopes(contact, results, loads_by_name, moved, load, rule)
 
     start: dict[str, Any] = {moved_input.label: moved_input.values[0] for moved_input in moved}

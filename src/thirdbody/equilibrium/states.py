@@ -439,6 +439,19 @@ def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     return bool(contact.populations)
 
 
+def goes_one_by_one(contact: Contact, vary: Iterable[str]) -> bool:
+    """Whether each of the states that differ in these inputs binds a contact of its own."""
+    names = [name for name in vary if name not in LOADS and carries(name)]
+    return bool(names) and not solves_each(contact, names)
+
+
+def why_outputs(contact: Contact, names: Iterable[str]) -> str:
+    """Why contacts of which these columns are asked go one by one; empty without outputs."""
+    of_outputs = {name for output in contact.outputs for name in output.columns}
+    asked_of = [name for name in names if name in of_outputs]
+    return f"{OWN_SPOTS}, for {', '.join(asked_of[:3])}" if asked_of else ""
+
+
 def solves_each(contact: Contact, vary: Iterable[str]) -> bool:
     """Whether the compiled engine solves states of this contact by laws of their own.
 

@@ -290,7 +290,7 @@ def nested_stages(outer: Callable[[str], None], count: int) -> Stages:
 
 
 @contextmanager
-def watch_contacts(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
+def watch_contacts(what: str, total: int, wanted: bool | Report, why: str = "") -> Iterator[None]:
     """Contacts that are bound inside are shown, or a `SlowWarning` says how long they take.
 
     Nothing where somebody counts them already.
@@ -303,13 +303,16 @@ def watch_contacts(what: str, total: int, wanted: bool | Report) -> Iterator[Non
         About how many will be bound.
     wanted : bool or callable
         As in `reporting`.
+    why : str, optional
+        What makes them go one by one.
     """
     if _TALLY.get() is not None:
         yield
         return
     with reporting(what, total, 0, wanted, "contacts") as report:
-        cost = Cost(total, report, "" if wanted else f"contacts of {what}")
-        with count_contacts(total, lambda done, expected: cost(1.0)):
+        # the first is that of the user, and what all others share is made before the second
+        cost = Cost(total, report, "" if wanted else f"contacts of {what}", uncounted=2)
+        with count_contacts(total, lambda done, expected: cost(1.0, why)):
             yield
 
 
@@ -463,6 +466,8 @@ class Cost:
         lasts, as every time the same.
     promise : callable, optional
         Gets the seconds of all states once they are known to be many, in the place of the warning.
+    uncounted : int
+        Calls at the beginning from which nothing follows: something may have been compiled before.
     """
 
     def __init__(
@@ -473,17 +478,19 @@ class Cost:
         done: int = 0,
         early: bool = True,
         promise: Callable[[float], None] | None = None,
+        uncounted: int = 1,
     ):
         self.total, self.report, self.what, self.early = total, report, what, early
         self.promise = promise
         self.done, self.reported = float(done), done
-        self.start: float | None = None
+        self.start, self.uncounted = 0.0, uncounted
         self.shown, self.first = -math.inf, 0.0
 
     def __call__(self, count: float, why: str = "") -> None:
         self.done += count
         now = time.monotonic() - _ASIDE[0]
-        if self.start is None:  # the first of them may have been compiled for
+        if self.uncounted > 0:
+            self.uncounted -= 1
             self.start, self.first = now, self.done
         elif self.what and now - self.start > SURE:
             whole = (now - self.start) * self.total / max(self.done - self.first, 1e-9)

@@ -26,7 +26,7 @@ from ...contact.contact import Contact
 from ...equilibrium.critical_loads import CRITICAL, critical_loads
 from ...equilibrium.crowding import is_crowded
 from ...equilibrium.solve import given_load
-from ...equilibrium.states import FEWEST, tables_each
+from ...equilibrium.states import FEWEST, goes_one_by_one, tables_each, why_outputs
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
@@ -558,10 +558,12 @@ def propagate(
     first_few = np.arange(len(u)).reshape(REPLICATES, per_replicate)[:, :few]
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
-    with watch_contacts("propagate", len(u), progress):
+    of_outputs = {name for output in contact.outputs for name in output.columns} & set(names)
+    few_bound = of_outputs and not goes_one_by_one(contact, drawn_values)
+    expected = first_few[:, :OUTPUTS_EACH].size if few_bound else len(u)
+    with watch_contacts("propagate", expected, progress, why_outputs(contact, names)):
         critical = _sought(contact, sought, some, first_few)
         results = _Bands(names, probabilities, first_few, critical, contact)
-        of_outputs = {name for output in contact.outputs for name in output.columns} & set(names)
         with roughly():
             output_columns = (
                 _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
@@ -601,6 +603,10 @@ def propagate(
     )
 
 
+OUTPUTS_EACH = max(1, MOST_OUTPUTS // REPLICATES)
+"""Samples of outputs in each scrambling."""
+
+
 class _Critical(NamedTuple):
     """Critical loads of the first few samples, the shares of their statuses, and nominal ones."""
 
@@ -630,7 +636,7 @@ def _outputs(
     contact: Contact, load: str, loads: Array, drawn: Arrays, first_few: NDArray[np.intp]
 ) -> Arrays:
     """Columns (L, n) of a few samples with outputs, at every load: loads share their contacts."""
-    which = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)].ravel()
+    which = first_few[:, :OUTPUTS_EACH].ravel()
     some = {name: np.tile(values[which], len(loads)) for name, values in drawn.items()}
     every = np.repeat(loads, len(which))
     columns = columns_at(contact, load, every, some, len(every), outputs=True)
