@@ -213,6 +213,7 @@ class TableRecord(Shown, Record):
         """Attributes of a data set that hold for all of it."""
         return {"warnings": "\n".join(getattr(self, "warnings", ()))}
 
+    @names_arguments
     def to_dataset(self, *, title: str = "") -> xarray.Dataset:
         """The result as labelled data; states lie along the dimension ``state``.
 
