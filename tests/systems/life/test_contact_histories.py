@@ -374,4 +374,4 @@ def test_histories_of_contacts_as_data_and_as_a_table(kind, request):
     at = {"class": numbers["class"].values[2], "material": str(numbers["material"].values[0])}
     column = f"{numbers.name}[{at['class']}][{at['material']}]"
     np.testing.assert_array_equal(table[column], history.numbers[:, 2, 0])
-    assert f"{type(history).__name__}, {len(history.times)} values of time" in history._repr_html_()
+    assert type(history).__name__ in history._repr_html_()
