@@ -175,8 +175,6 @@ WRITTEN = {
     "quantities/notebook.py": 1,
     # a text, not the plain data of a class
     "app/exports.py": 1,
-    # of bands over quantiles, not of states
-    "analysis/uncertainty/propagation.py": 1,
     # numbers that are not finite stay NaN
     "explicit/ensemble.py": 1,
     "populations/measured/surface.py": 1,

@@ -31,7 +31,7 @@ UNCOUNTED = {
     "table": ("dusty_ball_screw", "--out", "table.csv", "--tolerance", "1e-2"),
     "explicit": LONG["explicit"],
 }
-"""Commands that show no parts of their work, or only on a terminal."""
+"""Commands that say nothing at first."""
 
 
 @pytest.mark.usefixtures("short_search")

@@ -59,6 +59,10 @@ def test_what_each_population_carries():
     assert data.population.values.tolist() == ["a", "b"]
     total = data.population_load_share.sum("population")
     np.testing.assert_allclose(total, data.particle_load_share, rtol=1e-12)
+    table = state.to_dataframe()
+    assert table["population_load_share[b]"].tolist() == state.populations[1].load_share.tolist()
+    assert table.attrs["units"]["population_load_share[b]"] == "1"
+    assert table.index.tolist() == [0, 1]
 
 
 def test_a_file_keeps_all(tmp_path):
@@ -77,7 +81,8 @@ def test_a_row_for_each_state():
     pytest.importorskip("pandas")
     state = tb.solve(contact(), pressure=[1e6, 5e6])
     table = state.to_dataframe()
-    assert list(table.columns) == list(COLUMNS)
+    assert list(table.columns) == [*COLUMNS, "status_code"]
+    assert table["status_code"].tolist() == [0, 0]
     assert table.index.name == "state"
     np.testing.assert_array_equal(table["A_t"], state.A_t)
     assert table.attrs["units"]["d"] == "m"

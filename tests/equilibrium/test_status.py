@@ -114,7 +114,9 @@ class TestEveryDoor:
                 assert [words[i] for i in got] == [Status(one).word for one in code]
             elif door == "sweep":
                 data = tb.sweep(contact, F_star=loads)
-                got, said, A_t = None, data.status.values, data.A_t.values
+                got, said, A_t = data.status_code.values, data.status.values, data.A_t.values
+                words = data.status_code.attrs["flag_meanings"].split()
+                assert [words[i] for i in got] == [Status(one).word for one in code]
             else:
                 pytest.importorskip("zarr")
                 data = tb.sweep(contact, F_star=loads, out=tmp_path / "out")

@@ -121,6 +121,90 @@ def test_derivatives_that_take_long_say_so(slow):
     assert bool(told) == slow
 
 
+RUBBING = PLANE.replace(
+    outputs=tb.outputs.Friction(tau_ss=1e8, tau_sa=1e8),
+    particle_law=tb.particle.Series(deep="off"),
+    **{"roughness.heights": tb.heights.GaussianHeights()},
+)
+"""States of it are solved together, but not their outputs."""
+
+
+@pytest.mark.parametrize("work", ["propagate", "sensitivity"])
+def test_contacts_with_outputs_are_promised_as_many_as_there_are(work, monkeypatch):
+    """And what is said names the output that makes them slow."""
+    made, reasons = [], set()
+
+    class Seen(progress.Cost):
+        def __init__(self, total, *others, **options):
+            super().__init__(total, *others, **options)
+            made.append(self)
+
+        def __call__(self, count, why=""):
+            reasons.add(why)
+            super().__call__(count, why)
+
+    monkeypatch.setattr(progress, "Cost", Seen)
+    if work == "propagate":
+        vary = {"roughness.sigma": (9e-8, 1.1e-7), "particles.diameter.mean": (290e-9, 310e-9)}
+        tb.propagate(RUBBING, vary=vary, pressure=1e6, samples=4096, outputs=["mu", "A_t"])
+    else:
+        to = ["roughness.sigma", "outputs.friction.tau_ss", "outputs.friction.tau_sa"]
+        tb.sensitivity(RUBBING, of="mu", to=to, pressure=1e6)
+    (cost,) = made
+    assert 0.5 < cost.done / cost.total < 2
+    assert all("mu" in why.split() for why in reasons)
+
+
+SURFACES = {"surfaces": 2, "size": 32, "spacing": 3e-7, "F_star": 1e-3}
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize("workers", [1, 2])
+def test_surfaces_that_take_long_say_so(slow, workers):
+    asked = {**SURFACES, "workers": workers}
+    _, told = heard(lambda: tb.explicit.ensemble(BARE, **asked))
+    assert len(told) == slow
+    counts = []
+    _, told = heard(lambda: tb.explicit.ensemble(BARE, **asked, progress=counts.append))
+    assert (counts, told) == ([1, 2], [])
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_loads_on_a_surface_that_take_long_say_so(slow):
+    surface = tb.explicit.surface_of(BARE, size=32, spacing=3e-7)
+    loads = np.geomspace(1e-4, 1e-3, 8)
+    _, told = heard(lambda: tb.explicit.solve(BARE, surface, F_star=loads))
+    assert len(told) == slow
+    counts = []
+    options = {"F_star": loads, "blocks": 2, "progress": counts.append}
+    _, told = heard(lambda: tb.explicit.solve(BARE, surface, **options))
+    assert told == []
+    assert counts == sorted(counts)
+    if slow:
+        assert counts[-1] == 16  # each load again, for the blocks
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_surfaces_are_a_part_of_a_work(monkeypatch):
+    monkeypatch.setattr(progress, "time", Clock(2.0))
+    monkeypatch.setattr(progress, "_terminal", lambda: False)
+    monkeypatch.setattr(progress, "EVERY", 10.0)
+    with progress.stages("work", 1) as parts:
+        parts("surfaces")
+        tb.explicit.ensemble(BARE, **SURFACES, progress=parts)
+
+    assert parts.said
+    assert parts.promised > progress.LONG
+    with progress.stages("work", 1) as parts:
+        parts("surfaces")
+        shown = []
+        parts.show = lambda share, words: shown.append(share)
+        tb.explicit.ensemble(BARE, **SURFACES, progress=parts)
+    assert shown == sorted(shown)
+    assert len(set(shown)) > 5
+    assert 0.9 < shown[-1] <= 1
+
+
 @pytest.fixture
 def clock(monkeypatch):
     """The time of a work in a pipe, which passes where a test says so."""

@@ -10,6 +10,7 @@ import pytest
 import thirdbody as tb
 from thirdbody.explicit.ensemble import surface_of
 from thirdbody.quantities.record import VERSION, Record, StateRecord, declared_columns, with_names
+from thirdbody.results import Status
 from thirdbody.study import check, run_film, run_study
 
 STEEL = tb.materials["S45C"]
@@ -52,8 +53,13 @@ def test_every_form_of_states_holds_the_same_numbers(every, name):
     assert type(state).__name__ == name
     plain, data, table = state.to_dict(), state.to_dataset(title="two"), state.to_dataframe()
     assert json.loads(json.dumps(plain, allow_nan=False)) == plain
-    if name == "Equilibrium":
-        assert plain.pop("status_code") == state.status_code.tolist()
+    if name != "ExplicitState":  # which says of each state whether it converged
+        codes = plain["status_code"]
+        assert codes == list(state.status_code) == list(table["status_code"])
+        assert codes == data.status_code.values.tolist()
+        words = data.status_code.flag_meanings.split()
+        assert [words[code] for code in codes] == [Status(code).word for code in codes]
+        assert table.attrs["long_name"]["status_code"] == data.status_code.long_name
     assert list(plain) == list(table.columns) == [str(each) for each in data.data_vars]
     assert data.title == "two"
     for column, told in declared_columns(type(state)).items():
@@ -176,6 +182,7 @@ def test_the_table_of_a_study_has_the_units_of_each_population():
     for part, told in zip(found.states.populations, found.to_dict()["populations"], strict=True):
         assert told == part.to_dict()
         assert "PopulationShare, 2 states" in part._repr_html_()
+        assert "status_code" not in told
         assert part.to_dataframe()["load_share"].tolist() == pytest.approx(
             part.load_share.tolist(), nan_ok=True
         )
@@ -189,3 +196,179 @@ def test_states_declare_what_they_hold():
         for each in (kind, *kind.__subclasses__()):
             if hasattr(each, "__dataclass_fields__"):
                 assert {item.name for item in fields(each)} - set(declared_columns(each)) <= beside
+
+
+# ------------------------------------------------------------- results that are no states
+DUSTY = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL),
+    roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    particles=tb.Particles(
+        material=tb.materials["SiO2"],
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    ),
+)
+LOADS = [1e6, 5e6]
+
+
+def check_labels(data, table, dims):
+    """Both forms have the same columns, and each says what it is."""
+    assert set(data.sizes) == dims
+    for name, values in data.data_vars.items():
+        assert values.attrs["long_name"]
+        if "mode" not in values.dims:
+            assert table.attrs["long_name"][name] == values.long_name
+
+
+def test_bands_as_data_and_as_a_table():
+    found = tb.propagate(
+        DUSTY,
+        vary={"roughness.sigma": (9e-8, 1.1e-7)},
+        pressure=LOADS,
+        samples=64,
+        outputs=["h", "F_cr1"],
+    )
+    data, table = found.to_dataset(title="bands"), found.to_dataframe()
+    check_labels(data, table, {"pressure", "quantile", "mode"})
+    assert data.title == "bands"
+    np.testing.assert_array_equal(data.h_nominal, found.nominal["h"])
+    assert table.index.names == ["pressure", "quantile"]
+    assert table.loc[(5e6, 0.5), "h"] == found.bands["h"][1][2]
+    assert table.loc[(1e6, 0.05), "F_cr1_error"] == found.error["F_cr1"][0]
+    for mode, share in found.mode_probability.items():
+        column = table[f"mode_probability[{mode}]"]
+        assert column.loc[1e6].tolist() == [share[0]] * 5
+        assert column.loc[5e6].tolist() == [share[1]] * 5
+    assert (table.attrs["units"]["h"], table.attrs["symbol"]["h_error"]) == ("m", "h")
+    one = found.at_load(1)
+    assert set(one.to_dataset().sizes) == {"quantile", "mode"}
+    np.testing.assert_array_equal(one.to_dataframe()["h"], table.loc[5e6, "h"])
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_slopes_as_data_and_as_a_table():
+    inputs = ["roughness.sigma", "pressure"]
+    found = tb.sensitivity(DUSTY, of=["h", "F_cr1"], to=inputs, pressure=LOADS, quick=True)
+    data, table = found.to_dataset(), found.to_dataframe()
+    check_labels(data, table, {"of", "to", "pressure"})
+    for at, load in enumerate(LOADS):
+        for to in inputs:
+            row = table.loc[("h", to, load)]
+            for name in ("derivative", "elasticity", "error", "status"):
+                assert row[name] == getattr(found, name)["h"][to][at]
+            assert table.loc[("F_cr1", to, load), "value"] == found.value["F_cr1"]
+    assert table.loc[("h", "pressure", 5e6), "input"] == 5e6
+    units = data.derivative_units.sel(of="h")
+    assert [str(units.sel(to=to).values) for to in inputs] == ["1", "m/Pa"]
+    assert data.to_symbol.values.tolist() == ["σ", "p"]
+
+
+def test_critical_loads_as_data_and_as_a_table():
+    found = tb.transitions(DUSTY)
+    data, table = found.to_dataset(), found.to_dataframe()
+    check_labels(data, table, {"transition"})
+    for name, load in found.entries().items():
+        assert table.loc[name, "status"] == load.status
+        value = table.loc[name, "F_star"]
+        assert np.isnan(value) if load.value is None else value == load.value
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize("coordinate", ["h", "d"])
+def test_a_table_of_a_contact_in_every_form(coordinate, tmp_path):
+    shares = ["particle_load_share"]
+    made = tb.table(DUSTY, tolerance=1e-2, columns=shares, coordinate=coordinate)
+    data, table, plain = made.to_dataset(), made.to_dataframe(), made.to_dict()
+    check_labels(data, table, {coordinate})
+    assert json.loads(json.dumps(plain, allow_nan=False)) == plain
+    assert plain["error"]["p"] == made.error.p == data.error_p
+    np.testing.assert_array_equal(data[coordinate], made.h)
+    np.testing.assert_allclose(data.p, made.p(made.h), rtol=1e-12)
+    made.to_csv(tmp_path / "table.csv")
+    lines = (tmp_path / "table.csv").read_text("utf-8").splitlines()
+    head, *rows = [line.split(",") for line in lines if not line.startswith("#")]
+    assert [words.partition(" ")[0] for words in head] == [coordinate, *table.columns]
+    np.testing.assert_array_equal(np.array(rows, dtype=float)[:, 1:], table)
+    for name in table.columns:
+        assert plain[name] == table[name].tolist()
+        assert f"{name} [{table.attrs['units'][name]}]" in head
+    assert f"ContactTable, {len(rows)} values of {coordinate}" in made._repr_html_()
+
+
+OIL = tb.oil.OilCircuit(
+    volume=0.2,
+    start=tb.oil.OilDirt.from_iso4406("18/16/13", material=tb.materials["quartz"]),
+    ingress=(),
+    filters=tb.oil.Filter(sizes=(4e-6,), betas=(75.0,), flow=1e-3),
+)
+RESULTS = {
+    "LifeHistory": (lambda: tb.life(oil=OIL, duration=1800.0), "time"),
+    "RoughBody": (lambda: tb.systems.rough_body.rough_sphere(CONTACT, radius=5e-3, load=10.0), "r"),
+    "WavyContact": (
+        lambda: tb.systems.waviness.rigid_wave(CONTACT, amplitude=150e-9, pressure=5e6),
+        "height",
+    ),
+    "RadialShare": (
+        lambda: tb.systems.load_sharing.share_radial_load(900.0, bodies=9, stiffness=1e10),
+        "angles",
+    ),
+    "OilReports": (
+        lambda: tb.oil.oil_reports(
+            [0.0, 1e6],
+            reports=[[1e9], [3e9]],
+            sizes=[6e-6],
+            circuit=OIL.replace(filters=()),
+        ),
+        "time",
+    ),
+    "StudyResult": (lambda: run_study(check(STUDY)), "state"),
+    "FilmResult": (lambda: run_film(check(STUDY)), "speed"),
+    "Ensemble": (
+        lambda: tb.explicit.ensemble(CONTACT, surfaces=2, size=64, F_star=[1e-4, 1e-3]),
+        "F_star",
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize("name", RESULTS)
+def test_other_results_in_every_form(name):
+    make, along = RESULTS[name]
+    found = make()
+    assert type(found).__name__ == name
+    data, table = found.to_dataset(title="a title"), found.to_dataframe()
+    assert data.title == "a title"
+    assert found.to_dict()
+    assert table.index.names[0] == along
+    for column, values in data.data_vars.items():
+        assert values.attrs["long_name"]
+        if values.dims == (along,) and len(table) == data.sizes[along]:
+            np.testing.assert_array_equal(table[column], values)
+            assert table.attrs["units"][column] == values.attrs.get("units", "")
+        if column in declared_columns(type(found)):
+            value = getattr(found, column)
+            np.testing.assert_array_equal(values, np.nan if value is None else value)
+    assert f"{name}, " in found._repr_html_()
+
+
+def test_a_history_has_a_column_for_each_class_and_material():
+    found, _ = RESULTS["LifeHistory"]
+    found = found()
+    data, table = found.histories, found.to_dataframe()
+    middle = data["class"].values[3]
+    np.testing.assert_array_equal(table[f"n[{middle}][quartz]"], found.numbers[:, 3, 0])
+    np.testing.assert_array_equal(table["count[4e-06]"], found.counts[:, 0])
+    assert table.attrs["units"]["count[4e-06]"] == "1/m^3"
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+def test_bodies_and_waves_say_their_status_by_a_number():
+    body = RESULTS["RoughBody"][0]()
+    assert (body.status, body.status_code) == ("ok", Status.OK)
+    assert body.to_dataset()["load"].units == "N"
+    cylinder = tb.systems.rough_body.rough_cylinder(CONTACT, radius=5e-3, load=1e4)
+    assert cylinder.to_dataset()["load"].units == "N/m"
+    assert cylinder.to_dataframe().attrs["units"]["real_area"] == "m^2/m"
+    wave = tb.systems.waviness.rigid_wave(CONTACT, amplitude=50e-9, pressure=2.5e9)
+    assert wave.status.startswith("crowded")
+    assert wave.status_code == Status.CROWDED == int(wave.to_dataset().status_code)

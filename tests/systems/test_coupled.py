@@ -642,3 +642,19 @@ def test_the_stable_state_ends_where_no_state_is_left():
     jump = COLD + (MELT - COLD) * (1 - 1 / 1.2)
     most = max(one_that_softens(T), one_that_softens(jump * (1 - 1e-12)))
     assert found.seizure_speed == pytest.approx(most, rel=1e-7)
+
+
+def test_states_as_data_and_as_a_table():
+    found = asked()
+    assert found.states
+    data, table = found.to_dataset(), found.to_dataframe()
+    assert data.sizes == {"state": len(found.states)}
+    for i, state in enumerate(found.states):
+        for name in ("T", "mu", "H_2", "stable"):
+            assert table.loc[i, name] == getattr(state, name) == data[name].values[i]
+        assert state.to_dataframe().loc[0, "T"] == state.T
+        assert {"T", "stable"} <= set(state.to_dict())
+        assert state.to_dict()["T"] == state.T
+    assert float(data.seizure_speed) == found.seizure_speed
+    assert (data.seizure_load.units, table.attrs["symbol"]["T_bulk"]) == ("Pa", "T_b")
+    assert type(found).__name__ in found._repr_html_()

@@ -15,25 +15,26 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..contact.contact import Contact
-from ..equilibrium.columns import Equilibrium, quantity_of
+from ..equilibrium.columns import Equilibrium, about, provenance, quantity_of
 from ..equilibrium.load import as_loads
 from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
+from ..equilibrium.states import carries, why_outputs
 from ..equilibrium.transitions import transitions
-from ..equilibrium.words import critical_name
+from ..equilibrium.words import critical_name, happens
 from ..errors import InvalidValue, Mistake, Problem, RangeWarning, place_note, tell_of_range
 from ..quantities.arguments import is_empty, need_place
 from ..quantities.carried import takes_units
-from ..quantities.notebook import Card, Row, Shown, words_of
+from ..quantities.notebook import Card, Row, words_of
 from ..quantities.progress import watch_contacts
-from ..quantities.record import Record
+from ..quantities.record import Column, TableRecord, Variable
 from ..quantities.uncertain import is_uncertain, shift_value
 from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
@@ -59,12 +60,37 @@ CRITICAL = {
 """Critical loads, the share that is held there and its value; None: the share has its maximum."""
 
 
+MEANINGS = {
+    "derivative": "derivative of the result with respect to the input",
+    "elasticity": "relative change of the result over that of the input",
+    "error": "estimated error of the derivative",
+    "status": "ok, or why there is no derivative",
+    "value": "the result",
+    "input": "the input",
+}
+"""What the labelled data of derivatives hold."""
+
+
+def unit_over(unit: str, other: str) -> str:
+    """The unit of a derivative.
+
+    >>> unit_over("m", "1"), unit_over("1", "Pa"), unit_over("m", "m"), unit_over("Pa", "m^2/s")
+    ('m', '1/Pa', '1', 'Pa/(m^2/s)')
+    """
+    if other in ("1", "", unit):
+        return "1" if other == unit else unit
+    return f"{unit}/({other})" if set(" /") & set(other) else f"{unit}/{other}"
+
+
 # -------------------------------------------------------------------------- result
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Sensitivity(Shown, Record):
+class Sensitivity(TableRecord):
     """Derivatives of results with respect to inputs: floats, or arrays over several loads.
 
-    Made by `sensitivity`, where accuracy stands.
+    Made by `sensitivity`, where accuracy stands. As labelled data derivatives lie along ``of``, the
+    results, along ``to``, the inputs, and along the loads where there are several; a table has a
+    row for each of these pairs. Units, symbols and meanings are coordinates: ``of_units``,
+    ``to_units``, ``derivative_units``.
 
     Attributes
     ----------
@@ -226,6 +252,66 @@ class Sensitivity(Shown, Record):
             for of, value in self.value.items()
         }
 
+    def _abouts(self) -> tuple[list[Column], list[Column]]:
+        """What the results are, and what the inputs are."""
+        of = [
+            Column("F*", "1", happens(name)) if name in CRITICAL else about(name)
+            for name in self.value
+        ]
+        to = [
+            Column(*(quantity[key] for key in ("symbol", "unit", "meaning")))
+            if (quantity := quantity_of(self.contact, name.partition("+")[0]))
+            else about(name)
+            for name in self.inputs
+        ]
+        return of, to
+
+    def _load_dimension(self) -> tuple[str, ...]:
+        """The dimension of several loads; none for one."""
+        return tuple(name for name, values in self.load.items() if np.ndim(values))
+
+    def variables(self) -> dict[str, Variable]:
+        """Derivatives, elasticities, errors and statuses, and what they are taken at."""
+        along = self._load_dimension()
+        count = [np.size(self.load[name]) for name in along]
+
+        def stack(values: Iterable[ArrayLike]) -> NDArray[np.generic]:
+            return np.array([np.broadcast_to(np.asarray(value), count) for value in values])
+
+        def pairs(table: Mapping[str, Mapping[str, ArrayLike]]) -> NDArray[np.generic]:
+            return np.array([stack(row[to] for to in self.inputs) for row in table.values()])
+
+        both = ("of", "to", *along)
+        labels = {name: {"long_name": meaning} for name, meaning in MEANINGS.items()}
+        return {
+            "derivative": Variable(both, pairs(self.derivative), labels["derivative"]),
+            "elasticity": Variable(
+                both, pairs(self.elasticity), labels["elasticity"] | {"units": "1"}
+            ),
+            "error": Variable(both, pairs(self.error), labels["error"]),
+            "status": Variable(both, pairs(self.status).astype(str), labels["status"]),
+            "value": Variable(("of", *along), stack(self.value.values()), labels["value"]),
+            "input": Variable(("to", *along), stack(self.inputs.values()), labels["input"]),
+        }
+
+    def coordinates(self) -> dict[str, Variable]:
+        """Results, inputs, several loads, and units, symbols and meanings of each."""
+        out: dict[str, Variable] = {}
+        of, to = self._abouts()
+        for dim, names, columns in (("of", self.value, of), ("to", self.inputs, to)):
+            out[dim] = Variable((dim,), list(names))
+            for key in ("units", "symbol", "long_name"):
+                out[f"{dim}_{key}"] = Variable((dim,), [column.labels[key] for column in columns])
+        units = [[unit_over(one.unit, other.unit) for other in to] for one in of]
+        out["derivative_units"] = Variable(("of", "to"), np.array(units))
+        for name in self._load_dimension():
+            out[name] = Variable((name,), np.asarray(self.load[name]), about(name).labels)
+        return out
+
+    def attributes(self) -> Mapping[str, object]:
+        """Inputs, version and citations."""
+        return provenance(self.contact)
+
     def _cards(self) -> Iterator[Card]:
         """A table for notebooks: the elasticities, an input a row; of several loads the first."""
         rows = [Row("input", list(self.elasticity))]
@@ -367,7 +453,9 @@ def sensitivity(
     moved = [input_of(contact, name, TO) for name in dict.fromkeys(labels) if name != load]
 
     rule = QUICK if quick else FULL
-    with watch_contacts("sensitivity", 2 * rule.reach * len(moved), progress):
+    carrying = [one for one in moved if any(carries(name) for name in one.names)]
+    why = why_outputs(contact, plain)
+    with watch_contacts("sensitivity", 2 * rule.reach * len(carrying), progress, why):
         value, entries = _values_and_slopes(contact, results, loads_by_name, moved, load, rule)
 
     start: dict[str, Any] = {moved_input.label: moved_input.values[0] for moved_input in moved}

@@ -16,11 +16,11 @@ from ..contact.output import column as output_column
 from ..errors import InvalidValue
 from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
-from ..quantities.record import Column, StateRecord, column, declared_columns
+from ..quantities.record import Column, StateRecord, Variable, column, declared_columns
 from ..quantities.units import Quantity
 from ..version import __version__
 from .modes import EPS_1, EPS_2, MODES, Basis, need_shares
-from .status import WORDS
+from .status import STATUS_CODE
 
 if TYPE_CHECKING:
     import xarray
@@ -44,7 +44,8 @@ class _ContactRecord(StateRecord):
     @names_arguments
     def about(self, name: str) -> Column:
         """Symbol, unit and meaning of a column, of the state itself or of an output."""
-        return declared_columns(type(self)).get(name) or output_column(name)
+        columns = {**declared_columns(type(self)), **self.more_columns}
+        return columns.get(name) or output_column(name)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
@@ -79,7 +80,8 @@ class Equilibrium(_ContactRecord):
     ['p-s', 'hybrid', 'hybrid']
     """
 
-    in_dict = (*_ContactRecord.in_dict, (CODE, lambda states: np.atleast_1d(states.status_code)))
+    more_columns = {CODE: STATUS_CODE}
+    in_columns = ("population",)
     contact: Contact = field(repr=False)
     """What was solved."""
     d: Number = column("d", "m", "separation d, from the mean asperity height")
@@ -125,20 +127,24 @@ class Equilibrium(_ContactRecord):
         said = {"engine": self.engine, "warnings": "\n".join(self.warnings)}
         return said | provenance(self.contact)
 
-    def more_variables(self) -> tuple[dict[str, object], dict[str, object]]:
-        """Variables of several populations, along the dimension ``population`` too."""
+    def variables(self) -> dict[str, Variable]:
+        """The columns, and those of several populations along ``population`` too."""
         parts, dims = self.populations, ("state", "population")
-        if not parts:
-            return {}, {}
-        stacked: dict[str, object] = {
-            f"population_{name}": (
+        stacked = {
+            f"population_{name}": Variable(
                 dims,
                 np.stack([population.columns()[name] for population in parts], axis=-1),
-                parts[0].about(name).labels,
+                population.about(name).labels,
             )
-            for name in parts[0].columns()
+            for population in parts[:1]
+            for name in population.columns()
         }
-        return stacked, {"population": [population.name for population in parts]}
+        return {**_ContactRecord.variables(self), **stacked}
+
+    def coordinates(self) -> dict[str, Variable]:
+        """Names of several populations."""
+        names = [population.name for population in self.populations]
+        return {"population": Variable(("population",), names)} if names else {}
 
     @takes_units
     def modes(
@@ -182,12 +188,8 @@ class PopulationShare(_ContactRecord):
     """Columns of the outputs that each population has of its own, as its dents, by name."""
 
 
-FLAGS = {"flag_values": list(range(len(WORDS))), "flag_meanings": " ".join(WORDS)}
-MARKS: dict[str, dict[str, object]] = {
-    "engine": {"long_name": "what found the separation"},
-    CODE: {"units": "", "long_name": "code of the status", **FLAGS},
-}
-"""Attributes of what stands beside the columns of a result."""
+BESIDE = {"engine": Column("", "", "what found the separation"), CODE: STATUS_CODE}
+"""What stands beside the columns of many states."""
 
 COLUMNS = declared_columns(Equilibrium)
 """Symbol, unit and meaning of every column of a result."""
@@ -199,7 +201,7 @@ PLASTIC_SHARE = Column("A_p/A_t", "1", "plastic part of the real area")
 
 def about(name: str) -> Column:
     """Symbol, unit and meaning of a column, of the state itself or of an output."""
-    return COLUMNS.get(name) or output_column(name)
+    return COLUMNS.get(name) or BESIDE.get(name) or output_column(name)
 
 
 def quantity_of(contact: Contact, name: str) -> Quantity | None:
@@ -245,7 +247,7 @@ def dataset(
     import xarray
 
     data = {
-        name: ("state", values, MARKS.get(name) or about(name).labels)
+        name: ("state", values, about(name).attributes)
         for name, values in columns.items()
         if name not in inputs
     }

@@ -18,7 +18,7 @@ from ..errors import InvalidValue, Mistake, NotCompiled, Problem
 from ..populations.materials import BULK
 from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
-from ..quantities.progress import Cost, report_solved, reporting, solving, weigh_states
+from ..quantities.progress import report_solved, watch_states, weigh_states
 from ..quantities.value import paths_of, warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
@@ -106,10 +106,8 @@ def solve_states(
     """
     load, loads, arrays = _loads_and_inputs(contact, pressure, F_star, d, vary)
     total = len(loads)
-    with reporting("states", total, 0, progress) as report:
-        cost = Cost(total, report, "" if progress else "states")
-        with solving(cost):
-            columns = _columns(contact, arrays, load, loads, fewest_of(contact))
+    with watch_states("states", total, progress) as cost:
+        columns = _columns(contact, arrays, load, loads, fewest_of(contact))
         cost.report_finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 
@@ -441,6 +439,19 @@ def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     return bool(contact.populations)
 
 
+def goes_one_by_one(contact: Contact, vary: Iterable[str]) -> bool:
+    """Whether each of the states that differ in these inputs binds a contact of its own."""
+    names = [name for name in vary if name not in LOADS and carries(name)]
+    return bool(names) and not solves_each(contact, names)
+
+
+def why_outputs(contact: Contact, names: Iterable[str]) -> str:
+    """Why contacts of which these columns are asked go one by one; empty without outputs."""
+    of_outputs = {name for output in contact.outputs for name in output.columns}
+    asked_of = [name for name in names if name in of_outputs]
+    return f"{OWN_SPOTS}, for {', '.join(asked_of[:3])}" if asked_of else ""
+
+
 def solves_each(contact: Contact, vary: Iterable[str]) -> bool:
     """Whether the compiled engine solves states of this contact by laws of their own.
 
@@ -576,8 +587,7 @@ def _by_groups(
         )
         result = solve_untold(state, load, loads[which])
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
-        more = {"engine": _all(len(which), path), CODE: np.atleast_1d(result.status_code)}
-        parts.append((which, result.columns() | more))
+        parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
         report_solved(len(which), why)
     return _join_columns(len(loads), parts)
 

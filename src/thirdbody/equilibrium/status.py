@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.asperity_sums import SEARCHED, ReducedSum
+from ..quantities.record import Column, flags_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,7 @@ __all__ = [
     "FIELD_SENTENCES",
     "MOST_AREA",
     "SENTENCES",
+    "STATUS_CODE",
     "WORDS",
     "Status",
     "Statuses",
@@ -33,6 +35,9 @@ mean height of a rough surface cuts half of it."""
 class Status(IntEnum):
     """Outcome of a state. Files keep the codes: new ones come last, none changes.
 
+    Results hold the codes as numbers in ``status_code``, beside the sentences of ``status``;
+    ``Status(code)`` makes a member of a number.
+
     Examples
     --------
     >>> from thirdbody.results import Status
@@ -40,6 +45,13 @@ class Status(IntEnum):
     ('ok', 'jump')
     >>> Status.CROWDED.has_numbers, Status.TOO_MUCH.has_numbers
     (True, False)
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> states = tb.solve(contact, pressure=[1e6, 1e15])
+    >>> [Status(code).name for code in states.status_code]
+    ['OK', 'TOO_MUCH']
     """
 
     OK = 0
@@ -77,6 +89,21 @@ WORDS = (
     "beyond_laws",
     "crowded",
 )
+
+
+class _StatusColumn(Column):
+    """Column of codes of `Status`: a data set says what they mean."""
+
+    __slots__ = ()
+
+    @property
+    def attributes(self) -> dict[str, object]:
+        """Attributes of the column in a data set, with the words of the codes."""
+        return self.labels | flags_of(WORDS)
+
+
+STATUS_CODE = _StatusColumn("", "", "code of the status")
+"""What the column ``status_code`` is."""
 SENTENCES = np.array(
     [
         "ok",

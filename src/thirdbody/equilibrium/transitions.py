@@ -14,8 +14,10 @@ from ..contact.interface import interface
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
-from ..quantities.notebook import Card, Row, Shown, words_of
-from ..quantities.record import Record
+from ..quantities.notebook import Card, Row, words_of
+from ..quantities.record import Column, Record, TableRecord, Variable
+from ..version import __version__
+from .columns import COLUMNS
 from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW, Basis, CriticalStatus, need_shares
 from .words import happens
@@ -77,8 +79,10 @@ class TurningPoint(Record):
 
 
 @dataclass(frozen=True, slots=True)
-class Transitions(Shown, Record):
+class Transitions(TableRecord):
     """Critical loads F* [1] and turning point of one contact; made by `transitions`.
+
+    As labelled data and as a table they lie along ``transition``: load and status of each.
 
     Examples
     --------
@@ -105,6 +109,28 @@ class Transitions(Shown, Record):
         """Critical loads by name, those of the turning point as ``F_tpca.A``."""
         turning = {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
         return {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2} | turning
+
+    def variables(self) -> dict[str, Variable]:
+        """Load and status of each; NaN where there is no load."""
+        loads = self.entries().values()
+        values = [np.nan if load.value is None else load.value for load in loads]
+        status = Column("", "", "found, or why there is no load")
+        return {
+            "F_star": Variable(("transition",), values, COLUMNS["F_star"].labels),
+            "status": Variable(("transition",), [load.status for load in loads], status.labels),
+        }
+
+    def coordinates(self) -> dict[str, Variable]:
+        """The name of each, and what happens there."""
+        names = list(self.entries())
+        return {
+            "transition": Variable(("transition",), names),
+            "meaning": Variable(("transition",), [happens(name) for name in names]),
+        }
+
+    def attributes(self) -> dict[str, str]:
+        """The version of the library."""
+        return {"version": __version__}
 
     def _cards(self) -> Iterator[Card]:
         """A table for notebooks: each load, its status, and what it is."""

@@ -17,6 +17,7 @@ import math
 from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,7 +35,8 @@ from ..populations.measured.topography import Topography
 from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
 from ..quantities.plain_data import plain_data
-from ..quantities.progress import reporting
+from ..quantities.progress import Stages, count_states, watch_states
+from ..quantities.record import TableRecord, Variable
 from ..quantities.run_files import read_record, sealed_text
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connect_client, need_version, share_parts
@@ -76,8 +78,10 @@ RECORD = {
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Ensemble:
+class Ensemble(TableRecord):
     """Explicit surfaces against the statistical model; made by `ensemble`.
+
+    As labelled data and as a table it is ``table``, a row for each load.
 
     Attributes
     ----------
@@ -118,6 +122,14 @@ class Ensemble:
     left_out: int
     warnings: tuple[str, ...] = ()
 
+    def variables(self) -> dict[str, Variable]:
+        """What stands beside the statistical model."""
+        return {str(name): as_variable(values) for name, values in self.table.data_vars.items()}
+
+    def coordinates(self) -> dict[str, Variable]:
+        """The loads."""
+        return {str(name): as_variable(values) for name, values in self.table.coords.items()}
+
     @property
     def sentence(self) -> str:
         """What the numbers say, in words."""
@@ -136,6 +148,11 @@ class Ensemble:
             "summary": self.sentence,
             "warnings": list(self.warnings),
         }
+
+
+def as_variable(values: xarray.DataArray) -> Variable:
+    """A variable of a data set, for another."""
+    return Variable(tuple(map(str, values.dims)), values.values, values.attrs)
 
 
 @takes_units
@@ -193,7 +210,7 @@ def ensemble(
     workers: int = 1,
     scheduler: str | None = None,
     folder: str | Path | None = None,
-    progress: bool | Callable[[int], None] = False,
+    progress: bool | Callable[[int], None] | Stages = False,
 ) -> Ensemble:
     """Many explicit surfaces against the statistical model at equal loads.
 
@@ -222,7 +239,8 @@ def ensemble(
         Where finished surfaces are kept: a run that is interrupted goes on from there. One that is
         damaged is pressed again; those of another study are refused.
     progress : bool or callable, optional
-        As in `thirdbody.sweep`; counts surfaces.
+        True shows on standard error how many separations are pressed, and the time left; a
+        callable gets the number of surfaces.
 
     Returns
     -------
@@ -233,6 +251,11 @@ def ensemble(
     InvalidValue
         As `solve`; surfaces that do not carry such a load; a scheduler that does not answer; a
         folder with surfaces of another study.
+
+    Warns
+    -----
+    SlowWarning
+        Surfaces that take more than 10 s together: how long. Without ``progress``.
 
     Notes
     -----
@@ -283,19 +306,33 @@ def ensemble(
         key = _key(contact, topographies, rule, numbers, grid)
         kept = None if folder is None else Path(folder)
         records = {} if kept is None else _read_surfaces(kept, total, key)
-        left = [(i, task(i, grid)) for i in range(total) if i not in records]
-        results = share_parts(
-            left, workers=workers, client=client, noun="surface", smaller="a smaller size"
-        )
-        with (
-            closing(results),
-            reporting("explicit", total, len(records), progress, "surfaces") as report,
-        ):
-            for i, record in results:
-                if kept is not None:
-                    write_text(_file(make_folder(kept), i), sealed_text(record | {"key": key}))
-                records[i] = record
-                report(len(records))
+        # each separation is pressed with particles, and without
+        one = len(grid) * (1 if contact.two_body else 2)
+        report = progress if callable(progress) and not isinstance(progress, Stages) else None
+        with watch_states(
+            "explicit",
+            one * total,
+            progress if report is None else _say_nothing,
+            "separations of surfaces",
+            one * len(records),
+        ) as cost:
+            tasks = {i: task(i, grid) for i in range(total) if i not in records}
+            left: list[tuple[int, Callable[[], dict[str, object]]]] = [
+                (i, press_one if client is not None else partial(count_states, press_one, cost))
+                for i, press_one in tasks.items()
+            ]
+            results = share_parts(
+                left, workers=workers, client=client, noun="surface", smaller="a smaller size"
+            )
+            with closing(results):
+                for i, record in results:
+                    if kept is not None:
+                        write_text(_file(make_folder(kept), i), sealed_text(record | {"key": key}))
+                    records[i] = record
+                    if client is not None:
+                        cost(one)
+                    if report is not None:
+                        report(len(records))
     return _ensemble(
         contact,
         [records[i] for i in range(total)],
@@ -304,6 +341,10 @@ def ensemble(
         cap=cap,
         gaussian=topographies is None,
     )
+
+
+def _say_nothing(done: int) -> None:
+    """Progress that nobody sees."""
 
 
 def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, object]]:
@@ -485,7 +526,7 @@ def _ensemble(
     }
     table = xarray.Dataset(
         _columns(at, state, gaussian),
-        coords={"F_star": ("F_star", loads, {"units": "1"})},
+        coords={"F_star": ("F_star", loads, COLUMNS["F_star"].labels)},
     )
     if hardest != contact.surfaces.H:
         notes.append(
@@ -553,21 +594,42 @@ def _columns(at_loads: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -
     table: dict[str, Any] = {}
     for kind, at in at_loads.items():
         for name in COMPARED:
-            about = {"units": COLUMNS[name].unit}
-            table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
-            table[f"{name}_{kind}_error"] = ("F_star", at.errors[name], about)
-            if name in SHARES:
-                table[f"{name}_{kind}_least"] = ("F_star", at.least[name], about)
-                table[f"{name}_{kind}_most"] = ("F_star", at.most[name], about)
+            table[f"{name}_{kind}"] = ("F_star", at.values[name], labels_of(name, kind))
+            bounds = {"error": at.errors}
+            bounds |= {"least": at.least, "most": at.most} if name in SHARES else {}
+            for what, values in bounds.items():
+                labels = labels_of(name, kind, what)
+                table[f"{name}_{kind}_{what}"] = ("F_star", values[name], labels)
     best = "cv" if gaussian else "raw"
     for name in COMPARED:
         model = np.asarray(getattr(state, name))
         estimate, error = (table[f"{name}_{best}{what}"][1] for what in ("", "_error"))
         with np.errstate(invalid="ignore", divide="ignore"):
             difference = (estimate - model) / error
-        table[f"{name}_statistical"] = ("F_star", model, {"units": COLUMNS[name].unit})
-        table[f"{name}_difference"] = ("F_star", difference, {"units": "1"})
+        table[f"{name}_statistical"] = ("F_star", model, labels_of(name, "statistical"))
+        labels = labels_of(name, "difference") | {"units": "1"}
+        table[f"{name}_difference"] = ("F_star", difference, labels)
     return table
+
+
+def labels_of(name: str, *words: str) -> dict[str, str]:
+    """Attributes of a column of the table, by what is compared and how."""
+    about = COLUMNS[name]
+    return about._replace(
+        meaning=", ".join([about.meaning, *(WORDS[word] for word in words)])
+    ).labels
+
+
+WORDS = {
+    "raw": "of these surfaces",
+    "cv": "of these surfaces without their luck",
+    "error": "standard error",
+    "least": "the least it may be",
+    "most": "the most it may be",
+    "statistical": "of the statistical model",
+    "difference": "difference to the statistical model in standard errors",
+}
+"""What the endings of the columns of the table mean."""
 
 
 # -------------------------------------------------------------------------- what is asked

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..equilibrium.solve import given_numbers
 from ..errors import InvalidValue, Mistake, Note, Problem, tell_of_range
 from ..laws.base import REGIMES
 from ..quantities.carried import takes_units
+from ..quantities.progress import Stages, report_solved, watch_states
 from ..quantities.say import number, percent, plural, value_of
 from .blocks import ERRORS, STEP, block_sums, errors_of, long_waves
 from .interface import Interface, interface_of, map_of
@@ -79,6 +80,7 @@ def solve(
     maps: Maps = "last",
     workers: int = 1,
     blocks: int | None = None,
+    progress: bool | Callable[[int], None] | Stages = False,
 ) -> ExplicitState:
     r"""Press a height map, with every particle at its place, against a flat.
 
@@ -129,6 +131,8 @@ def solve(
         Blocks along each side of the map, 4 for 16 of them, over which the ``errors`` of the state
         are taken: how much another place of the surface would differ. Each load is then pressed
         twice. None by default.
+    progress : bool or callable, optional
+        As in `thirdbody.sweep`; counts loads, each twice with ``blocks``.
 
     Returns
     -------
@@ -143,6 +147,8 @@ def solve(
     -----
     RangeWarning
         Where the answer is doubtful: `ExplicitState.warnings` has the sentences too.
+    SlowWarning
+        Loads that take more than 10 s together: how long. Without ``progress``.
 
     Notes
     -----
@@ -186,9 +192,13 @@ def solve(
     if name != "h":
         values = values * surface_map.area * (contact.E_ss if name == "F_star" else 1.0)
     effort = Effort(tol, max_iterations, precision == "single", workers)
-    states, seconds = curve(inside, "h" if name == "h" else "load", values, effort)
+    each_load = 1 if blocks is None else 2
+    with watch_states("explicit", each_load * len(values), progress, "loads on one surface"):
+        states, seconds = curve(inside, "h" if name == "h" else "load", values, effort)
+        errors, rough = (
+            ({}, []) if blocks is None else _block_errors(inside, states, blocks, effort)
+        )
     columns = [numbers_of(inside, state) for state in states]
-    errors, rough = ({}, []) if blocks is None else _block_errors(inside, states, blocks, effort)
     notes = (*inside.warnings, *_doubts(columns, states, tol), *rough)
     for sentence in notes:
         tell_of_range(sentence)
@@ -295,6 +305,7 @@ def curve(
             **effort._asdict(),
         )  # fmt: skip
         states[i], seconds[i] = near, time.perf_counter() - begin
+        report_solved(1)
     every = range(len(values))
     return [states[i] for i in every], [seconds[i] for i in every]
 

@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import Advice, SlowWarning, tell_of_range
 
@@ -19,6 +19,7 @@ __all__ = [
     "advance",
     "aside",
     "count_contacts",
+    "count_states",
     "duration",
     "heartbeat",
     "nested_stages",
@@ -27,6 +28,7 @@ __all__ = [
     "solving",
     "stages",
     "watch_contacts",
+    "watch_states",
     "weigh_states",
 ]
 
@@ -34,6 +36,7 @@ EVERY = 30.0
 """Seconds between two lines where there is no terminal."""
 
 Report = Callable[[int], None]
+Result = TypeVar("Result")
 
 
 @contextmanager
@@ -287,7 +290,7 @@ def nested_stages(outer: Callable[[str], None], count: int) -> Stages:
 
 
 @contextmanager
-def watch_contacts(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
+def watch_contacts(what: str, total: int, wanted: bool | Report, why: str = "") -> Iterator[None]:
     """Contacts that are bound inside are shown, or a `SlowWarning` says how long they take.
 
     Nothing where somebody counts them already.
@@ -300,13 +303,16 @@ def watch_contacts(what: str, total: int, wanted: bool | Report) -> Iterator[Non
         About how many will be bound.
     wanted : bool or callable
         As in `reporting`.
+    why : str, optional
+        What makes them go one by one.
     """
     if _TALLY.get() is not None:
         yield
         return
     with reporting(what, total, 0, wanted, "contacts") as report:
-        cost = Cost(total, report, "" if wanted else f"contacts of {what}")
-        with count_contacts(total, lambda done, expected: cost(1.0)):
+        # the first is that of the user, and what all others share is made before the second
+        cost = Cost(total, report, "" if wanted else f"contacts of {what}", uncounted=2)
+        with count_contacts(total, lambda done, expected: cost(1.0, why)):
             yield
 
 
@@ -386,6 +392,48 @@ def weigh_states(share: float) -> Iterator[None]:
         yield
 
 
+def count_states(task: Callable[[], Result], report: Solving) -> Result:
+    """Carry out a task whose states are told while they are solved, in whatever thread."""
+    with solving(report):
+        return task()
+
+
+@contextmanager
+def watch_states(
+    title: str, total: int, wanted: bool | Report | Stages, what: str = "states", done: int = 0
+) -> Iterator[Cost]:
+    """States solved inside are shown, or it is said how long they take.
+
+    Parameters
+    ----------
+    title : str
+        What stands in front.
+    total, done : int
+        States of the whole run, and those of earlier runs.
+    wanted : bool, callable or Stages
+        As in `reporting`; without it a `SlowWarning` says how long they take. To `Stages` they are
+        the present part.
+    what : str, optional
+        What is counted.
+    """
+    if isinstance(wanted, Stages):
+        parts = wanted
+        cost = Cost(
+            total,
+            lambda now: parts.report_progress(now, total, what),
+            what,
+            done,
+            promise=lambda whole: parts.cost((total, whole / total, what)),
+        )
+        with solving(cost):
+            yield cost
+        return
+    with reporting(title, total, done, wanted, what) as report:
+        cost = Cost(total, report, "" if wanted else what, done)
+        with solving(cost):
+            yield cost
+
+
 _ASIDE = [0.0]
 """Seconds of this process that count in no estimate."""
 
@@ -416,25 +464,41 @@ class Cost:
     early : bool
         Whether states are told before `report_finished`: not where each number must be one that
         lasts, as every time the same.
+    promise : callable, optional
+        Gets the seconds of all states once they are known to be many, in the place of the warning.
+    uncounted : int
+        Calls at the beginning from which nothing follows: something may have been compiled before.
     """
 
     def __init__(
-        self, total: int, report: Report, what: str = "", done: int = 0, early: bool = True
+        self,
+        total: int,
+        report: Report,
+        what: str = "",
+        done: int = 0,
+        early: bool = True,
+        promise: Callable[[float], None] | None = None,
+        uncounted: int = 1,
     ):
         self.total, self.report, self.what, self.early = total, report, what, early
+        self.promise = promise
         self.done, self.reported = float(done), done
-        self.start: float | None = None
+        self.start, self.uncounted = 0.0, uncounted
         self.shown, self.first = -math.inf, 0.0
 
     def __call__(self, count: float, why: str = "") -> None:
         self.done += count
         now = time.monotonic() - _ASIDE[0]
-        if self.start is None:  # the first of them may have been compiled for
+        if self.uncounted > 0:
+            self.uncounted -= 1
             self.start, self.first = now, self.done
         elif self.what and now - self.start > SURE:
             whole = (now - self.start) * self.total / max(self.done - self.first, 1e-9)
             if whole > LONG and self.done < self.total:
-                self._warn(whole, why)
+                if self.promise is None:
+                    self._warn(whole, why)
+                else:
+                    self.promise(whole)
             self.what = ""
         if self.early and now - self.shown > 0.5:
             self.shown = now

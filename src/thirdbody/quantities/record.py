@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field, fields
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, field, fields
 from functools import cached_property
-from types import MethodType
+from types import MappingProxyType, MethodType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
@@ -19,11 +19,11 @@ from .plain_data import plain_data
 if TYPE_CHECKING:
     import pandas
     import xarray
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    *("VERSION", "Column", "Entry", "MappedRecord", "Record", "StateRecord"),
-    *("column", "declared_columns", "with_names"),
+    *("VERSION", "Column", "Entry", "MappedRecord", "Record", "StateRecord", "TableRecord"),
+    *("Variable", "column", "declared_columns", "flags_of", "with_names"),
 ]
 
 MOST_SHOWN = 6
@@ -60,13 +60,35 @@ class Column(NamedTuple):
 
     @property
     def labels(self) -> dict[str, str]:
-        """Attributes of the column in a data set."""
+        """What the column is, in the words of a data set."""
         return {"units": self.unit, "long_name": self.meaning, "symbol": self.symbol}
 
+    @property
+    def attributes(self) -> dict[str, object]:
+        """Attributes of the column in a data set: its labels, and what its codes mean."""
+        return {**self.labels}
 
-def column(symbol: str, unit: str, meaning: str) -> Any:
+
+def flags_of(words: Sequence[str]) -> dict[str, object]:
+    """Attributes of a variable of codes 0, 1, 2 ... that say what each means (CF conventions).
+
+    >>> flags_of(["ok", "jump"])
+    {'flag_values': [0, 1], 'flag_meanings': 'ok jump'}
+    """
+    return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
+
+
+class Variable(NamedTuple):
+    """What a data set holds under one name: values along dimensions, and their labels."""
+
+    dims: tuple[str, ...]
+    values: ArrayLike
+    labels: Mapping[str, object] = MappingProxyType({})
+
+
+def column(symbol: str, unit: str, meaning: str, *, default: object = MISSING) -> Any:
     """A field of a result that is a column."""
-    return field(metadata={"column": Column(symbol, unit, meaning)})
+    return field(default=default, metadata={"column": Column(symbol, unit, meaning)})
 
 
 def declared_columns(kind: type) -> Mapping[str, Column]:
@@ -156,43 +178,44 @@ class MappedRecord(Record, Mapping[str, Any]):
         return len(self._data)
 
 
-class StateRecord(Shown, Record):
-    """A result with columns, one number of each for every state.
+class TableRecord(Shown, Record):
+    """A result that is handed out as labelled data and as a table too.
 
-    A subclass declares them with `column`; ``outputs``, where it has such a field, holds more
-    of them by name.
+    They hold what a subclass declares with `column`, or what its `variables` are.
     """
 
     __slots__ = ()
-    in_dict: ClassVar[tuple[Entry, ...]] = (("", "columns"),)
-    warnings: tuple[str, ...] = ()
+    in_columns: ClassVar[tuple[str, ...]] = ()
+    """Dimensions along which a table has columns, not rows: ``name[place]``."""
+    along: ClassVar[str] = "state"
+    """Dimension of the declared columns, and the column of its places, where there is one."""
+    more_columns: ClassVar[Mapping[str, Column]] = MappingProxyType({})
+    """Columns that come last, each an attribute of the record."""
+
+    def variables(self) -> Mapping[str, Variable]:
+        """What there is along the dimensions, by name."""
+        out: dict[str, Variable] = {}
+        for name, about in {**declared_columns(type(self)), **self.more_columns}.items():
+            value = getattr(self, name)
+            values = np.asarray(np.nan if value is None else value)
+            if name != self.along:
+                out[name] = Variable((self.along,)[: values.ndim], values, about.attributes)
+        return out
+
+    def coordinates(self) -> Mapping[str, Variable]:
+        """The places along the dimensions, and what is said of each place."""
+        about = declared_columns(type(self)).get(self.along)
+        if about is None:
+            return {}
+        return {self.along: Variable((self.along,), getattr(self, self.along), about.attributes)}
+
+    def attributes(self) -> Mapping[str, object]:
+        """Attributes of a data set that hold for all of it."""
+        return {"warnings": "\n".join(getattr(self, "warnings", ()))}
 
     @names_arguments
-    def about(self, name: str) -> Column:
-        """Symbol, unit and meaning of a column."""
-        columns = declared_columns(type(self))
-        if name not in columns:
-            raise InvalidValue(
-                f"name = {name!r} must be one of {', '.join(columns)}", code=Mistake.OPTION
-            )
-        return columns[name]
-
-    def columns(self) -> dict[str, NDArray[Any]]:
-        """Every column as a 1-D array, those of the outputs last."""
-        stored = {name: getattr(self, name) for name in declared_columns(type(self))}
-        every = stored | dict(getattr(self, "outputs", {}))
-        return {name: np.atleast_1d(values) for name, values in every.items()}
-
-    def attributes(self) -> dict[str, str]:
-        """Attributes of a data set that hold for all its states."""
-        return {"warnings": "\n".join(self.warnings)}
-
-    def more_variables(self) -> tuple[dict[str, object], dict[str, object]]:
-        """Variables of a data set beside the columns, and their coordinates."""
-        return {}, {}
-
     def to_dataset(self, *, title: str = "") -> xarray.Dataset:
-        """The states as labelled data, one along the dimension ``state``.
+        """The result as labelled data; states lie along the dimension ``state``.
 
         Parameters
         ----------
@@ -203,8 +226,9 @@ class StateRecord(Shown, Record):
         -------
         xarray.Dataset
             Every column with ``units``, ``long_name`` and ``symbol``; title and warnings as
-            attributes, of an `Equilibrium` inputs, version, engine and citations too. What each of
-            several populations carries has the dimension ``population`` too.
+            attributes, of a result that knows its contact inputs, version and citations too. What
+            each of several populations carries has the dimension ``population`` too. The column
+            ``status_code`` says in ``flag_meanings`` what its numbers mean.
 
         Examples
         --------
@@ -218,19 +242,18 @@ class StateRecord(Shown, Record):
         """
         import xarray
 
-        data = {n: ("state", v, self.about(n).labels) for n, v in self.columns().items()}
-        more, coords = self.more_variables()
-        attributes = {"title": title} | self.attributes()
-        return xarray.Dataset(data | more, coords=coords, attrs=attributes)
+        attributes = {"title": title or getattr(self, "title", ""), **self.attributes()}
+        return xarray.Dataset(self.variables(), coords=self.coordinates(), attrs=attributes)
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """The states as a pandas table, one a row; units and symbols in ``attrs``.
+        """The result as a pandas table, one state a row; units and symbols in ``attrs``.
 
         Returns
         -------
         pandas.DataFrame
-            Every column. ``attrs["units"]``, ``attrs["symbol"]`` and ``attrs["long_name"]`` say
-            of each what it is.
+            Every column; of what has places beside each other, as populations, one for each:
+            ``population_A_sa[dust]``. ``attrs["units"]``, ``attrs["symbol"]`` and
+            ``attrs["long_name"]`` say of each what it is.
 
         Raises
         ------
@@ -248,29 +271,84 @@ class StateRecord(Shown, Record):
         (['s-s', 's-s'], 'Pa')
         """
         try:
-            import pandas
+            import pandas  # noqa: F401
         except ImportError:
             raise ImportError(
                 "a table of states needs pandas; install it with pip install pandas, or take "
                 "to_dataset()"
             ) from None
-        columns = self.columns()
-        table = pandas.DataFrame(columns)
-        table.index.name = "state"
+        data = self.to_dataset()
+        for dim in (dim for dim in self.in_columns if dim in data.dims):
+            along = [name for name, values in data.data_vars.items() if dim in values.dims]
+            single = {
+                f"{name}[{place}]": data[name].sel({dim: place}, drop=True)
+                for name in along
+                for place in data[dim].values
+            }
+            data = data.drop_vars(along).drop_dims(dim).assign(single)
+        table: pandas.DataFrame = data.to_dataframe()
         for key in ("units", "symbol", "long_name"):
-            table.attrs[key] = {name: self.about(name).labels[key] for name in columns}
+            table.attrs[key] = {name: data[name].attrs.get(key, "") for name in table.columns}
         return table
 
     def _cards(self) -> Iterator[Card]:
-        """A table for notebooks: a row for each column, the first and the last states."""
-        columns = {name: (self.about(name), values) for name, values in self.columns().items()}
+        """A table for notebooks: a row for each column, the first and the last places."""
+        every = {**self.coordinates(), **self.variables()}
+        dim = next(variable.dims[0] for variable in every.values() if variable.dims)
+        shown = {name: one for name, one in every.items() if one.dims in ((), (dim,))}
+        cells = {
+            name: _cells(np.atleast_1d(values), str(labels.get("units", "")))
+            for name, (_, values, labels) in shown.items()
+        }
+        width = max(map(len, cells.values()))
         rows = [
-            Row(column.symbol or name, _cells(values, column.unit), column.meaning)
-            for name, (column, values) in columns.items()
+            Row(
+                str(labels.get("symbol") or name),
+                cells[name] + [""] * (width - len(cells[name])),
+                str(labels.get("long_name", "")),
+            )
+            for name, (_, _, labels) in shown.items()
         ]
-        count = len(next(iter(self.columns().values())))
-        states = "1 state" if count == 1 else f"{count} states"
-        yield Card(f"{type(self).__name__}, {states}", rows, self.warnings)
+        count = next(np.size(one.values) for one in shown.values() if one.dims)
+        places = f"{count} values of {dim}"
+        if dim == "state":
+            places = "1 state" if count == 1 else f"{count} states"
+        yield Card(f"{type(self).__name__}, {places}", rows, getattr(self, "warnings", ()))
+
+
+class StateRecord(TableRecord):
+    """A result with columns, one number of each for every state.
+
+    A subclass declares them with `column`; ``outputs``, where it has such a field, holds more
+    of them by name.
+    """
+
+    __slots__ = ()
+    in_dict: ClassVar[tuple[Entry, ...]] = (("", "columns"),)
+
+    @names_arguments
+    def about(self, name: str) -> Column:
+        """Symbol, unit and meaning of a column."""
+        columns = {**declared_columns(type(self)), **self.more_columns}
+        if name not in columns:
+            raise InvalidValue(
+                f"name = {name!r} must be one of {', '.join(columns)}", code=Mistake.OPTION
+            )
+        return columns[name]
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Every column as a 1-D array, those of the outputs behind, and `more_columns` last."""
+        stored = {name: getattr(self, name) for name in declared_columns(type(self))}
+        every = stored | dict(getattr(self, "outputs", {}))
+        every |= {name: getattr(self, name) for name in self.more_columns}
+        return {name: np.atleast_1d(values) for name, values in every.items()}
+
+    def variables(self) -> Mapping[str, Variable]:
+        """The columns, along ``state``."""
+        return {
+            name: Variable(("state",), values, self.about(name).attributes)
+            for name, values in self.columns().items()
+        }
 
 
 def _cells(values: NDArray[Any], unit: str) -> list[str]:

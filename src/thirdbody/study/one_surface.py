@@ -93,7 +93,8 @@ def one_surface(study: Study, F_star: object, *, points: int = POINTS) -> OneSur
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, surface, spacing=spacing, F_star=loads, seats=seats, **how)
         heights = seats_on(contact, surface, spacing=spacing, seats=seats, seed=how.get("seed", 0))
-    notes = tuple(dict.fromkeys(note_of(warning.message) for warning in heard))
+    about = [warning for warning in heard if issubclass(warning.category, RangeWarning)]
+    notes = tuple(dict.fromkeys(note_of(warning.message) for warning in about))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         model = statistical(counterpart(contact, heights), F_star=loads)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,19 +11,26 @@ from typing import Any
 import numpy as np
 
 from ..contact.citations import cite
-from ..equilibrium.columns import CODE, about
+from ..equilibrium.columns import CODE, provenance
 from ..equilibrium.transitions import Transitions
 from ..errors import NoEquilibrium, note_data
 from ..quantities.carried import takes_units
 from ..quantities.plain_data import plain_data
-from ..quantities.record import VERSION, Entry, MappedRecord, Record, with_names
+from ..quantities.record import (
+    VERSION,
+    Entry,
+    MappedRecord,
+    Record,
+    TableRecord,
+    Variable,
+    with_names,
+)
 from ..quantities.say import percent, value_of
 from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
 from ..systems.film_formulas import full_range
-from ..systems.mixed_film import COLUMNS
 from ..systems.natures import Nature, natures
-from ..systems.stribeck import RegimeSpeeds
+from ..systems.stribeck import OF_CURVE, RegimeSpeeds
 from .film import note_without_oil
 from .load import force_sentences
 from .what_ifs import WhatIf, what_ifs_of_states
@@ -45,7 +53,7 @@ def _entries(input_entry: Entry, *numbers: Entry) -> tuple[Entry, ...]:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class _Result(MappedRecord):
+class _Result(MappedRecord, TableRecord):
     """A study and its results; indexed, it is the plain data of `to_dict`."""
 
     study: Study
@@ -127,9 +135,24 @@ class StudyResult(_Result):
         ),
         ("", "_bodies"),
     )
+    in_columns = ("population",)
     states: Any
     transitions: Transitions
     forces: tuple[Pressed, ...] = ()
+
+    def variables(self) -> Mapping[str, Variable]:
+        """Columns of the states."""
+        variables: Mapping[str, Variable] = self.states.variables()
+        return variables
+
+    def coordinates(self) -> Mapping[str, Variable]:
+        """Names of several populations."""
+        coordinates: Mapping[str, Variable] = self.states.coordinates()
+        return coordinates
+
+    def attributes(self) -> Mapping[str, object]:
+        """Warnings, inputs, version and citations."""
+        return {**self.states.attributes(), "warnings": "\n".join(self.warnings)}
 
     @property
     def oil_notes(self) -> tuple[str, ...]:
@@ -217,7 +240,7 @@ class StudyResult(_Result):
         """
         columns = self._coded_states()
         codes = columns.pop(CODE)
-        units = {name: about(name).unit for name in self.states.columns()}
+        units = {name: self.states.about(name).unit for name in self.states.columns()}
         for population in self.states.populations:
             for name, values in population.columns().items():
                 columns[f"{population.name}: {name}"] = plain_data(values)
@@ -292,6 +315,24 @@ class FilmResult(_Result):
     passing: tuple[Passing, ...]
     entrainment: Entrained | None = None
 
+    def variables(self) -> dict[str, Variable]:
+        """Columns of the film, over the speed."""
+        columns = {
+            name: Variable(("speed",), values, OF_CURVE[name].attributes)
+            for name, values in self.states.items()
+        }
+        del columns["speed"]
+        return columns
+
+    def coordinates(self) -> dict[str, Variable]:
+        """The speeds."""
+        return {"speed": Variable(("speed",), self.states["speed"], OF_CURVE["speed"].labels)}
+
+    def attributes(self) -> Mapping[str, object]:
+        """Warnings, inputs, version and citations."""
+        said = {"warnings": "\n".join(self.warnings)}
+        return provenance(self.study.contact) | said | {"citations": "\n".join(self.citations)}
+
     @property
     def conditions(self) -> FilmConditions:
         """What the table [film] says."""
@@ -311,8 +352,7 @@ class FilmResult(_Result):
     def table(self) -> tuple[Columns, dict[str, str]]:
         """Columns of the states, then what passes and what the oil brings, and their units."""
         columns: Columns = plain_data(self.states)
-        units = {name: COLUMNS[name].unit if name in COLUMNS else "1" for name in columns}
-        units |= {"regime": "", "status": "", CODE: ""}
+        units = {name: OF_CURVE[name].unit for name in columns}
         for passing in self.passing:
             columns[f"{passing.name}: passing"] = plain_data(passing.share)
             units[f"{passing.name}: passing"] = "1"

@@ -31,6 +31,7 @@ from ..explicit.ensemble import (
 from ..explicit.solve import Maps, solve
 from ..explicit.state import COLUMNS, ExplicitState
 from ..quantities.plain_data import plain_data
+from ..quantities.progress import Stages, stages
 from ..quantities.run_files import MARK, claim_folder, read_json
 from ..version import __version__
 from .whole import Study
@@ -88,6 +89,8 @@ def run_explicit(
     scheduler : str, optional
         Address of a Dask cluster whose workers press the synthetic surfaces instead.
     progress : bool or callable, optional
+        True shows on standard error what is pressed, and what it costs once that is known; a
+        callable gets the number of surfaces.
 
     Returns
     -------
@@ -120,10 +123,15 @@ def run_explicit(
     size = options.pop("size", SIZE)
     count, spacing = options.pop("surfaces", SURFACES), options.pop("spacing", None)
     notes = list(study.notes)
-    with warnings.catch_warnings(record=True) as heard:
+    one_face = len(study.faces) == 1
+    with (
+        stages("explicit", 1 if one_face else 2, progress is True) as parts,
+        warnings.catch_warnings(record=True) as heard,
+    ):
         warnings.simplefilter("always", RangeWarning)
-        if len(study.faces) == 1:
-            made = _run_measured(study, contact, loads, options, maps, workers)
+        parts("surface" if one_face else "surfaces")
+        if one_face:
+            made = _run_measured(study, contact, loads, options, maps, workers, parts)
         else:
             if study.faces:
                 notes.append(
@@ -133,10 +141,12 @@ def run_explicit(
             spacing = spacing_for(contact) if spacing is None else spacing
             results = ensemble(
                 contact, surfaces=count, F_star=loads, size=size, spacing=spacing,
-                folder=folder, workers=workers, scheduler=scheduler, progress=progress, **options,
+                folder=folder, workers=workers, scheduler=scheduler,
+                progress=progress if callable(progress) else parts, **options,
             )  # fmt: skip
+            parts("maps of the first surface")
             first = surface_of(contact, size=size, spacing=spacing, seed=options.get("seed", 0))
-            state = solve(contact, first, F_star=loads, maps=maps, **options)
+            state = solve(contact, first, F_star=loads, maps=maps, progress=parts, **options)
             made = _of_ensemble(results, state)
     about = [warning for warning in heard if issubclass(warning.category, RangeWarning)]
     for warning in heard:
@@ -231,10 +241,11 @@ def _run_measured(
     options: dict[str, Any],
     maps: Maps,
     workers: int,
+    parts: Stages,
 ) -> ExplicitResult:
     """Results of one measured map, beside the model with the seats of this map."""
     (face,) = study.faces
-    how: dict[str, Any] = {"maps": maps, "workers": workers, "blocks": BLOCKS}
+    how: dict[str, Any] = {"maps": maps, "workers": workers, "blocks": BLOCKS, "progress": parts}
     state = solve(contact, face, F_star=loads, **how, **options)
     rule = {name: options[name] for name in ("seats", "seed") if name in options}
     seats = seats_on(contact, face, **rule)

@@ -23,7 +23,14 @@ from ..errors import (
 )
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
-from ..quantities.record import Record, column
+from ..quantities.record import (
+    Entry,
+    StateRecord,
+    TableRecord,
+    Variable,
+    column,
+    declared_columns,
+)
 from ..quantities.say import number
 from .coupled_walk import LAST, Walk
 from .feedback import (
@@ -59,7 +66,7 @@ SLOPE = 1e-5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CoupledState(Record):
+class CoupledState(StateRecord):
     """One state in which inputs and outputs agree.
 
     Examples
@@ -69,6 +76,7 @@ class CoupledState(Record):
     'CoupledState'
     """
 
+    in_dict: ClassVar[tuple[Entry, ...]] = ()
     not_in_dict: ClassVar[tuple[str, ...]] = ("state",)
 
     T: float = column("T", "K", "temperature of the surfaces where they touch")
@@ -79,14 +87,13 @@ class CoupledState(Record):
     H_1: float = column("H_1", "Pa", "hardness of surface 1 in this state")
     H_2: float = column("H_2", "Pa", "hardness of surface 2 in this state")
     loop_gain: float = column("g", "1", "rise that a kelvin more of itself makes, dT_out/dT_in")
-    stable: bool = field()
-    """Whether the loop gain is below 1: a disturbance dies out."""
+    stable: bool = column("", "", "whether the loop gain is below 1: a disturbance dies out")
     state: Equilibrium | MixedFilm = field(repr=False)
     """The contact there."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Coupled(Record):
+class Coupled(TableRecord):
     """What `coupled` finds: the states, and where the stable one ends.
 
     Examples
@@ -112,6 +119,16 @@ class Coupled(Record):
     """Points along the load: ``pressure`` [Pa], ``T`` [K], ``mu`` [1]."""
     warnings: tuple[str, ...] = ()
     """Where a state leaves the range of a model, a sentence each."""
+
+    def variables(self) -> dict[str, Variable]:
+        """Columns of the states, and where the stable one ends."""
+        columns = {
+            name: Variable(
+                ("state",), [getattr(state, name) for state in self.states], about.labels
+            )
+            for name, about in declared_columns(CoupledState).items()
+        }
+        return {**columns, **TableRecord.variables(self)}
 
     @property
     def stable(self) -> CoupledState | None:

@@ -21,7 +21,7 @@ from ..errors import InvalidValue, Mistake, Problem
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.arguments import not_positive
 from ..quantities.carried import takes_units
-from ..quantities.record import Record
+from ..quantities.record import TableRecord, column
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -97,7 +97,7 @@ def _load_zone(eps: float) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class RadialShare(Record):
+class RadialShare(TableRecord):
     """How the bodies of one row share a radial load; made by `share_radial_load`.
 
     Attributes
@@ -117,13 +117,14 @@ class RadialShare(Record):
         n of load over approach [1].
     """
 
-    force: float
-    largest: float
-    eps: float
-    shift: float
-    angles: Array
-    loads: Array
-    exponent: float
+    along = "angles"
+    force: float = column("F_r", "N", "radial load")
+    largest: float = column("Q_max", "N", "load of the most loaded body")
+    eps: float = column("ε", "1", "load zone")
+    shift: float = column("δ_r", "m", "shift of the rings against each other")
+    angles: Array = column("ψ", "rad", "place of a body from the direction of the load")
+    loads: Array = column("Q", "N", "load of a body")
+    exponent: float = column("n", "1", "exponent of load over approach")
 
     @property
     def carrying(self) -> int:

@@ -26,10 +26,10 @@ from scipy import special
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.columns import Equilibrium
+from ..equilibrium.columns import CODE, Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
-from ..equilibrium.status import Status
+from ..equilibrium.status import STATUS_CODE, Status
 from ..errors import (
     InvalidValue,
     Mistake,
@@ -189,6 +189,8 @@ class MixedFilm(StateRecord):
         Imbalance of the shares |1 − their sum| [1].
     status : str or array (N,)
         "ok", or why the numbers of the solids are no answer, as in `Equilibrium`.
+    status_code : int or array (N,)
+        `thirdbody.results.Status` of each, of which `status` is the sentence.
     state : Equilibrium
         The dry side: the contact at the same separation.
     warnings : tuple of str
@@ -212,6 +214,7 @@ class MixedFilm(StateRecord):
     ('mixed', 1.0)
     """
 
+    more_columns = {CODE: STATUS_CODE}
     speed: Number = column("u", "m/s", "mean entrainment speed")
     load: Number = column("w", "N", "load")
     pressure: Number = column("p", "Pa", "nominal pressure of film and solids")
@@ -238,6 +241,11 @@ class MixedFilm(StateRecord):
     status: Any = column("status", "", "ok, or why the numbers of the solids are no answer")
     state: Equilibrium = field(repr=False)
     warnings: tuple[str, ...] = ()
+
+    @property
+    def status_code(self) -> int | NDArray[np.int8]:
+        """`thirdbody.results.Status` of each state, of which `status` is the sentence."""
+        return self.state.status_code
 
     @property
     def solid_share(self) -> Number:

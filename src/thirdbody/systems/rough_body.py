@@ -21,15 +21,18 @@ nodes grows until the series has converged.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..contact.contact import Contact
+from ..equilibrium.columns import CODE
+from ..equilibrium.status import STATUS_CODE, Status
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.carried import takes_units
+from ..quantities.record import TableRecord, Variable, column
 from .elastic_balance import (
     COARSE,
     Balance,
@@ -51,9 +54,13 @@ if TYPE_CHECKING:
 __all__ = ["RoughBody", "curve", "rough_cylinder", "rough_sphere"]
 
 
+PER_LENGTH = {"load": "N/m", "stiffness": "N/m^2", "real_area": "m^2/m"}
+"""Units of a cylinder."""
+
+
 # ------------------------------------------------------------------------------ results
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class RoughBody:
+class RoughBody(TableRecord):
     """A solved rough sphere, or a rough cylinder per metre of length.
 
     Made by `rough_sphere` and `rough_cylinder`, where accuracy and source stand.
@@ -104,26 +111,42 @@ class RoughBody:
     ('sphere', True, True)
     """
 
-    shape: str
-    radius: float
-    d: float
-    load: float
-    stiffness: float
-    r: Array
-    gap: Array
-    pressure: Array
-    peak_pressure: float
-    axis_gap: float
-    a_eff: float
-    a_hertz: float
-    p_hertz: float
-    real_area: float | None
-    particle_load_share: float | None
-    resolution: float
-    residual: float
-    crowded_share: float | None = None
-    status: str = "ok"
+    more_columns = {CODE: STATUS_CODE}
+    along = "r"
+    shape: str = column("shape", "", "sphere or cylinder")
+    radius: float = column("B", "m", "radius of the body")
+    d: float = column("d", "m", "separation of the undeformed body at its axis")
+    load: float = column("F", "N", "load")
+    stiffness: float = column("−dF/dd", "N/m", "stiffness")
+    r: Array = column("r", "m", "distance from the axis")
+    gap: Array = column("u", "m", "local separation")
+    pressure: Array = column("p", "Pa", "local pressure")
+    peak_pressure: float = column("p_0", "Pa", "pressure at the axis")
+    axis_gap: float = column("u_0", "m", "separation at the axis")
+    a_eff: float = column("a", "m", "effective contact radius")
+    a_hertz: float = column("a_H", "m", "contact radius of smooth bodies")
+    p_hertz: float = column("p_H", "Pa", "largest pressure of smooth bodies")
+    real_area: float | None = column("A_t", "m^2", "real contact area")
+    particle_load_share: float | None = column("F_sa/F_t", "1", "load share of particles")
+    resolution: float = column("", "1", "last coefficients of the pressure over the largest")
+    residual: float = column("", "m", "largest error of the gap")
+    crowded_share: float | None = column(
+        "", "1", "share of the load where contacts have grown together", default=None
+    )
+    status: str = column("status", "", "ok, or why its numbers are no answer", default="ok")
     warnings: tuple[str, ...] = ()
+
+    def variables(self) -> Mapping[str, Variable]:
+        """The columns; of a cylinder load, stiffness and area are those of a length."""
+        out = dict(TableRecord.variables(self))
+        for name, unit in PER_LENGTH.items() if self.shape == "cylinder" else ():
+            out[name] = out[name]._replace(labels={**out[name].labels, "units": unit})
+        return out
+
+    @property
+    def status_code(self) -> Status:
+        """`thirdbody.results.Status`, of which ``status`` is the sentence."""
+        return Status.OK if self.status == Status.OK.sentence else Status.CROWDED
 
 
 def _result(

@@ -9,7 +9,6 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.columns import CODE, MARKS
 from ..errors import RangeWarning, tell_of_range
 from ..quantities.carried import takes_units
 from ..quantities.record import Column
@@ -18,6 +17,7 @@ from .mixed_film import (
     COLUMNS,
     FEW,
     MOST,
+    MixedFilm,
     _loads_and_speeds,
     check_lubricated,
     mean_gap,
@@ -92,19 +92,14 @@ def stribeck(
         contact, conjunction=conjunction, oil=oil, load=load, speed=speed, **options
     )
 
-    hersey = Column("ηu/w", "1", "Hersey number")
-    return xr.Dataset(
-        {
-            name: ("speed", values, MARKS.get(name) or COLUMNS[name].labels)
-            for name, values in columns.items()
-            if name not in ("speed", "hersey")
-        },
-        coords={
-            "speed": ("speed", columns["speed"], COLUMNS["speed"].labels),
-            "hersey": ("speed", columns["hersey"], hersey.labels),
-        },
-        attrs={"load": float(load), "warnings": "\n".join(messages)},
-    )
+    data = {name: ("speed", v, OF_CURVE[name].attributes) for name, v in columns.items()}
+    coords = {name: data.pop(name) for name in ("speed", "hersey")}
+    attrs = {"load": float(load), "warnings": "\n".join(messages)}
+    return xr.Dataset(data, coords=coords, attrs=attrs)
+
+
+OF_CURVE = {**COLUMNS, **MixedFilm.more_columns, "hersey": Column("ηu/w", "1", "Hersey number")}
+"""What the columns of the curve are."""
 
 
 def stribeck_columns(
@@ -130,7 +125,6 @@ def stribeck_columns(
     if conjunction.shape == "point":
         hersey = hersey * conjunction.R
     columns = {k: v for k, v in state.columns().items() if k not in ("speed", "load")}
-    columns[CODE] = np.asarray(state.state.status_code)
     return {"speed": speeds, "hersey": hersey} | columns, state.warnings
 
 

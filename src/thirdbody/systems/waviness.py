@@ -23,9 +23,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
+from ..equilibrium.columns import CODE
+from ..equilibrium.status import STATUS_CODE, Status
 from ..errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ..quantities.arguments import only_one
 from ..quantities.carried import takes_units
+from ..quantities.record import TableRecord, column
 from .elastic_balance import (
     OUT_OF_REACH,
     WIDENED,
@@ -47,7 +50,7 @@ __all__ = ["WavyContact", "elastic_wave", "measured_wave", "rigid_wave"]
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class WavyContact:
+class WavyContact(TableRecord):
     """A rough contact on a wavy surface.
 
     Made by `rigid_wave`, `elastic_wave` and `measured_wave`.
@@ -93,23 +96,32 @@ class WavyContact:
     True
     """
 
-    d: float
-    pressure: float
-    F_star: float
-    stiffness: float
-    x: Array | None
-    height: Array
-    weight: Array
-    gap: Array
-    local_pressure: Array
-    A_t: float | None
-    A_ss: float | None
-    A_sa: float | None
-    particle_load_share: float | None
-    resolution: float
-    crowded_share: float | None = None
-    status: str = "ok"
+    more_columns = {CODE: STATUS_CODE}
+    along = "height"
+    d: float = column("d", "m", "separation of the mean wave plane")
+    pressure: float = column("p", "Pa", "nominal pressure averaged over the wave")
+    F_star: float = column("p/E*", "1", "the same over E*")
+    stiffness: float = column("−dp/dd", "Pa/m", "stiffness")
+    x: Array | None = column("x/λ_w", "1", "place over the wavelength, 0 at the crest")
+    height: Array = column("ζ", "m", "height of the wave")
+    weight: Array = column("", "1", "share of the nominal area at a height")
+    gap: Array = column("h", "m", "local separation")
+    local_pressure: Array = column("p(x)", "Pa", "local pressure")
+    A_t: float | None = column("A_t*", "1", "real contact area")
+    A_ss: float | None = column("A_ss*", "1", "real area of asperities")
+    A_sa: float | None = column("A_sa*", "1", "real area of particles on surface 1")
+    particle_load_share: float | None = column("F_sa/F_t", "1", "load share of particles")
+    resolution: float = column("", "1", "last coefficients of the pressure over the largest")
+    crowded_share: float | None = column(
+        "", "1", "share of the load where contacts have grown together", default=None
+    )
+    status: str = column("status", "", "ok, or why its numbers are no answer", default="ok")
     warnings: tuple[str, ...] = ()
+
+    @property
+    def status_code(self) -> Status:
+        """`thirdbody.results.Status`, of which ``status`` is the sentence."""
+        return Status.OK if self.status == Status.OK.sentence else Status.CROWDED
 
 
 @dataclass(frozen=True, slots=True)

@@ -358,3 +358,20 @@ def test_records_are_handed_out(filmed, dry):
     assert {row[0] for row in dry.flows()} == {"arrivals", "worn 1", "worn 2", "contact"}
     assert filmed.time_scales["passage of a contact"] < 1e-2
     assert dry.to_dict()["R0"] == dry.R0 or np.isnan(dry.R0)
+
+
+@pytest.mark.parametrize("kind", ["filmed", "hard"])
+def test_histories_of_contacts_as_data_and_as_a_table(kind, request):
+    history = request.getfixturevalue(kind)
+    data, table = history.to_dataset(), history.to_dataframe()
+    assert table.index.name == "time"
+    np.testing.assert_array_equal(table.index, history.times)
+    for name, (about, values) in history.more.items():
+        np.testing.assert_array_equal(data[name], values)
+        np.testing.assert_array_equal(table[name], values)
+        assert table.attrs["units"][name] == data[name].units == about.unit
+    numbers = data["n" if kind == "filmed" else "eta"]
+    at = {"class": numbers["class"].values[2], "material": str(numbers["material"].values[0])}
+    column = f"{numbers.name}[{at['class']}][{at['material']}]"
+    np.testing.assert_array_equal(table[column], history.numbers[:, 2, 0])
+    assert type(history).__name__ in history._repr_html_()

@@ -11,7 +11,7 @@ and over samples of what scatters; limits bound metrics at every load.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -26,6 +26,8 @@ from ...errors import Note, ThirdBodyError
 from ...numerics.sampling import Span
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
+from ...quantities.notebook import Card, Row, Shown
+from ...quantities.notebook import words_of as value_in_words
 from ...quantities.progress import reporting
 from ...quantities.record import Column, Record
 from ..inputs import declared_quantity, words_of
@@ -66,7 +68,7 @@ class Values(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Best(Record):
+class Best(Shown, Record):
     """The answer of `design`.
 
     Attributes
@@ -151,6 +153,15 @@ class Best(Record):
     hypervolume: float | None = None
     warnings: tuple[str, ...] = ()
 
+    def _cards(self) -> Iterator[Card]:
+        """A table for notebooks: the best values, and the objectives there."""
+        rows = []
+        for name, value in {**self.values, **self.objectives}.items():
+            column = self.of_points[name]
+            rows.append(Row(name, [_in_words(value, column)], column.about.get("long_name", "")))
+        notes = (self.reason,) if self.reason else ()
+        yield Card("Best values, and objectives there", rows, (*notes, *self.warnings))
+
     @cached_property
     def states(self) -> xarray.Dataset:
         """Every metric against the load."""
@@ -160,6 +171,11 @@ class Best(Record):
     def points(self) -> xarray.Dataset:
         """Every point tried."""
         return _dataset(self.of_points, "point", {})
+
+
+def _in_words(value: object, column: Values) -> str:
+    """A value of a variable or objective: a number with its unit, or the name of a material."""
+    return value_in_words(getattr(value, "name", value), column.about.get("units", ""))
 
 
 def _values(table: dict[str, Values]) -> dict[str, Array]:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ...contact.citations import cite
 from ...contact.contact import Contact
-from ...equilibrium.columns import about, labels_of
+from ...equilibrium.columns import CODE, about, labels_of
 from ...equilibrium.crowding import AREA, about_area, chi_of
 from ...equilibrium.doubts import SHADOW, about_particles
 from ...equilibrium.load import as_load
@@ -29,7 +29,7 @@ from ...equilibrium.status import WORDS as STATUS_WORDS
 from ...equilibrium.status import Status
 from ...errors import RangeWarning, code_of
 from ...numerics.sampling import DESIGNS, Span
-from ...quantities.record import VERSION, Record
+from ...quantities.record import VERSION, Record, flags_of
 from ...quantities.sharing import need_version
 from ...quantities.value import Value
 from .reduction import Reduction
@@ -175,7 +175,7 @@ class Task:
     def __call__(self) -> tuple[Arrays, dict[str, object]]:
         """The arrays to store, and a summary: states, unsolved states, largest area, shadow."""
         need_version(self.version, "sweep")
-        needed = dict.fromkeys((*self.columns, "status", "status_code", "engine", "A_t", "shadow"))
+        needed = dict.fromkeys((*self.columns, "status", CODE, "engine", "A_t", "shadow"))
         solved: Arrays = {}
         for box, block in self.block.parts(CHUNK):
             columns = block.solve()
@@ -185,7 +185,7 @@ class Task:
                 solved[name][box] = columns[name]
         summary: dict[str, object] = {
             "states": math.prod(self.block.sizes),
-            "unsolved": int(np.sum(solved["status_code"] != Status.OK)),
+            "unsolved": int(np.sum(solved[CODE] != Status.OK)),
             "A_t": _largest(solved["A_t"]),
             "shadow": _largest(solved["shadow"]),
             "engine": dict(Counter(solved["engine"].ravel().tolist())),
@@ -198,7 +198,9 @@ class Task:
             if "mode" in out:
                 out["mode"] = _mode_codes(out["mode"])
             if "status" in out:
-                out["status"] = solved["status_code"]
+                out["status"] = solved[CODE]
+        elif "status" in out:
+            out[CODE] = solved[CODE]
         for dim in self.block.dims:
             # made by whoever comes first along the other dimensions
             if isinstance(dim, Sampled) and all(d.start == 0 for d in self.block.dims if d != dim):
@@ -441,6 +443,5 @@ def _axis_text(values: NDArray[Any]) -> NDArray[Any]:
 def _attributes(name: str) -> dict[str, object]:
     out: dict[str, object] = dict(about(name).labels)
     if name in CODES:
-        words = CODES[name]
-        out |= {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
+        out |= flags_of(CODES[name])
     return out

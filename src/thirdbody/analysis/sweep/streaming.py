@@ -14,9 +14,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from ...equilibrium.columns import CODE
+from ...equilibrium.status import STATUS_CODE
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
-from ...quantities.progress import Cost, Report, reporting, solving
+from ...quantities.progress import Cost, Report, count_states, reporting
 from ...quantities.run_files import sealed_text
 from ...quantities.sharing import share_parts
 from .folder import (
@@ -28,7 +30,7 @@ from .folder import (
     text_of,
     unchecked_words,
 )
-from .plan import Arrays, Layout, Plan, all_notes
+from .plan import STORED, Arrays, Layout, Plan, all_notes
 from .reduction import Reduction
 from .stores import _NetCDF, _Zarr
 
@@ -54,6 +56,9 @@ def in_memory(
 
     layout, notes = plan.layout(), plan.notes()
     words = {"mode", "status"}
+    if "status" in layout.variables:
+        dims = layout.variables["status"][0]
+        layout.variables[CODE] = (dims, STORED["status"], STATUS_CODE.attributes)
     data = {
         name: np.empty(
             [layout.sizes[dim] for dim in dims], object if name in words else _memory(name, kind)
@@ -85,7 +90,7 @@ def in_memory(
         name: (
             dims,
             data[name],
-            {key: value for key, value in attrs.items() if key not in flags},
+            {key: value for key, value in attrs.items() if name not in words or key not in flags},
         )
         for name, (dims, _, attrs) in layout.variables.items()
     }
@@ -150,16 +155,10 @@ def _results(
 
     def work(number: int) -> Callable[[], Result]:
         task = plan.task(number, coded=coded)
-        return task if client is not None else partial(_with_progress, task, cost)
+        return task if client is not None else partial(count_states, task, cost)
 
     tasks = ((number, work(number)) for number in numbers)
     return share_parts(tasks, workers=workers, client=client)
-
-
-def _with_progress(task: Callable[[], Result], cost: Cost) -> Result:
-    """A block whose states are told while they are solved, in whatever thread."""
-    with solving(cost):
-        return task()
 
 
 # -------------------------------------------------------------------------- on disk

@@ -101,8 +101,9 @@ def sweep(
         pairs (``state``); every column of `Equilibrium` as a variable with ``units``,
         ``long_name`` and ``symbol``; inputs, version, citations and ``engine``, how many states
         each engine solved and why, as attributes. A state without equilibrium is NaN with its
-        reason in ``status``. In ``out``, ``mode`` and ``status`` are codes (``flag_values``,
-        ``flag_meanings``), and the data are loaded when they are used.
+        reason in ``status``, of which ``status_code`` holds the number. In ``out``, ``mode`` and
+        ``status`` are codes (``flag_values``, ``flag_meanings``), and the data are loaded when
+        they are used.
 
     Raises
     ------

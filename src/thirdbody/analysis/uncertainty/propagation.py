@@ -26,13 +26,13 @@ from ...contact.contact import Contact
 from ...equilibrium.critical_loads import CRITICAL, critical_loads
 from ...equilibrium.crowding import is_crowded
 from ...equilibrium.solve import given_load
-from ...equilibrium.states import FEWEST, tables_each
+from ...equilibrium.states import FEWEST, goes_one_by_one, tables_each, why_outputs
 from ...errors import InvalidValue, Mistake, Problem, tell_of_range
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
-from ...quantities.notebook import Card, Row, Shown, words_of
+from ...quantities.notebook import Card, Row, words_of
 from ...quantities.progress import watch_contacts
-from ...quantities.record import Record
+from ...quantities.record import TableRecord, Variable
 from ...quantities.say import percent
 from ...quantities.uncertain import uncertain_number
 from .inputs import Drawn, Uncertain, drawn_inputs
@@ -60,7 +60,6 @@ from .samples import (
 )
 
 if TYPE_CHECKING:
-    import xarray
     from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
@@ -71,8 +70,11 @@ __all__ = ["OUTPUTS", "Propagation", "about_result", "propagate"]
 
 # -------------------------------------------------------------------------- result
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Propagation(Shown, Record):
+class Propagation(TableRecord):
     """Bands on the results of a contact with uncertain inputs: floats, or arrays over loads.
+
+    As labelled data and as a table bands lie along ``quantile``, and along the loads where there
+    are several; a table has a column for each contact mode, ``mode_probability[p-s]``.
 
     Attributes
     ----------
@@ -100,6 +102,7 @@ class Propagation(Shown, Record):
     """
 
     not_in_dict = ("contact", "_critical_at_ends")
+    in_columns = ("mode",)
     contact: Contact = field(repr=False)
     inputs: dict[str, Uncertain]
     load: str
@@ -119,37 +122,52 @@ class Propagation(Shown, Record):
     _critical_at_ends: dict[tuple[float, float], Arrays] = field(default_factory=dict, repr=False)
     """Critical loads at the ends of each input, by the probabilities of the ends."""
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Bands and errors as labelled data, with units, version and citations."""
-        import json
+    def variables(self) -> dict[str, Variable]:
+        """Bands, their errors and nominal values, and shares of the samples."""
+        along = self._load_dimension()
+        out: dict[str, Variable] = {}
+        for name, band in self.bands.items():
+            if name in along:
+                continue  # a coordinate
+            column = about_result(name)
+            dims = (*along[: np.ndim(band) - 1], "quantile")
+            nominal = self.nominal[name]
+            bands = column._replace(meaning=f"quantiles of the {column.meaning}")
+            errors = column._replace(meaning=f"standard error of the {bands.meaning}")
+            of_nominal = column._replace(meaning=f"{column.meaning}, with the contact's own inputs")
+            out[name] = Variable(dims, band, bands.labels)
+            out[f"{name}_error"] = Variable(dims, self.error[name], errors.labels)
+            out[f"{name}_nominal"] = Variable(along[: np.ndim(nominal)], nominal, of_nominal.labels)
+        for name, table in (("probability", self.mode_probability), ("error", self.mode_error)):
+            values = np.stack([np.asarray(table[mode]) for mode in MODES_OR_NONE], axis=-1)
+            labels = {"units": "1", "long_name": f"{name} of each contact mode"}
+            out[f"mode_{name}"] = Variable((*along, "mode"), values, labels)
+        for name, share in (("solved", self.solved), ("crowded", self.crowded)):
+            labels = {"units": "1", "long_name": f"share of the samples that are {name}"}
+            out[name] = Variable(along[: np.ndim(share)], share, labels)
+        return out
 
-        import xarray
+    def coordinates(self) -> dict[str, Variable]:
+        """Levels of the quantiles, modes, and several loads."""
+        out = {
+            "quantile": Variable(("quantile",), list(self.probabilities)),
+            "mode": Variable(("mode",), list(MODES_OR_NONE)),
+        }
+        for name in self._load_dimension():
+            out[name] = Variable((name,), np.asarray(self.loads), about_result(name).labels)
+        return out
+
+    def _load_dimension(self) -> tuple[str, ...]:
+        """The dimension of several loads; none for one."""
+        return (self.load,) if np.ndim(self.loads) else ()
+
+    def attributes(self) -> Mapping[str, object]:
+        """Contact, distributions, samples, version and citations."""
+        import json
 
         from ...version import __version__
 
-        one = np.ndim(self.loads) == 0
-        dims = () if one else (self.load,)
-        data: dict[str, object] = {}
-        for name, band in self.bands.items():
-            if name == self.load and not one:
-                continue  # a coordinate
-            column = about_result(name)
-            of = (*dims, "quantile") if np.ndim(band) > 1 else ("quantile",)
-            bands = column._replace(meaning=f"quantiles of the {column.meaning}")
-            errors = column._replace(meaning=f"standard error of the {bands.meaning}")
-            data[name] = (of, band, bands.labels)
-            data[f"{name}_error"] = (of, self.error[name], errors.labels)
-        for name, table in (("probability", self.mode_probability), ("error", self.mode_error)):
-            values = np.stack([np.asarray(table[mode]) for mode in MODES_OR_NONE], axis=-1)
-            said = {"units": "1", "long_name": f"{name} of each contact mode"}
-            data[f"mode_{name}"] = ((*dims, "mode"), values, said)
-        coordinates: dict[str, object] = {
-            "quantile": list(self.probabilities),
-            "mode": list(MODES_OR_NONE),
-        }
-        if not one:
-            coordinates[self.load] = np.asarray(self.loads)
-        attributes = {
+        return {
             "version": __version__,
             "contact": json.dumps(self.contact.to_dict()),
             "inputs": json.dumps(
@@ -159,7 +177,6 @@ class Propagation(Shown, Record):
             "seed": self.seed,
             "citations": cite(self.contact),
         }
-        return xarray.Dataset(data, coords=coordinates, attrs=attributes)
 
     @takes_units
     def ufloat(self, of: str) -> object:
@@ -541,10 +558,12 @@ def propagate(
     first_few = np.arange(len(u)).reshape(REPLICATES, per_replicate)[:, :few]
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
-    with watch_contacts("propagate", len(u), progress):
+    of_outputs = {name for output in contact.outputs for name in output.columns} & set(names)
+    few_bound = of_outputs and not goes_one_by_one(contact, drawn_values)
+    expected = first_few[:, :OUTPUTS_EACH].size if few_bound else len(u)
+    with watch_contacts("propagate", expected, progress, why_outputs(contact, names)):
         critical = _sought(contact, sought, some, first_few)
         results = _Bands(names, probabilities, first_few, critical, contact)
-        of_outputs = {name for output in contact.outputs for name in output.columns} & set(names)
         with roughly():
             output_columns = (
                 _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
@@ -584,6 +603,10 @@ def propagate(
     )
 
 
+OUTPUTS_EACH = max(1, MOST_OUTPUTS // REPLICATES)
+"""Samples of outputs in each scrambling."""
+
+
 class _Critical(NamedTuple):
     """Critical loads of the first few samples, the shares of their statuses, and nominal ones."""
 
@@ -613,7 +636,7 @@ def _outputs(
     contact: Contact, load: str, loads: Array, drawn: Arrays, first_few: NDArray[np.intp]
 ) -> Arrays:
     """Columns (L, n) of a few samples with outputs, at every load: loads share their contacts."""
-    which = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)].ravel()
+    which = first_few[:, :OUTPUTS_EACH].ravel()
     some = {name: np.tile(values[which], len(loads)) for name, values in drawn.items()}
     every = np.repeat(loads, len(which))
     columns = columns_at(contact, load, every, some, len(every), outputs=True)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +11,6 @@ import typer
 
 from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.plain_data import plain_data
-from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed_number, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, not_a_folder, option, read_study
@@ -79,18 +76,15 @@ def command(options: Options) -> None:
     if options.out is not None:
         claim_results(options.out, study, maps=options.maps)
     kept = None if options.out is None else options.out / "surfaces"
-    # a measured surface is one: nothing counts it
-    bar = sys.stderr.isatty() and len(study.faces) != 1
     try:
-        with nullcontext() if bar else heartbeat("explicit"):
-            result = run_explicit(
-                study,
-                folder=kept,
-                workers=options.workers,
-                scheduler=options.scheduler,
-                progress=bar,
-                maps=options.maps,  # type: ignore[arg-type]
-            )
+        result = run_explicit(
+            study,
+            folder=kept,
+            workers=options.workers,
+            scheduler=options.scheduler,
+            progress=True,
+            maps=options.maps,  # type: ignore[arg-type]
+        )
     except BaseException:
         if options.out is not None:
             release_folder(options.out)

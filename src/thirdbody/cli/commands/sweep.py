@@ -152,13 +152,13 @@ def _table(data: xarray.Dataset) -> tuple[dict[str, list[object]], dict[str, str
 
 def _sheets(data: xarray.Dataset, study: Path) -> list[Sheet]:
     """The answer, the states, what their columns are, and what the sweep warns of."""
-    from ...equilibrium.columns import MARKS
+    from ...equilibrium.columns import BESIDE
     from ...quantities.say import unit_of
     from ...views.workbook import Grid, Sheet, sheet_of_table
 
     columns, units = _table(data)
     abouts = {name: data[name].attrs for name in columns if name in data.variables}
-    abouts |= {name: MARKS[name] for name in columns if name in MARKS}
+    abouts |= {name: BESIDE[name].labels for name in columns if name in BESIDE}
     meanings = [
         (name, unit_of(about.get("units", "")), about.get("long_name", ""))
         for name, about in abouts.items()

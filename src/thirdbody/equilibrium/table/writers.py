@@ -7,7 +7,7 @@ import io
 import os
 import textwrap
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -21,7 +21,9 @@ from ...errors import Advice, InvalidValue, Mistake, Problem
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import write_text
+from ...quantities.record import VERSION, Column, Record, TableRecord, Variable
 from ...quantities.units import say
+from ..columns import COLUMNS, about, provenance
 from .cubic import _LogCubic
 
 __all__ = ["FORMATS", "ContactTable", "TableError"]
@@ -37,7 +39,7 @@ _PLACES = np.sin(0.5 * np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES) ** 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TableError:
+class TableError(Record):
     """How far a table is from the contact it was made of; never less than the true error.
 
     Inside the range ``p`` and ``A`` are relative errors, ``dp_dh`` is relative to the true slope,
@@ -67,13 +69,14 @@ class TableError:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ContactTable:
+class ContactTable(TableRecord):
     r"""Pressure, real area and stiffness of a contact as C¹ functions of the separation.
 
     Made by `thirdbody.Contact.table`. Inside the range each is within `error` of the contact.
     Above it p and A_t decay exponentially, :math:`p = p_N e^{-(x-x_N)/\lambda}`; below it they go
     on along their tangents. Value and slope are continuous everywhere. Below the range there is
-    no statement on the error; shares are constant outside.
+    no statement on the error; shares are constant outside. As labelled data and as a table it has
+    pressure, area and their slopes at its knots, as the file of `to_csv`.
 
     Parameters
     ----------
@@ -101,6 +104,11 @@ class ContactTable:
     True
     """
 
+    in_dict = (
+        *(VERSION, "coordinate", "tolerance", "error"),
+        ("", lambda table: {name: column.values for name, column in table.at_knots().items()}),
+        "warnings",
+    )
     contact: Contact
     coordinate: str
     h: Array
@@ -155,6 +163,39 @@ class ContactTable:
         s = (x - self.h[i]) / self._p.width[i]
         return _as_given(h, c[i, 0] + s * (c[i, 1] + s * (c[i, 2] + s * c[i, 3])))
 
+    # ------------------------------------------------------------------ as data
+    def at_knots(self) -> dict[str, Variable]:
+        """Separations, pressure, area, slopes and shares at the knots."""
+        x = self.coordinate
+        slope = Column(f"dp/d{x}", "Pa/m", "slope of the pressure")
+        of_area = Column(f"dA_t*/d{x}", "1/m", "slope of the area")
+        columns: dict[str, tuple[Column, Array]] = {
+            x: (COLUMNS[x], self.h),
+            "p": (COLUMNS["pressure"], self._p.at_knots()),
+            f"dp_d{x}": (slope, self._p.slope(self.h)),
+            "A_t": (COLUMNS["A_t"], self._A.at_knots()),
+            f"dA_d{x}": (of_area, self._A.slope(self.h)),
+        }
+        for name in self._shares:
+            columns[name] = about(name)._replace(unit="1"), np.asarray(self.share(name, self.h))
+        return {name: Variable((x,), values, to.labels) for name, (to, values) in columns.items()}
+
+    def variables(self) -> dict[str, Variable]:
+        """What there is at the knots but the separations."""
+        columns = self.at_knots()
+        del columns[self.coordinate]
+        return columns
+
+    def coordinates(self) -> dict[str, Variable]:
+        """The separations of the knots."""
+        return {self.coordinate: self.at_knots()[self.coordinate]}
+
+    def attributes(self) -> Mapping[str, object]:
+        """Tolerance and errors, warnings, inputs, version and citations."""
+        errors = {f"error_{name}": value for name, value in self.error.to_dict().items()}
+        said = {"tolerance": self.tolerance, **errors, "warnings": "\n".join(self.warnings)}
+        return said | provenance(self.contact)
+
     # ------------------------------------------------------------------ what files say
     def about(self) -> list[str]:
         """Sentences at the top of every exported file."""
@@ -196,15 +237,10 @@ class ContactTable:
 
         The cubic Hermite interpolant of ln p (and of ln A_t) through these rows is the table.
         """
-        name = self.coordinate
-        columns: dict[str, Array] = {
-            f"{name} [m]": self.h,
-            "p [Pa]": self._p.at_knots(),
-            f"dp_d{name} [Pa/m]": self._p.slope(self.h),
-            "A_t [1]": self._A.at_knots(),
-            f"dA_d{name} [1/m]": self._A.slope(self.h),
+        columns = {
+            f"{name} [{column.labels['units']}]": np.asarray(column.values)
+            for name, column in self.at_knots().items()
         }
-        columns |= {f"{key} [1]": np.asarray(self.share(key, self.h)) for key in self._shares}
         text = io.StringIO()
         text.write(self._head("# "))
         if self._shares:

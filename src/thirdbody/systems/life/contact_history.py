@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
-from ...quantities.record import Column, Record, with_names
+from ...quantities.record import Column, TableRecord, Variable, with_names
 from .breeding import reproduction_of, why_none, why_unknown
 from .code_times import times_within
 from .contact_course import coverage
 from .dry_loop import DryLoop
 from .film_loop import FilmLoop
-from .history import MORE, SETTLES_TO, LifeEvent, LifeHistory
+from .history import MORE, SETTLES_TO, LifeEvent, LifeHistory, times_and_classes
 from .kept_rates import KeptRates
 from .ledger import IN_OIL, Ledger
 from .linear_flow import dirt_gain, generations
@@ -331,7 +331,7 @@ def wear_times(loop: Loop, y: Array, more: Mapping[str, tuple[Column, Array]]) -
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class DryHistory(_Breeding, Record):
+class DryHistory(_Breeding, TableRecord):
     """A history of a dry or greased contact; made by `thirdbody.life`.
 
     Attributes
@@ -350,6 +350,7 @@ class DryHistory(_Breeding, Record):
         𝒢 and 𝓛 of the last state [1/s].
     """
 
+    in_columns = ("class", "material")
     in_dict = (
         *("times", ("edges", "loop.tables.classes.edges"), "materials", "numbers", "ledger"),
         *(("events", with_names("events")), MORE, "time_scales"),
@@ -429,26 +430,24 @@ class DryHistory(_Breeding, Record):
     @property
     def histories(self) -> xarray.Dataset:
         """Everything over time, as labelled data."""
-        import xarray
+        return self.to_dataset()
 
-        data: dict[str, Any] = {
-            "eta": (
-                ("time", "class", "material"),
-                self.numbers,
-                {"units": "1/m^2", "long_name": "particles per area of the contact", "symbol": "η"},
-            )
+    def variables(self) -> dict[str, Variable]:
+        """Numbers by class, masses, and what the contact does."""
+        numbers = Column("η", "1/m^2", "particles per area of the contact")
+        masses = {
+            name.replace("in the oil", "in the contact"): mass
+            for name, mass in self.ledger.over_time().items()
         }
-        for name, values in self.ledger.over_time().items():
-            shown = name.replace("in the oil", "in the contact")
-            data[shown] = ("time", values, {"units": "kg", "long_name": shown})
-        for name, (about, values) in self.more.items():
-            data[name] = ("time", values, about.labels)
-        low, high = self.loop.tables.classes.ends
-        coordinates = {
-            "time": ("time", self.times, {"units": "s", "long_name": "time"}),
-            "class": ("class", np.sqrt(low * high), {"units": "m", "long_name": "middle size"}),
-            "material": ("material", list(self.materials)),
+        over_time = {name: (Column("", "kg", name), mass) for name, mass in masses.items()}
+        over_time |= self.more
+        return {
+            "eta": Variable(("time", "class", "material"), self.numbers, numbers.labels),
+            **{
+                name: Variable(("time",), m, about.labels) for name, (about, m) in over_time.items()
+            },
         }
-        return xarray.Dataset(
-            data, coords=coordinates, attrs={"warnings": "\n".join(self.warnings)}
-        )
+
+    def coordinates(self) -> dict[str, Variable]:
+        """Times, middles of the classes, names of the materials."""
+        return times_and_classes(self.times, self.loop.tables.classes, self.materials)

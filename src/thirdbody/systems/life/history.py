@@ -6,13 +6,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
 from ...populations.measured.cleanliness import counted_sizes, iso4406_of_counts
 from ...quantities.arguments import names_arguments
-from ...quantities.record import Column, Entry, Record, with_names
+from ...quantities.record import Column, Entry, TableRecord, Variable, with_names
 from ...quantities.say import value_of
 from .circuit import OilCircuit, OilTerms
 from .code_times import SlowSizes, slow_sizes, times_within
@@ -23,6 +23,8 @@ from .steady import describe_reproduction
 if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
+
+    from .size_classes import SizeClasses
 
     Array = NDArray[np.float64]
 
@@ -58,9 +60,25 @@ class SteadyOil(NamedTuple):
     """Until a hundredth of the way is left, of the slowest class that is counted [s]."""
 
 
+def times_and_classes(
+    times: Array, classes: SizeClasses, materials: tuple[str, ...]
+) -> dict[str, Variable]:
+    """Coordinates of numbers over time, by class and material."""
+    low, high = classes.ends
+    middle = Column("x", "m", "middle size")
+    return {
+        "time": Variable(("time",), times, Column("t", "s", "time").labels),
+        "class": Variable(("class",), np.sqrt(low * high), middle.labels),
+        "material": Variable(("material",), list(materials)),
+    }
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
-class LifeHistory(Record):
+class LifeHistory(TableRecord):
     """A history of oil, and of what acts in it; made by `thirdbody.life`.
+
+    A table of it has a row for each time, and a column for each size, class and material:
+    ``count[4e-06]``, ``n[5e-06][quartz]``.
 
     Attributes
     ----------
@@ -95,6 +113,7 @@ class LifeHistory(Record):
     ('18/16/13', '5/3/0')
     """
 
+    in_columns = ("size", "class", "material")
     in_dict: ClassVar[tuple[Entry, ...]] = (
         *("times", "codes", "counts", ("edges", "terms.classes.edges")),
         ("materials", lambda history: tuple(history.terms.materials)),
@@ -268,33 +287,27 @@ class LifeHistory(Record):
     @property
     def histories(self) -> xarray.Dataset:
         """Everything over time, as labelled data: codes, counts, numbers by class, masses."""
-        import xarray
+        return self.to_dataset()
 
+    def variables(self) -> dict[str, Variable]:
+        """Codes, counts, numbers by class, volume, masses, and what a contact adds."""
+        counted = Column("", "1/m^3", "particles per volume from a size on")
+        numbers = Column("n", "1/m^3", "particles per volume of oil")
+        volume = Column("V", "m^3", "volume of the oil")
+        masses = {name: (Column("", "kg", name), m) for name, m in self.ledger.over_time().items()}
+        over_time = {"volume": (volume, self.volume), **masses, **self.more}
+        return {
+            "code": Variable(("time",), list(self.codes), {"long_name": "ISO 4406 code"}),
+            "count": Variable(("time", "size"), self.counts, counted.labels),
+            "n": Variable(("time", "class", "material"), self.numbers, numbers.labels),
+            **{
+                name: Variable(("time",), m, about.labels) for name, (about, m) in over_time.items()
+            },
+        }
+
+    def coordinates(self) -> dict[str, Variable]:
+        """Times, sizes that are counted, middles of the classes, names of the materials."""
+        sizes = Variable(("size",), list(counted_sizes()), Column("x", "m", "size").labels)
         classes = self.terms.classes
-        data: dict[str, Any] = {
-            "code": ("time", list(self.codes), {"long_name": "ISO 4406 code"}),
-            "count": (
-                ("time", "size"),
-                self.counts,
-                {"units": "1/m^3", "long_name": "particles per volume from a size on"},
-            ),
-            "n": (
-                ("time", "class", "material"),
-                self.numbers,
-                {"units": "1/m^3", "long_name": "particles per volume of oil", "symbol": "n"},
-            ),
-            "volume": ("time", self.volume, Column("V", "m^3", "volume of the oil").labels),
-        }
-        for name, values in self.ledger.over_time().items():
-            data[name] = ("time", values, {"units": "kg", "long_name": name})
-        for name, (about, values) in self.more.items():
-            data[name] = ("time", values, about.labels)
-        low, high = classes.ends
-        coordinates = {
-            "time": ("time", self.times, {"units": "s", "long_name": "time"}),
-            "size": ("size", list(counted_sizes()), {"units": "m", "long_name": "size"}),
-            "class": ("class", np.sqrt(low * high), {"units": "m", "long_name": "middle size"}),
-            "material": ("material", list(self.terms.materials)),
-        }
-        attributes = {"warnings": "\n".join(self.warnings)}
-        return xarray.Dataset(data, coords=coordinates, attrs=attributes)
+        over_classes = times_and_classes(self.times, classes, tuple(self.terms.materials))
+        return {**over_classes, "size": sizes}

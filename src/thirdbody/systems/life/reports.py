@@ -28,7 +28,7 @@ from ...populations.measured.cleanliness import (
     sizes_above,
 )
 from ...quantities.carried import takes_units
-from ...quantities.record import Record
+from ...quantities.record import Column, TableRecord, Variable
 from .circuit import OilCircuit
 from .ingress import Ingress
 from .linear_flow import flowing
@@ -125,7 +125,7 @@ def approach_of_reports(counts: Sequence[float], *, step: float) -> Approach:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class OilReports(Record):
+class OilReports(TableRecord):
     """Dirt that enters an oil, from reports of it; made by `oil_reports`.
 
     Attributes
@@ -179,6 +179,31 @@ class OilReports(Record):
     coded: bool = True
     width: float = WIDTH
     least: float = LEAST
+
+    def variables(self) -> dict[str, Variable]:
+        """Counts at each report and from each size on, and what enters."""
+        both, of_size = ("time", "size"), ("size",)
+        counts = Column("", "1/m^3", "reported particles per volume from a size on")
+        fitted = Column("", "1/m^3", "particles per volume as the circuit would have them")
+        rate = Column("", "1/s", "particles that enter per time from a size on")
+        mass = Column("", "kg/s", "mass that enters per time")
+        out = {
+            "counts": Variable(both, self.counts, counts.labels),
+            "fitted": Variable(both, self.fitted, fitted.labels),
+        }
+        for name, ending in (("rate", ""), ("low", ", low end"), ("high", ", high end")):
+            for key, dims, about in ((name, of_size, rate), (f"mass_{name}", (), mass)):
+                labels = about._replace(meaning=about.meaning + ending).labels
+                out[key] = Variable(dims, getattr(self, key), labels)
+        return out
+
+    def coordinates(self) -> dict[str, Variable]:
+        """Times of the reports, and sizes."""
+        sizes = Column("x", "m", "size from which is counted")
+        return {
+            "time": Variable(("time",), self.times, Column("t", "s", "time of a report").labels),
+            "size": Variable(("size",), self.sizes, sizes.labels),
+        }
 
     @property
     def is_constant(self) -> bool | None:
