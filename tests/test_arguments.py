@@ -228,7 +228,7 @@ def test_every_public_function_that_takes_anything_is_marked():
             "errors.InvalidValue.name_source",
             "errors.Mistake.clause",
         ),  # texts
-        *(f"errors.Problem.{key}" for key in ("changed", "move_under", "put_in_words")),
+        *(f"errors.Problem.{key}" for key in ("changed", "move_under", "put_at", "put_in_words")),
         *(f"outputs.Solved.{key}" for key in ("output", "total", "total_of_particles")),
         "particle.OneParticle.sinks",
     }

@@ -246,7 +246,5 @@ def metres(option: str, text: str, problems: list[str]) -> float:
     try:
         return to_si(text, "m")
     except InvalidValue as error:
-        problems += [
-            Problem(option, f": {problem}", code=problem.code) for problem in error.problems
-        ]
+        problems += [problem.put_at(option, sign=":") for problem in error.problems]
         return math.nan

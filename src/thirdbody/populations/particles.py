@@ -434,7 +434,7 @@ def _read_value(name: str, value: float | str, unit: str) -> float:
     try:
         return to_si(value, unit)
     except InvalidValue as error:
-        raise InvalidValue(Problem(name, f"= {error}", say(value), code=error.code)) from None
+        raise InvalidValue(error.problems[0].put_at(name, say(value))) from None
 
 
 def _optional(name: str, value: float | str | None, unit: str) -> float | None:

@@ -291,9 +291,12 @@ def misfits(
                 name,
                 "is no argument",
                 _short_text(value),
-                hint=f"did you mean {SPOKEN[name]}?"
-                if SPOKEN.get(name) in names
-                else guess(name, names, otherwise="it takes "),
+                hint=guess(
+                    name,
+                    names,
+                    meant=SPOKEN[name] if SPOKEN.get(name) in names else None,
+                    otherwise="it takes ",
+                ),
                 code=Mistake.UNKNOWN,
             )
             for name, value in named.items()

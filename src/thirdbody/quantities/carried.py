@@ -436,8 +436,7 @@ def _argument_in_si(
         return in_si(value, unit)
     except InvalidValue as error:
         problems += [
-            Problem(name, f"= {problem}", str(value)[:80], code=problem.code)
-            for problem in error.problems
+            problem.put_at(name, str(value)[:80]) for problem in error.problems
         ]
         return value
 

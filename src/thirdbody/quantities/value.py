@@ -587,7 +587,7 @@ def _without_unit(kind: type[Value], name: str, value: object) -> tuple[object, 
             )
         return in_si(value, about["unit"]), ""
     except InvalidValue as error:
-        return value, Problem(name, f"= {error}", say(value), owner=kind.__name__, code=error.code)
+        return value, error.problems[0].put_at(name, say(value)).changed(owner=kind.__name__)
 
 
 def items_of(values: Any) -> tuple[object, ...]:

@@ -339,7 +339,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concent
     try:
         return cleanliness.concentration(value)
     except InvalidValue as error:
-        raise InvalidValue(Problem(path, f"= {error}", say(value), code=error.code)) from None
+        raise InvalidValue(error.problems[0].put_at(path, say(value))) from None
 
 
 def _keys_of_count(table: Mapping[str, object], kind: str) -> dict[str, Key]:

@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import InvalidValue, Mistake, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
-from ..quantities.nearest import guess
+from ..quantities.nearest import Guess, guess
 from ..quantities.say import join_words
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
 from ..quantities.value import (
@@ -404,11 +404,11 @@ def read_number(about: Quantity, reader: Notes, path: str, value: object) -> flo
     try:
         si_value = quantity_to_si(value, about)
     except InvalidValue as error:
-        elsewhere = "; a load in Pa goes under the key pressure"
-        cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
-        raise InvalidValue(
-            Problem(path, f"= {error}{cause}", say(value), code=error.code)
-        ) from None
+        problem = error.problems[0].put_at(path, say(value))
+        if path.startswith("load.F_star") and "Pa" in str(value):
+            cause = "a load in Pa goes under the key pressure"
+            problem = problem.changed(hint=problem.hint + f"; {cause}" if problem.hint else cause)
+        raise InvalidValue(problem) from None
     if not math.isfinite(si_value):
         allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value, code=Mistake.RANGE)
@@ -434,7 +434,8 @@ def _refuse_slip(reader: Notes, path: str, value: object, taken: str, meant: str
         return
     rule = f"has no unit, so it would be {taken}, which is not plausible"
     any_value = f'With its unit any value is taken: "{taken}"'
-    raise wrong(path, rule, value, hint=f'was "{meant}" meant? {any_value}', code=Mistake.UNIT)
+    hint = Guess(f'was "{meant}" meant? {any_value}', meant)
+    raise wrong(path, rule, value, hint=hint, code=Mistake.UNIT)
 
 
 def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
