@@ -25,7 +25,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import InvalidValue, Mistake, Problem
-from .arguments import FAILURES, refuse_misfits
+from .arguments import FAILURES, entries_of, refuse_misfits
 from .kinds import kind_needed, kind_of, library_unit, registry
 from .uncertain import is_uncertain
 
@@ -435,9 +435,7 @@ def _argument_in_si(
     try:
         return in_si(value, unit)
     except InvalidValue as error:
-        problems += [
-            problem.put_at(name, str(value)[:80]) for problem in error.problems
-        ]
+        problems += [problem.put_at(name, str(value)[:80]) for problem in error.problems]
         return value
 
 
@@ -498,13 +496,9 @@ def arguments_of(docstring: str) -> Iterator[tuple[str, str | None]]:
     ... '''))
     [('load', 'N'), ('R', 'm'), ('seed', None)]
     """
-    text = inspect.cleandoc(docstring)
-    section = re.search(r"^Parameters\n-+\n(.*?)(?=^\S[^\n]*\n-{3,}|\Z)", text, re.S | re.M)
-    for entry in re.split(r"^(?=\S)", section[1], flags=re.M) if section else ():
-        if not (head := re.match(r"(\*{0,2}\w+(?:, *\w+)*) :", entry)):
-            continue
-        names = head[1].split(", ")
-        units = re.findall(r"\[([^\]\[]+)\]", entry)
+    for head, entry in entries_of(docstring).items():
+        names = re.split(", *", head)
+        units = re.findall(r"\[([^\]\[]+)\]", " ".join(entry))
         if len(set(units)) == 1:
             units = units[:1] * len(names)
         named_units = units if len(units) == len(names) else [None] * len(names)

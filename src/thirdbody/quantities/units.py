@@ -364,12 +364,12 @@ def _refuse_unknown(body: str, shown: str, unit: str) -> NoReturn:
         if word in units:
             continue
         if word in ("HV", "HB", "HK"):
-            return _refuse(
+            _refuse(
                 f"{shown} is a hardness number, not a pressure; one unit of {word} is 1 kgf/mm^2, "
                 f"so write {shown.replace(word, 'kgf/mm^2')}"
             )
         rule = f"{shown} has the unit {word}, which is not known (case matters)"
         meant = nearest_word(word, _USUAL, cutoff=0.7)
         hint = guess("", (), meant=meant) if meant else f"it must be {_need_text(unit)}"
-        return _refuse(rule, hint=hint)
-    return _refuse(f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}")
+        _refuse(rule, hint=hint)
+    _refuse(f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake
 from ..laws import asperity, particle
 from ..populations.materials import Material, MaterialPair, materials
 from ..quantities.nearest import guess
