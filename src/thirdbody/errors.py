@@ -583,12 +583,12 @@ _DATACLASSES = os.sep + "dataclasses.py"
 def tell_of_range(message: str | Warning, kind: type[Warning] = RangeWarning) -> None:
     """Warn, of a range or whatever `kind` says, at the line of the user that called the library."""
     frame, level = sys._getframe(1), 2
-    while frame.f_back is not None and _is_inside(frame):
+    while frame.f_back is not None and is_inside(frame):
         frame, level = frame.f_back, level + 1
     warnings.warn(message, kind, stacklevel=level)
 
 
-def _is_inside(frame: FrameType) -> bool:
+def is_inside(frame: FrameType) -> bool:
     """Whether a frame runs code of this library, or code generated for its dataclasses."""
     code = frame.f_code
     of_dataclass = code.co_filename == "<string>" and code.co_name == "__init__"

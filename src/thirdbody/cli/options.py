@@ -213,7 +213,7 @@ def read_study(
 
 def tell_notes(study: Study) -> None:
     """Warn of what looks like a slip at once; with the answer, say what was taken for a drawing."""
-    from ..quantities.value import SLIP
+    from ..quantities.slips import SLIP
 
     for sentence in study.notes:
         if getattr(sentence, "code", "").startswith(SLIP):

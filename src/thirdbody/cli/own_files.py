@@ -210,7 +210,7 @@ def _is_answer(path: Path) -> bool:
     held = _object(path)
     problems = held.get("problems")
     if len(held) == 1 and isinstance(problems, list):
-        return all(isinstance(each, dict) and each.keys() >= PROBLEM_KEYS for each in problems)
+        return all(isinstance(one, dict) and one.keys() >= PROBLEM_KEYS for one in problems)
     return any(needed <= held.keys() for needed in JSON_KEYS)
 
 

@@ -18,15 +18,14 @@ from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.nearest import Guess, guess
 from ..quantities.say import join_words
+from ..quantities.slips import SLIP, unit_meant
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
 from ..quantities.value import (
-    SLIP,
     allowed_range,
     hint_on,
     limits_of,
     problem_with,
     quantity,
-    unit_meant,
 )
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file

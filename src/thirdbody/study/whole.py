@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.measured.topography import Topography
 from ..quantities.arguments import names_arguments
-from ..quantities.value import slips_are_told
+from ..quantities.slips import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from ..systems.oil_filter import Filter
@@ -37,6 +37,9 @@ from .schema import Describer
 from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
 from .toml import heading_of, override, read, setting_in_words
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["Study", "check", "load_study", "load_tables", "read_tables"]
 
@@ -124,6 +127,19 @@ class Study:
     def heading(self) -> str:
         """The title, and what was set over the file."""
         return heading_of(self.title or "Study", self.settings)
+
+    def stribeck(self) -> xarray.Dataset:
+        """Lubricated states over the speeds of the table [film]; see `thirdbody.films.stribeck`."""
+        if self.film is None:
+            raise InvalidValue(
+                Problem(
+                    "film",
+                    "is no table of this study",
+                    hint="it says oil, bodies, load and speeds; solve() answers a dry contact",
+                    code=Mistake.MISSING,
+                )
+            )
+        return self.film.stribeck(self.contact)
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
