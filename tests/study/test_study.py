@@ -1233,14 +1233,3 @@ def test_a_range_of_no_input_is_told_once(problems, entry):
     (problem,) = problems(text=f"{GOOD}[sweep]\nvary = {entry}\n")
     assert (problem.code, problem.place) == (Mistake.MISSING, "sweep.vary")
     assert "{ from = 1, to = 5, points = 3 }" in problem.hint
-
-
-def test_the_film_of_a_study_is_run_by_a_method_and_is_no_function(tmp_path):
-    text = (DATA / "studies" / "ball-screw.toml").read_text("utf-8")
-    oiled = tb.load_study(_file(tmp_path, text), ["film.speed=0.1"])
-    with refuses(Mistake.KIND, "study.film", meant="stribeck()"):
-        oiled.film()
-    alike = oiled.film.stribeck(oiled.contact)
-    assert oiled.stribeck().equals(alike)
-    with refuses(Mistake.MISSING, "film"):
-        tb.load_study(DATA / "studies" / "two-body.toml").stribeck()

@@ -6,7 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ..errors import Advice, InvalidValue, Mistake, Problem
+from ..errors import Advice, InvalidValue, Mistake, Note, Problem, tell_of_range
+from ..quantities.say import percent, value_of
+from ..quantities.slips import is_silent
 from ..quantities.units import say, to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
@@ -17,7 +19,7 @@ from .measured.concentration import Amount
 from .shape import SPHERE, Angular, Sphere
 from .strength import WeibullStrength
 
-__all__ = ["Particles"]
+__all__ = ["Particles", "about_gap"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -201,8 +203,16 @@ class Particles(Value):
             particle_density=_optional("particle_density", particle_density, "kg/m^3"),
             oil_density=_read_value("oil_density", oil_density, "kg/m^3"),
         )
-        density = n * _gap(gap)
-        return cls(material=material, diameter=diameter, areal_density=density, **others)
+        return cls._in_gap(n, gap, material=material, diameter=diameter, **others)
+
+    @classmethod
+    def _in_gap(cls, n: float, gap: float | str, **others: Any) -> Self:
+        """The particles of a fluid with n per volume [1/m³] in a gap [m]."""
+        height = _gap(gap)
+        particles = cls(areal_density=n * height, **others)
+        if not is_silent() and (note := about_gap(particles, height)):
+            tell_of_range(note)
+        return particles
 
     @classmethod
     def from_iso4406(
@@ -262,7 +272,7 @@ class Particles(Value):
             smallest=_optional("smallest", smallest, "m"),
             largest=_optional("largest", largest, "m"),
         )
-        return cls(material=material, diameter=diameter, areal_density=n * _gap(gap), **others)
+        return cls._in_gap(n, gap, material=material, diameter=diameter, **others)
 
     @classmethod
     def from_cleanliness_class(
@@ -310,7 +320,7 @@ class Particles(Value):
             smallest=_optional("smallest", smallest, "m"),
             largest=_optional("largest", largest, "m"),
         )
-        return cls(material=material, diameter=diameter, areal_density=n * _gap(gap), **others)
+        return cls._in_gap(n, gap, material=material, diameter=diameter, **others)
 
     @classmethod
     def test_dust(
@@ -415,6 +425,44 @@ class Particles(Value):
         return cleanliness.class_of(
             standard, density=self.areal_density / _gap(gap), diameter=self.diameter
         )
+
+
+WIDER = 0.01
+"""Part of the particles, by number, that may be wider than the gap without a word."""
+
+
+def about_gap(particles: Particles, gap: float, *, place: str = "") -> Note | None:
+    """Doubt of particles that are wider than the gap [m] which brings them; None where few are.
+
+    Parameters
+    ----------
+    particles : Particles
+    gap : float
+        h_gap [m].
+    place : str, optional
+        Where the particles stand in a study file.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> grains = tb.Particles(material=tb.materials["SiO2"], areal_density=1e6,
+    ...                       diameter=tb.distributions.Monodisperse(mean=5e-6))
+    >>> about_gap(grains, 1e-6).effect, about_gap(grains, 6e-6)
+    (1.0, None)
+    """
+    largest = particles.diameter.support[1]
+    wider = 0.0 if largest <= gap else float(particles.diameter.partial_moment(0, gap, largest))
+    if not wider > WIDER:
+        return None
+    where = f"{place}.gap" if place else "gap"
+    what = (
+        f"{where} = {value_of(gap, 'm')} brings particles of which {percent(wider)} are wider than "
+        "it: these never lay in it, and enter only where the wedge before the contact catches them "
+        "or not at all, so how many there are is not known"
+    )
+    action = "give the height in which they are caught, about their size, or areal_density"
+    code = f"gap.{place}" if place else "gap"
+    return Note(what, code=code, effect=wider, action=action)
 
 
 def _sizes_meant(diameter: object) -> str:

@@ -19,6 +19,7 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.measured.topography import Topography
+from ..populations.particles import about_gap
 from ..quantities.arguments import names_arguments
 from ..quantities.slips import slips_are_told
 from ..systems.bodies import Body
@@ -30,7 +31,7 @@ from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
 from .own_code import load_installed
-from .particles import gaps_of
+from .particles import gaps_of, populations
 from .plate import AskedPlate, plate_of
 from .reader import Reader
 from .schema import Describer
@@ -272,6 +273,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     if "particle_law" in parts and all(population.law is not None for population in several):
         what = "[particle_law] has no effect: all particles have laws of their own"
         reader.notes.append(Note(what, code="idle.particle_law"))
+    gaps = gaps_of(reader.whole)
     sweep = values.get("sweep")
     film: Any = values.get("film")
     contact = reader.make(Contact, "", parts)
@@ -305,6 +307,9 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
                 for d in loads[deep][:5]
             )
         )
+    for place, population, gap in zip(populations(reader.whole), several, gaps, strict=True):
+        if gap is not None and (note := about_gap(population, gap, place=place)):
+            reader.notes.append(note)
     states = None if sweep is None else plan(reader, contact, load, loads, sweep)
     return Study(
         title=values.get("title", ""),
@@ -313,7 +318,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         values=loads,
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
-        gaps=gaps_of(reader.whole),
+        gaps=gaps,
         filter=None if film is None else filter_of(reader.whole),
         stated=reader.stated_keys,
         sweep=states,
