@@ -71,8 +71,8 @@ def test_codes_of_cleanliness_bring_grains_wider_than_a_film():
 
 def test_a_study_tells_of_grains_wider_than_their_gap_beside_the_key():
     wide = notes_of("particles.gap=0.1 um")
-    assert wide["gap.particles"].effect > 0.01
-    assert "gap.particles" not in notes_of("particles.gap=1 mm")
+    assert wide["gap"].effect > 0.01
+    assert "gap" not in notes_of("particles.gap=1 mm")
 
 
 def test_the_film_of_a_study_is_run_by_a_method_and_is_no_function():

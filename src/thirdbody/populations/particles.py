@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
 from ..errors import Advice, InvalidValue, Mistake, Note, Problem, tell_of_range
-from ..quantities.say import percent, value_of
+from ..quantities.say import percent
 from ..quantities.slips import is_silent
 from ..quantities.units import say, to_si
 from ..quantities.value import Value, quantity
@@ -19,7 +20,7 @@ from .measured.concentration import Amount
 from .shape import SPHERE, Angular, Sphere
 from .strength import WeibullStrength
 
-__all__ = ["Particles", "about_gap"]
+__all__ = ["Particles", "about_gaps", "wider_part"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -210,7 +211,7 @@ class Particles(Value):
         """The particles of a fluid with n per volume [1/m³] in a gap [m]."""
         height = _gap(gap)
         particles = cls(areal_density=n * height, **others)
-        if not is_silent() and (note := about_gap(particles, height)):
+        if not is_silent() and (note := about_gaps({"gap": wider_part(particles, height)})):
             tell_of_range(note)
         return particles
 
@@ -431,38 +432,38 @@ WIDER = 0.01
 """Part of the particles, by number, that may be wider than the gap without a word."""
 
 
-def about_gap(particles: Particles, gap: float, *, place: str = "") -> Note | None:
-    """Doubt of particles that are wider than the gap [m] which brings them; None where few are.
+def wider_part(particles: Particles, gap: float) -> float:
+    """Part of the particles, by number, that is wider than a gap [m].
 
-    Parameters
-    ----------
-    particles : Particles
-    gap : float
-        h_gap [m].
-    place : str, optional
-        Where the particles stand in a study file.
-
-    Examples
-    --------
     >>> import thirdbody as tb
     >>> grains = tb.Particles(material=tb.materials["SiO2"], areal_density=1e6,
     ...                       diameter=tb.distributions.Monodisperse(mean=5e-6))
-    >>> about_gap(grains, 1e-6).effect, about_gap(grains, 6e-6)
-    (1.0, None)
+    >>> wider_part(grains, 1e-6), wider_part(grains, 6e-6)
+    (1.0, 0.0)
     """
     largest = particles.diameter.support[1]
-    wider = 0.0 if largest <= gap else float(particles.diameter.partial_moment(0, gap, largest))
-    if not wider > WIDER:
+    if largest <= gap:
+        return 0.0
+    return float(particles.diameter.partial_moment(0, gap, largest))
+
+
+def about_gaps(wider: Mapping[str, float]) -> Note | None:
+    """Doubt of particles that are wider than the gap which brings them; None where few are.
+
+    >>> about_gaps({"gap": 0.5}).effect, about_gaps({"gap": 0.001})
+    (0.5, None)
+    """
+    most = max(wider.values(), default=0.0)
+    if not most > WIDER:
         return None
-    where = f"{place}.gap" if place else "gap"
+    where = " and ".join(place for place, part in wider.items() if part > WIDER)
     what = (
-        f"{where} = {value_of(gap, 'm')} brings particles of which {percent(wider)} are wider than "
-        "it: these never lay in it, and enter only where the wedge before the contact catches them "
-        "or not at all, so how many there are is not known"
+        f"{where}: {percent(most)} of the particles are wider than the height of the fluid that "
+        "brings them; how many of these enter is not known, and all that particles do is "
+        "proportional to it"
     )
-    action = "give the height in which they are caught, about their size, or areal_density"
-    code = f"gap.{place}" if place else "gap"
-    return Note(what, code=code, effect=wider, action=action)
+    action = "give areal_density, or as gap the height in which they are caught"
+    return Note(what, code="gap", effect=most, action=action)
 
 
 def _sizes_meant(diameter: object) -> str:

@@ -19,7 +19,7 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.measured.topography import Topography
-from ..populations.particles import about_gap
+from ..populations.particles import about_gaps, wider_part
 from ..quantities.arguments import names_arguments
 from ..quantities.slips import slips_are_told
 from ..systems.bodies import Body
@@ -307,9 +307,13 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
                 for d in loads[deep][:5]
             )
         )
-    for place, population, gap in zip(populations(reader.whole), several, gaps, strict=True):
-        if gap is not None and (note := about_gap(population, gap, place=place)):
-            reader.notes.append(note)
+    wider = {
+        f"{place}.gap": wider_part(population, gap)
+        for place, population, gap in zip(populations(reader.whole), several, gaps, strict=True)
+        if gap is not None
+    }
+    if note := about_gaps(wider):
+        reader.notes.append(note)
     states = None if sweep is None else plan(reader, contact, load, loads, sweep)
     return Study(
         title=values.get("title", ""),
