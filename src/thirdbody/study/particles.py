@@ -17,7 +17,6 @@ from ..quantities.units import say, to_si
 from ..quantities.value import quantity
 from .mistakes import clash
 from .reader import (
-    ANYTHING,
     FIELDS,
     NOTHING,
     Key,
@@ -297,7 +296,8 @@ def _keys_of_population(table: Mapping[str, object], kind: str, by_volume: bool)
         about="law of these particles, in the place of [particle_law]"
     )
     if kind not in (*CODES, SETTLED):
-        keys["concentration"] = Key(_concentration, False, 'e.g. "0.1 wt%"')
+        about = 'e.g. "0.1 wt%"'
+        keys["concentration"] = Key(_concentration, False, about, WORD_OR_NUMBER)
     keys |= {name: KEYS_OF_AMOUNT[name] for name in LEADING[kind]}
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
@@ -363,9 +363,14 @@ def _keys_of_count(table: Mapping[str, object], kind: str) -> dict[str, Key]:
             raise InvalidValue(Problem(path, f": {error}", code=error.code)) from None
 
     bins = table_of(Histogram).table if kind == "sizes" else None
-    return keys | {
-        kind: Key(read, True, schema={"type": "string"} if bins else ANYTHING, table=bins)
-    }
+    return keys | {kind: Key(read, True, schema=CODE_TEXT.get(kind, WORD_OR_NUMBER), table=bins)}
+
+
+CODE_TEXT: dict[str, dict[str, object]] = {
+    kind: {"type": "string"} for kind in ("iso4406", "test_dust", "sizes")
+}
+WORD_OR_NUMBER: dict[str, object] = {"type": ["number", "string"]}
+"""What a schema says of codes, of classes that are numbers too, and of concentrations."""
 
 
 def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> object:

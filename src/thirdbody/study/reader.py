@@ -19,6 +19,7 @@ from ..populations.measured.topography import Topography
 from ..quantities.nearest import Guess, guess
 from ..quantities.say import join_words
 from ..quantities.slips import SLIP, unit_meant
+from ..quantities.unit_patterns import HARDNESS_TEXT, name_of_unit
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
 from ..quantities.value import (
     allowed_range,
@@ -80,6 +81,10 @@ LIMITS = {
 """Limits of a quantity as JSON Schema calls them; of a number, which is in SI, not of text."""
 ANYTHING: dict[str, Any] = {}
 NOTHING: dict[str, Any] = {"enum": []}
+DEFINITIONS = "#/definitions/"
+"""Where a schema keeps the pattern of a unit."""
+UNITS: dict[str, str] = {}
+"""Units of the keys that are declared, by their names in a schema."""
 """What JSON Schema says of a key under which all, or nothing, can stand."""
 
 Item = TypeVar("Item")
@@ -391,11 +396,20 @@ def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
 
 def number(about: Quantity) -> Key:
     """Key of a number in SI inside the range of its quantity; text has a unit."""
-    schema: dict[str, object] = {"type": ["number", "string"]}
-    schema |= {LIMITS[key]: limit for key, limit in limits_of(about).items()}
+    plain: dict[str, object] = {"type": "number"}
+    plain |= {LIMITS[key]: limit for key, limit in limits_of(about).items()}
     if about.get("whole"):
-        schema["multipleOf"] = 1
-    return Key(partial(read_number, about), schema=schema)
+        plain["multipleOf"] = 1
+    ways = [plain, text_of_unit(about["unit"])]
+    if about["unit"] == "Pa" and about["meaning"].startswith("hardness"):
+        ways.append({"type": "string", "pattern": HARDNESS_TEXT})
+    return Key(partial(read_number, about), schema={"anyOf": ways})
+
+
+def text_of_unit(unit: str) -> dict[str, object]:
+    """What a schema says of a text with a unit; the pattern stands once in its definitions."""
+    UNITS[name_of_unit(unit)] = unit
+    return {"$ref": DEFINITIONS + name_of_unit(unit)}
 
 
 def read_number(about: Quantity, reader: Notes, path: str, value: object) -> float:
@@ -451,7 +465,8 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
             )
         return read_numbers(one, Unsaid(), path, value)
 
-    schema = {"type": "array", "items": {"type": ["number", "string"]}}
+    item = {"anyOf": [{"type": "number"}, text_of_unit(unit)]}
+    schema = {"type": "array", "items": item}
     return Key(read, about=about or f"a list of numbers [{unit}]", schema=schema)
 
 
