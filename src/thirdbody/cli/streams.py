@@ -10,9 +10,11 @@ from __future__ import annotations
 import contextlib
 import errno
 import importlib.util
+import io
 import json
 import math
 import os
+import re
 import shutil
 import stat
 import sys
@@ -23,7 +25,7 @@ from contextvars import ContextVar
 from functools import partial
 from itertools import pairwise, takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -104,7 +106,11 @@ class Commands(TyperGroup):
 
     def parse_args(self, ctx: object, args: list[str]) -> list[str]:
         JSON_PLACE.set(place_of_json(args))
-        return super().parse_args(ctx, args)  # type: ignore[arg-type]
+        try:
+            return super().parse_args(ctx, args)  # type: ignore[arg-type]
+        except USAGE_ERROR as error:
+            show_in_one_form(error)
+            raise
 
     def resolve_command(self, ctx: object, args: list[str]) -> object:  # type: ignore[override]
         try:
@@ -128,6 +134,7 @@ class Commands(TyperGroup):
                 give_problems(map(problem_data, error.problems))
                 raise typer.Exit(BAD_INPUT) from None
             except USAGE_ERROR as error:  # its sentence is printed where the command line ends
+                show_in_one_form(error)
                 give_problems([problem_data(problem_of_usage(error))])
                 raise
             except (NoEquilibrium, NoTransition) as error:
@@ -328,6 +335,19 @@ def give_problems(problems: Iterable[Mapping[str, object]]) -> None:
             write_together({place: partial(Path.write_bytes, data=text.encode())})
             JSON_PLACE.set(None)
             tell_written(place)
+
+
+def show_in_one_form(error: Any) -> None:
+    """Let the sentence of a command line that does not parse begin as those of all other errors."""
+    show = error.show
+
+    def show_as_ours(file: TextIO | None = None) -> None:
+        shown = io.StringIO()
+        show(shown)
+        text = re.sub("^Error: ", "error: ", shown.getvalue(), flags=re.MULTILINE)
+        print(text, end="", file=file or sys.stderr)
+
+    error.show = show_as_ours
 
 
 def problem_of_usage(error: Exception) -> Problem:
