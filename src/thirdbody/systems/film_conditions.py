@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 __all__ = ["Entrainment", "FilmConditions"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 # ------------------------------------------------------------------ what enters with the oil
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entrainment(Value):

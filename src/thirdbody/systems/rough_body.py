@@ -51,6 +51,10 @@ if TYPE_CHECKING:
 __all__ = ["RoughBody", "curve", "rough_cylinder", "rough_sphere"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 # ------------------------------------------------------------------------------ results
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class RoughBody:
