@@ -314,7 +314,7 @@ def __getattr__(name: str) -> Any:
     else:
         from .quantities.nearest import no_attribute
 
-        inside = (f"systems.{each}" for each in _systems())
+        inside = (f"systems.{system}" for system in _systems())
         raise no_attribute(__name__, name, (*__all__, *_MODULES, *_HOMES, *inside))
     globals()[name] = value
     return value

@@ -337,9 +337,9 @@ def give_problems(problems: Iterable[Mapping[str, object]]) -> None:
             tell_written(place)
 
 
-def show_in_one_form(error: Any) -> None:
+def show_in_one_form(error: Exception) -> None:
     """Let the sentence of a command line that does not parse begin as those of all other errors."""
-    show = error.show
+    show = error.show  # type: ignore[attr-defined]
 
     def show_as_ours(file: TextIO | None = None) -> None:
         shown = io.StringIO()
@@ -347,7 +347,7 @@ def show_in_one_form(error: Any) -> None:
         text = re.sub("^Error: ", "error: ", shown.getvalue(), flags=re.MULTILINE)
         print(text, end="", file=file or sys.stderr)
 
-    error.show = show_as_ours
+    error.show = show_as_ours  # type: ignore[attr-defined]
 
 
 def problem_of_usage(error: Exception) -> Problem:

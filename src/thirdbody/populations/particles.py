@@ -204,15 +204,9 @@ class Particles(Value):
             particle_density=_optional("particle_density", particle_density, "kg/m^3"),
             oil_density=_read_value("oil_density", oil_density, "kg/m^3"),
         )
-        return cls._in_gap(n, gap, material=material, diameter=diameter, **others)
-
-    @classmethod
-    def _in_gap(cls, n: float, gap: float | str, **others: Any) -> Self:
-        """The particles of a fluid with n per volume [1/m³] in a gap [m]."""
-        height = _gap(gap)
-        particles = cls(areal_density=n * height, **others)
-        if not is_silent() and (note := about_gaps({"gap": wider_part(particles, height)})):
-            tell_of_range(note)
+        density = n * _gap(gap)
+        particles = cls(material=material, diameter=diameter, areal_density=density, **others)
+        _warn_of_gap(particles, gap)
         return particles
 
     @classmethod
@@ -273,7 +267,10 @@ class Particles(Value):
             smallest=_optional("smallest", smallest, "m"),
             largest=_optional("largest", largest, "m"),
         )
-        return cls._in_gap(n, gap, material=material, diameter=diameter, **others)
+        density = n * _gap(gap)
+        particles = cls(material=material, diameter=diameter, areal_density=density, **others)
+        _warn_of_gap(particles, gap)
+        return particles
 
     @classmethod
     def from_cleanliness_class(
@@ -321,7 +318,10 @@ class Particles(Value):
             smallest=_optional("smallest", smallest, "m"),
             largest=_optional("largest", largest, "m"),
         )
-        return cls._in_gap(n, gap, material=material, diameter=diameter, **others)
+        density = n * _gap(gap)
+        particles = cls(material=material, diameter=diameter, areal_density=density, **others)
+        _warn_of_gap(particles, gap)
+        return particles
 
     @classmethod
     def test_dust(
@@ -456,7 +456,7 @@ def about_gaps(wider: Mapping[str, float]) -> Note | None:
     most = max(wider.values(), default=0.0)
     if not most > WIDER:
         return None
-    where = " and ".join(place for place, part in wider.items() if part > WIDER)
+    where = " and ".join(place for place, share in wider.items() if share > WIDER)
     what = (
         f"{where}: {percent(most)} of the particles are wider than the height of the fluid that "
         "brings them; how many of these enter is not known, and all that particles do is "
@@ -464,6 +464,12 @@ def about_gaps(wider: Mapping[str, float]) -> Note | None:
     )
     action = "give areal_density, or as gap the height in which they are caught"
     return Note(what, code="gap", effect=most, action=action)
+
+
+def _warn_of_gap(particles: Particles, gap: float | str) -> None:
+    """Warn of particles that are wider than their gap [m], unless the caller says it."""
+    if not is_silent() and (note := about_gaps({"gap": wider_part(particles, _gap(gap))})):
+        tell_of_range(note)
 
 
 def _sizes_meant(diameter: object) -> str:

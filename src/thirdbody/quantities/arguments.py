@@ -407,7 +407,7 @@ def _meaning(function: Callable[..., object], name: str) -> str:
     return f": {about}" if about else ""
 
 
-def words_of_quantity(name: str, about: Mapping[str, Any]) -> str:
+def words_of_quantity(name: str, about: Mapping[str, object]) -> str:
     """Meaning of a quantity, with its symbol where that is not its name, and its unit.
 
     >>> words_of_quantity("eta", {"symbol": "η", "unit": "Pa s", "meaning": "viscosity"})

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
 
 import numpy as np
 
@@ -88,7 +87,7 @@ LOADS = {"pressure": "Pa", "d": "m"}
 """Units of the loads that may lack theirs."""
 
 
-def warn_of_load(name: str, values: Any) -> None:
+def warn_of_load(name: str, values: object) -> None:
     """Warn of loads [Pa], or of separations [m], that look like a forgotten unit.
 
     Of several the largest is asked: a range may begin low.
@@ -104,7 +103,7 @@ def warn_of_load(name: str, values: Any) -> None:
     if name not in LOADS or is_silent():
         return
     try:
-        largest = float(np.max(values))
+        largest = float(np.max(values))  # type: ignore[call-overload]
     except (TypeError, AttributeError, ValueError, OverflowError):
         return  # the function says what it needs
     warn_of_slip(name, {"unit": LOADS[name]}, largest, load=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from functools import cache
-from typing import Any
 
 from .kinds import USUAL, registry
 
@@ -55,9 +54,9 @@ def pattern_of_unit(unit: str) -> str:
         for power in POWERS:
             if dimensions**power == wanted and (power == 1 or dimensions):
                 alone.setdefault(power, []).extend(_spellings(name))
-    ways = [_word(words) + _raised(power) for power, words in alone.items()]
+    ways = [_word(words) + _power_text(power) for power, words in alone.items()]
     ways += [
-        rf"(1\s*)?/\s*{_word(words)}{_raised(-power)}"
+        rf"(1\s*)?/\s*{_word(words)}{_power_text(-power)}"
         for power, words in alone.items()
         if power < 0
     ]
@@ -69,7 +68,7 @@ def pattern_of_unit(unit: str) -> str:
     return rf"^\s*{NUMBER}\s*({'|'.join(ways)})?\s*$"
 
 
-def _raised(power: int) -> str:
+def _power_text(power: int) -> str:
     """What stands behind a unit of this power."""
     if power == 1:
         return r"(\s*(\^|\*\*)\s*1)?"
@@ -98,7 +97,7 @@ def _spellings(name: str) -> tuple[str, ...]:
     """Words for a unit that consist of letters."""
     words = [name]
     if name != "dimensionless":
-        definition: Any = registry()._units[name]
+        definition = registry()._units[name]
         words += [definition.symbol, *definition.aliases]
     words += PARTICLES if name == "count" else ()
     words += ("%",) if name == "percent" else ()

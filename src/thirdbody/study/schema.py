@@ -58,7 +58,10 @@ def study_schema() -> dict[str, Any]:
         *({"required": ["sweep"], "properties": {"sweep": {"required": [name]}}} for name in LOADS),
     ]
     schema |= {"if": {"required": [LIFE.name]}, "then": {}, "else": contact}
-    schema["allOf"] = [*_exclusions(), _named_materials(schema["properties"])]
+    schema["allOf"] = [
+        *_exclusions(),
+        _named_materials(schema["properties"]["surfaces"]["properties"]),
+    ]
     schema["definitions"] = {
         name: {"type": "string", "pattern": pattern_of_unit(unit)}
         for name, unit in sorted(UNITS.items())
@@ -66,7 +69,7 @@ def study_schema() -> dict[str, Any]:
     return {"$schema": DRAFT, "title": "A study file of thirdbody"} | schema
 
 
-def _exclusions() -> Iterator[dict[str, Any]]:
+def _exclusions() -> Iterator[dict[str, object]]:
     """Tables in which two keys say the same thing."""
     for name, keys in ONE_OF.items():
         table = name.partition(".")[0]
@@ -75,12 +78,12 @@ def _exclusions() -> Iterator[dict[str, Any]]:
     yield {"properties": {LOAD.name: {"minProperties": 1}}}
 
 
-def _named_materials(properties: Mapping[str, Any]) -> dict[str, Any]:
+def _named_materials(surfaces: Iterable[str]) -> dict[str, object]:
     """Materials by their names are those of the library, but where a file has its own."""
     name = {"anyOf": [{"not": {"type": "string"}}, {"enum": list(materials)}]}
     one = {"properties": {"material": name}}
     several = {"anyOf": [one | {"type": "object"}, {"type": "array", "items": one}]}
-    sides = {"properties": {side: name for side in properties["surfaces"]["properties"]}}
+    sides = {"properties": {side: name for side in surfaces}}
     tables = {"properties": {"surfaces": sides, "particles": several}}
     return {"if": {"required": ["materials"]}, "then": {}, "else": tables}
 
