@@ -69,6 +69,7 @@ WARNED |= {
         "nanoparticle_additive", "soft_ptfe_particles", "steel_debris_in_film", "sweep",
     )
 }  # fmt: skip
+WARNED["iso4406"] = [CHI, TABLE, "the height of the fluid that brings them"]
 WARNED["steel_debris_in_film"].append("particles flatten, as debris = 'ductile' says")
 WARNED["oil_film"].append("the oil of [film] carries nothing here")
 WARNED["quartz_in_bearing"] = ["strengths are extrapolated by a factor"]

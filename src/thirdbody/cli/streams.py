@@ -320,13 +320,14 @@ def give_problems(problems: Iterable[Mapping[str, object]]) -> None:
 
     A file is written where nothing stands, or what an earlier run of this program wrote: no answer
     of an older study is taken for that of this one. Nobody else's is replaced, by ``--force``
-    neither: what is wrong may be just that.
+    neither: what is wrong may be just that. Where files cannot be written, none is.
     """
     place, data = JSON_PLACE.get(), {"problems": list(problems)}
+    no_files = any(problem["code"] == Mistake.UNWRITABLE for problem in data["problems"])
     if place == STDOUT:
         print_json(data)
         sys.stdout.flush()
-    elif place is not None:
+    elif place is not None and not no_files:
         from .own_files import need_places
 
         with contextlib.suppress(InvalidValue):
