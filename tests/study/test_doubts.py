@@ -84,3 +84,13 @@ def test_the_film_of_a_study_is_run_by_a_method_and_is_no_function():
         assert oiled.stribeck().equals(oiled.film.stribeck(oiled.contact))
     with refuses(Mistake.MISSING, "film"):
         tb.load_study(STUDY.with_name("two-body.toml")).stribeck()
+
+
+def test_beside_a_film_the_note_on_the_gap_stands_with_that_on_the_oil():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        study = tb.load_study(STUDY.with_name("gear.toml"))
+        found = run_study(study)
+    codes = [getattr(note, "code", "") for note in found.oil_notes]
+    assert codes == ["film.left_out", "gap"]
+    assert "gap" not in [getattr(note, "code", "") for note in study.notes]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,7 @@ from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.distributions import Distribution, Histogram
 from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
-from ..populations.particles import Particles
+from ..populations.particles import Particles, about_gaps, wider_part
 from ..populations.shape import SPHERE, Angular, Sphere
 from ..populations.strength import WeibullStrength
 from ..quantities.units import say, to_si
@@ -34,7 +34,7 @@ from .reader import (
 from .surfaces import PARTICLE_LAW
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "SHAPES", "gaps_of", "populations"]
+__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "SHAPES", "gaps_of", "notes_on_gaps", "populations"]
 
 AMOUNT = {
     name: declared.metadata["quantity"]
@@ -185,6 +185,20 @@ def gaps_of(whole: Mapping[str, object]) -> tuple[float | None, ...]:
     """Heights of the oil whose particles each population is [m]; None where a file has none."""
     gaps = [get(table, "gap") or get(table, "film") for table in populations(whole).values()]
     return tuple(None if gap is None else to_si(gap, "m") for gap in gaps)
+
+
+def notes_on_gaps(several: Sequence[Particles], gaps: Sequence[float | None]) -> list[Note]:
+    """Doubt of populations that are wider than the oil which brings them, one note at most."""
+    places = [f"particles.{i}.gap" for i in range(len(several))]
+    if len(several) == 1:
+        places = ["particles.gap"]
+    wider = {
+        place: wider_part(population, gap)
+        for place, population, gap in zip(places, several, gaps, strict=False)
+        if gap is not None
+    }
+    note = about_gaps(wider)
+    return [] if note is None else [note]
 
 
 def _particles(reader: Reader, path: str, data: object) -> object:

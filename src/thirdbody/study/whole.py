@@ -19,7 +19,6 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.measured.topography import Topography
-from ..populations.particles import about_gaps, wider_part
 from ..quantities.arguments import names_arguments
 from ..quantities.slips import slips_are_told
 from ..systems.bodies import Body
@@ -31,7 +30,7 @@ from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
 from .own_code import load_installed
-from .particles import gaps_of, populations
+from .particles import gaps_of, notes_on_gaps
 from .plate import AskedPlate, plate_of
 from .reader import Reader
 from .schema import Describer
@@ -128,6 +127,11 @@ class Study:
     def heading(self) -> str:
         """The title, and what was set over the file."""
         return heading_of(self.title or "Study", self.settings)
+
+    @property
+    def gap_notes(self) -> list[Note]:
+        """Doubt of particles that are wider than the oil which brings them, beside a film."""
+        return [] if self.film is None else notes_on_gaps(self.contact.populations, self.gaps)
 
     def stribeck(self) -> xarray.Dataset:
         """Lubricated states over the speeds of the table [film]; see `thirdbody.films.stribeck`."""
@@ -307,13 +311,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
                 for d in loads[deep][:5]
             )
         )
-    wider = {
-        f"{place}.gap": wider_part(population, gap)
-        for place, population, gap in zip(populations(reader.whole), several, gaps, strict=True)
-        if gap is not None
-    }
-    if note := about_gaps(wider):
-        reader.notes.append(note)
+    if film is None:
+        reader.notes += notes_on_gaps(several, gaps)
     states = None if sweep is None else plan(reader, contact, load, loads, sweep)
     return Study(
         title=values.get("title", ""),
