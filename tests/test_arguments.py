@@ -16,7 +16,7 @@ from refusals import Mistake, refuses
 from test_signatures import PUBLIC
 
 import thirdbody as tb
-from thirdbody.quantities.arguments import misfits, names_arguments
+from thirdbody.quantities.arguments import NamesArguments, misfits, names_arguments
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 PAIR = tb.MaterialPair(STEEL, STEEL)
@@ -228,7 +228,7 @@ def test_every_public_function_that_takes_anything_is_marked():
             "errors.InvalidValue.name_source",
             "errors.Mistake.clause",
         ),  # texts
-        *(f"errors.Problem.{key}" for key in ("changed", "move_under", "put_in_words")),
+        *(f"errors.Problem.{key}" for key in ("changed", "move_under", "put_at", "put_in_words")),
         *(f"outputs.Solved.{key}" for key in ("output", "total", "total_of_particles")),
         "particle.OneParticle.sinks",
     }
@@ -329,3 +329,78 @@ def test_numbers_of_all_makes_are_numbers(value):
     def of_number(x: float, y: "np.ndarray | None" = None): ...
 
     assert misfits(of_number, (value,), {"y": np.ones(3)}) == []
+
+
+# ---------------------------------------------------------------- what is left out or misspelt
+def built(module=tb, seen=None):
+    """Classes that users build, by the names that they write."""
+    seen = set() if seen is None else seen
+    for name in module.__all__:
+        thing = getattr(module, name)
+        if inspect.ismodule(thing):
+            yield from built(thing, seen)
+        elif isinstance(thing, type) and issubclass(thing, NamesArguments) and thing not in seen:
+            seen.add(thing)
+            parameters = inspect.signature(thing).parameters.values()
+            if parameters and not any(each.kind is each.VAR_KEYWORD for each in parameters):
+                yield name, thing
+
+
+DOORS = [*bound(), *built()]
+
+
+def needed_by(function):
+    return {
+        each.name
+        for each in inspect.signature(function).parameters.values()
+        if each.default is each.empty and each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "function"),
+    [(name, door) for name, door in DOORS if needed_by(door)],
+    ids=lambda each: each if isinstance(each, str) else "",
+)
+def test_every_argument_that_is_left_out_is_named(name, function):
+    for _ in range(2):
+        with pytest.raises(tb.errors.InvalidValue) as raised:
+            function()
+        assert isinstance(raised.value, TypeError)
+        problems = raised.value.problems
+        assert {(each.code, each.path) for each in problems} == {
+            (Mistake.MISSING, each) for each in needed_by(function)
+        }
+
+
+def test_most_doors_that_need_something_are_called():
+    names = {name for name, door in DOORS if needed_by(door)}
+    assert {"Oil", "Material", "Roughness", "Topography", "solve", "films.mixed_film"} <= names
+    assert len(names) > 100
+
+
+def test_what_an_argument_is_stands_behind_its_name():
+    for door, words in [(tb.films.Oil, ("η", "Pa s")), (tb.films.mixed_film, ("speed", "m/s"))]:
+        with pytest.raises(tb.errors.WrongKind) as raised:
+            door()
+        told = [each for each in raised.value.problems if each.path in ("eta", "speed")]
+        assert all(word in each.rule for each in told for word in words)
+        assert len(told) == 1
+
+
+@pytest.mark.parametrize(("name", "door"), list(built()))
+def test_a_misspelt_keyword_is_answered_with_the_one_meant(name, door):
+    key = max(inspect.signature(door).parameters, key=len)
+    with pytest.raises(tb.errors.WrongKind) as raised:
+        door(**{f"{key}x": 1.0})
+    unknown = [each for each in raised.value.problems if each.code == Mistake.UNKNOWN]
+    assert [(each.path, each.meant) for each in unknown] == [(f"{key}x", key)]
+    missing = {each.path for each in raised.value.problems if each.code == Mistake.MISSING}
+    assert missing == needed_by(door) - {key}
+
+
+def test_a_copy_needs_no_arguments():
+    with pytest.raises(tb.errors.WrongKind):
+        tb.films.Oil()
+    oil = tb.films.Oil(eta=0.04, alpha=2e-8)
+    assert copy.copy(oil) == pickle.loads(pickle.dumps(oil)) == oil

@@ -172,3 +172,42 @@ def test_the_reference_names_nothing_by_an_old_path():
     old = {("thirdbody", name) for name, _ in OLD}
     old |= {(f"thirdbody.{name}", each) for name, _ in OLD for each in dir(getattr(tb, name))}
     assert [f"{module}.{name}" for module, name in DOCUMENTED if (module, name) in old] == []
+
+
+def modules_of(module, place, seen):
+    """Modules that a user meets by completion, by the names that are written."""
+    for name in dir(module):
+        thing = None if name.startswith("_") else getattr(module, name)
+        if isinstance(thing, ModuleType) and thing not in seen:
+            seen.add(thing)
+            yield f"{place}.{name}", thing
+            yield from modules_of(thing, f"{place}.{name}", seen)
+
+
+PUBLIC = list(modules_of(tb, "tb", set()))
+
+
+@pytest.mark.parametrize(("place", "module"), PUBLIC, ids=[place for place, _ in PUBLIC])
+def test_every_name_that_completion_offers_is_public_documented_and_importable(place, module):
+    names = {name for name in dir(module) if not name.startswith("_")}
+    assert names == set(module.__all__)
+    assert module.__name__.startswith("thirdbody")
+    for name in names:
+        thing = getattr(module, name)
+        if inspect.isclass(thing) or inspect.isfunction(thing) or inspect.ismodule(thing):
+            assert thing.__doc__, f"{place}.{name}"
+
+
+def test_completion_reaches_the_life_of_a_bearing():
+    places = {place for place, _ in PUBLIC}
+    assert {"tb.systems.bearing_life", "tb.systems.life.run", "tb.oil.until"} <= places
+    with pytest.raises(AttributeError, match=r"systems\.bearing_life"):
+        _ = tb.bearing_life
+
+
+def test_completion_loads_no_module():
+    script = "import sys\nfrom thirdbody import systems\nfrom thirdbody.systems import life\n"
+    script += "dir(systems), dir(life)\n"
+    script += "print(*[each for each in sys.modules if each.startswith('thirdbody.systems.')])"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.stdout.split() == ["thirdbody.systems.life"]

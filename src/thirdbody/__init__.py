@@ -24,7 +24,8 @@ asperity, particle, outputs
 equilibria, objectives, results, errors
     more states, what a design is asked, answers and errors by their names
 films, oil, systems
-    lubricated contacts, the life of an oil, bodies and bearings
+    lubricated contacts, the life of an oil, bodies and bearings; the life of a bearing by ISO 281
+    is in `systems.bearing_life`, the sizes of bearings are in `systems.bearing_sizes`
 explicit, plot, reference
     every particle at its place, figures, exact solutions
 """
@@ -313,9 +314,16 @@ def __getattr__(name: str) -> Any:
     else:
         from .quantities.nearest import no_attribute
 
-        raise no_attribute(__name__, name, (*__all__, *_MODULES, *_HOMES))
+        inside = (f"systems.{system}" for system in _systems())
+        raise no_attribute(__name__, name, (*__all__, *_MODULES, *_HOMES, *inside))
     globals()[name] = value
     return value
+
+
+def _systems() -> list[str]:
+    from . import systems
+
+    return systems.__all__
 
 
 def __dir__() -> list[str]:

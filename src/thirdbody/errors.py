@@ -163,6 +163,21 @@ class Clause(str):
         return type(self), (Advice(str(self), self.study), self.code)
 
 
+def _hint_apart(rule: str, hint: str) -> tuple[str, str]:
+    """A rule without the hint that stands behind a semicolon in it, and the whole hint.
+
+    >>> _hint_apart("must be > 0; leave out the minus sign", "")
+    ('must be > 0', 'leave out the minus sign')
+    """
+    rule_alone, semicolon, rest = rule.partition("; ")
+    if not semicolon:
+        return rule, hint
+    rule_in_study, _, rest_in_study = in_study(rule).partition("; ")
+    behind = Advice(rest, rest_in_study) if in_study(rule) != rule else rest
+    apart = Advice(rule_alone, rule_in_study) if rule_in_study != rule_alone else rule_alone
+    return apart, behind + ("; " + hint) if hint else behind
+
+
 class Problem(str):
     """One mistake in an input: its parts, and as text the sentence that they make.
 
@@ -223,6 +238,7 @@ class Problem(str):
     ) -> Problem:
         if code is None:
             code = rule.code if isinstance(rule, Clause) else Mistake.UNSAID
+        rule, hint = _hint_apart(rule, hint)
         place = ".".join(filter(None, (owner, path)))
         equals = " " if place.startswith("--") else " = "
         start = place if value is None or rule[:1] == "=" else f"{place}{equals}{value}"
@@ -264,6 +280,16 @@ class Problem(str):
         """The same mistake where what it is a part of goes by another name."""
         whole = not self.path and not self.owner
         return self.changed(owner=owner, rule=": " + self.rule if whole else self.rule)
+
+    def put_at(self, path: str, value: str | None = None, *, sign: str = "=") -> Problem:
+        """The same mistake told of the place where what it is about stands.
+
+        >>> told = Problem("", "5 nmm has the unit nmm", hint="did you mean nm?")
+        >>> told.put_at("sigma", '"5 nmm"')
+        'sigma = 5 nmm has the unit nmm; did you mean nm?'
+        """
+        rule = f"{sign} {self.changed(hint='')}"
+        return Problem(path, rule, value, hint=self.hint, code=self.code)
 
 
 class Note(str):
@@ -356,17 +382,32 @@ def problem_data(problem: Problem) -> dict[str, str | None]:
     >>> found = Problem("sigma", Mistake.RANGE.clause("must be > 0"), "-1", owner="roughness")
     >>> problem_data(found)["code"], problem_data(found)["path"], problem_data(found)["allowed"]
     ('range', 'roughness.sigma', 'must be > 0')
+
+    Nothing stands in it twice: of a text the quotes are left out, which JSON has itself, and what
+    is wrong is said by the sentence alone where that is all of it.
+
+    >>> problem_data(Problem("law", "is not known", "'zcm'"))["value"]
+    'zcm'
+    >>> problem_data(Problem("", "give a load"))["allowed"]
+    ''
     """
     here = problem.put_in_words(in_study)
+    rule = here.rule.removeprefix("= ").removeprefix(here.value or "").lstrip(":,= ")
     return {
         "code": str(here.code),
         "path": here.place or here.source,
-        "value": here.value,
-        "allowed": str(here.rule).lstrip(":,= "),
+        "value": None if here.value is None else _without_quotes(here.value),
+        "allowed": "" if rule == str(here) else rule,
         "hint": str(here.hint),
         "meant": problem.meant,
         "sentence": str(here),
     }
+
+
+def _without_quotes(shown: str) -> str:
+    """A text as it is, of one that is shown in quotes."""
+    quoted = len(shown) > 1 and shown[0] == shown[-1] and shown[0] in "\"'"
+    return shown[1:-1] if quoted and shown[0] not in shown[1:-1] else shown
 
 
 def place_note(note: str, place: str) -> Note:
@@ -542,12 +583,12 @@ _DATACLASSES = os.sep + "dataclasses.py"
 def tell_of_range(message: str | Warning, kind: type[Warning] = RangeWarning) -> None:
     """Warn, of a range or whatever `kind` says, at the line of the user that called the library."""
     frame, level = sys._getframe(1), 2
-    while frame.f_back is not None and _is_inside(frame):
+    while frame.f_back is not None and is_inside(frame):
         frame, level = frame.f_back, level + 1
     warnings.warn(message, kind, stacklevel=level)
 
 
-def _is_inside(frame: FrameType) -> bool:
+def is_inside(frame: FrameType) -> bool:
     """Whether a frame runs code of this library, or code generated for its dataclasses."""
     code = frame.f_code
     of_dataclass = code.co_filename == "<string>" and code.co_name == "__init__"

@@ -69,6 +69,7 @@ WARNED |= {
         "nanoparticle_additive", "soft_ptfe_particles", "steel_debris_in_film", "sweep",
     )
 }  # fmt: skip
+WARNED["iso4406"] = [CHI, TABLE, "the height of the fluid that brings them"]
 WARNED["steel_debris_in_film"].append("particles flatten, as debris = 'ductile' says")
 WARNED["oil_film"].append("the oil of [film] carries nothing here")
 WARNED["quartz_in_bearing"] = ["strengths are extrapolated by a factor"]
@@ -234,13 +235,13 @@ def test_mistakes_are_taken_apart_in_json(wrong):
 @pytest.mark.parametrize(
     ("arguments", "code", "path", "value"),
     [
-        (("solve", DUSTY, "--set", 'roughness.sigma="5 Pa"'), "unit", "roughness.sigma", '"5 Pa"'),
+        (("solve", DUSTY, "--set", 'roughness.sigma="5 Pa"'), "unit", "roughness.sigma", "5 Pa"),
         (("solve", DUSTY, "--set", "roughness.R=[1, 2]"), "kind", "roughness.R", "[1, 2]"),
         (("solve", "none.toml"), "unreadable", "none.toml", None),
         (("solve", "broken.toml"), "form", "broken.toml", None),
         (("solve",), "form", "STUDY.toml", None),
         (("solve", DUSTY, "--sett", "title=1"), "unknown", "--sett", None),
-        (("solve", DUSTY, "--set", "title"), "form", "--set", "'title'"),
+        (("solve", DUSTY, "--set", "title"), "form", "--set", "title"),
         (("solve", DUSTY, "--csv", "none/a.csv"), "unwritable", "none/a.csv", None),
         (("explicit", DUSTY, "--maps", "some"), "option", "--maps", "some"),
         (("film", DUSTY), "missing", "film", None),
@@ -259,6 +260,48 @@ def test_a_mistake_in_json_says_where_it_is_and_what_was_written(
     assert (problem["code"], problem["path"], problem["value"]) == (code, path, value)
     if path == "slove":
         assert problem["meant"] == "solve"
+
+
+@pytest.mark.parametrize(
+    ("setting", "meant"),
+    [
+        ('surfaces.second="S45D"', "S45C"),
+        ('roughness.sigma="5 nmm"', "nm"),
+        ("roughness.sigma=100", "100 nm"),
+        ('particle_law.seat="rouhg"', "rough"),
+    ],
+)
+def test_a_mistake_in_json_says_nothing_twice(setting, meant):
+    (problem,) = strict(run("solve", DUSTY, "--json", "--set", setting).stdout)["problems"]
+    assert problem["meant"] == meant
+    assert meant in problem["hint"]
+    assert problem["hint"] not in problem["allowed"]
+    assert problem["value"].strip('"') == problem["value"]
+    assert 0 < len(problem["allowed"]) < len(problem["sentence"]) - len(problem["hint"])
+
+
+def test_mistakes_stand_in_the_file_that_was_to_hold_the_answer(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    file = Path("a.json")
+    ways = [("load.F_star=-1", 2), ("load.F_star=1e-4", 0), ("load.F_star=5e6", 3), ("a", 2)]
+    for setting, status in [*ways, *ways[:1]]:
+        done = run("solve", DUSTY, "--json", file, "--set", setting)
+        held = strict(file.read_text("utf-8"))
+        jsonschema.validate(held, SCHEMA)
+        assert (done.exit_code, "problems" in held) == (status, status != 0)
+        if status == 2:
+            codes = [each["code"] for each in held["problems"]]
+            assert codes == [str(each.code) for each in done.problems]
+    assert list(tmp_path.iterdir()) == [tmp_path / file]
+
+
+@pytest.mark.parametrize("more", [(), ("--force",)])
+@pytest.mark.parametrize("held", ['{"a": 1}', '{"problems": ["of mine"]}', "not JSON"])
+def test_mistakes_replace_no_file_of_somebody_else(held, more, tmp_path):
+    file = tmp_path / "a.json"
+    file.write_text(held, "utf-8")
+    done = run("solve", DUSTY, "--json", file, "--set", "load.F_star=-1", *more)
+    assert (done.exit_code, file.read_text("utf-8")) == (2, held)
 
 
 @pytest.mark.parametrize(("option", "name"), [("--csv", "a.xls"), ("--xlsx", "a.xls")])

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 
+import thirdbody as tb
 from thirdbody.cli.streams import warn
+from thirdbody.equilibrium.words import NO_MODE
 from thirdbody.errors import (
     Advice,
     InvalidValue,
@@ -18,9 +20,11 @@ from thirdbody.errors import (
     in_study,
     note_of,
 )
+from thirdbody.explicit.seats import SEATS
 
 from .test_cli import DUSTY, run
 
+STUDIES = Path(tb.__file__).parent / "data" / "studies"
 CALL = re.compile(r"\w\(\.\.\.|\.replace\(|\b[A-Z][A-Za-z]+\([a-z_]*=?|\b(particle|outputs)\.[A-Z]")
 """A call or a class of Python."""
 BARE = [
@@ -183,3 +187,36 @@ def test_hints_fit_the_sign_of_a_number(tmp_path, setting, hint):
     assert done.exit_code == 2
     (line,) = [each for each in done.stderr.splitlines() if each.startswith("error: ")]
     assert line.endswith(f"; {hint}")
+
+
+# ---------------------------------------------------------------- one form, and nothing left out
+@pytest.mark.parametrize(
+    "arguments", [("--foo",), ("slove",), ("solve",), ("solve", "--foo"), ("film", "none.toml")]
+)
+def test_every_error_begins_alike(arguments):
+    done = run(*arguments)
+    assert done.exit_code == 2
+    heads = {line.partition(":")[0] for line in done.stderr.splitlines()}
+    assert "error" in heads
+    assert "Error" not in heads
+
+
+def test_the_help_of_explicit_names_every_seat():
+    shown = run("explicit", "--help").stdout.split("--seats")[1].split("--maps")[0]
+    assert set(SEATS) <= set(re.findall(r"\w+", shown))
+
+
+def test_what_no_mode_means_stands_under_the_table_that_has_none(tmp_path):
+    settings = ("--set", 'load.separation=["200 nm", "5 um"]')
+    assert NO_MODE in " ".join(run("solve", DUSTY, *settings).stdout.split())
+    settings = ("--set", 'load.separation=["200 nm", "100 nm"]')
+    assert NO_MODE not in " ".join(run("solve", DUSTY, *settings).stdout.split())
+
+
+def test_assess_says_before_the_work_that_it_leaves_the_film_out(monkeypatch):
+    def refuse(*_: object, **__: object):
+        raise tb.errors.InvalidValue("enough")
+
+    monkeypatch.setattr("thirdbody.study.analyses.assess_study", refuse)
+    assert "film.left_out" in run("assess", STUDIES / "gear.toml").codes
+    assert "film.left_out" not in run("assess", STUDIES / "two-body.toml").codes

@@ -85,7 +85,8 @@ def test_a_conductivity_of_its_own_is_written_out():
 
 def test_tables_of_a_contact_do_not_warn_of_a_slip_again():
     with pytest.warns(tb.errors.RangeWarning, match="GPa"):
-        slip = contact(tb.Material(E=205.0, nu=0.3, H=5e9))
+        soft = tb.Material(E=205.0, nu=0.3, H=5e9)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        slip = contact(soft)
         assert carrying(slip).surfaces.first.E == 205.0

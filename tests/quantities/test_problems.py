@@ -201,7 +201,9 @@ def test_a_clause_keeps_its_code_and_its_words_for_studies():
     again = pickle.loads(pickle.dumps(clause))
     assert (again, again.code, again.study) == (clause, Mistake.RANGE, 'must be > 0; R = "1 um"')
     moved = Problem("R", clause, "0").move_under("roughness").put_in_words(in_study)
-    assert (moved.code, moved.rule) == (Mistake.RANGE, clause.study)
+    assert (moved.code, moved.hint) == (Mistake.RANGE, 'R = "1 um"')
+    assert moved.rule == clause.study.partition("; ")[0]
+    assert moved.endswith(clause.study)
     assert Problem("R", clause, "0", code=Mistake.KIND).code is Mistake.KIND
     assert tb.errors.InvalidValue("my own words").problems[0].code is Mistake.UNSAID
 

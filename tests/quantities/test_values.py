@@ -1,5 +1,6 @@
 """What users build: frozen, checked once, comparable, with a JSON round trip."""
 
+import contextlib
 import dataclasses
 import json
 import math
@@ -17,6 +18,7 @@ from refusals import Mistake, refuses, warns_of
 from twins import decades, horng_twins, roughnesses, series_twins
 
 import thirdbody as tb
+from thirdbody.quantities.slips import SLIP
 from thirdbody.quantities.value import problem_with, quantity
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -325,27 +327,19 @@ def test_every_field_is_documented(value):
 
 # -------------------------------------------------------------------------- likely slips
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    ("make", "words"),
     [
         (
-            {
-                "particles": dust(
-                    diameter=tb.distributions.Monodisperse(mean=200), areal_density=1e-6
-                )
-            },
-            ["particles.diameter.mean = 200 ", "200 m", "was 200 nm"],
+            lambda: dust(diameter=tb.distributions.Monodisperse(mean=200), areal_density=1e-6),
+            ["diameter.mean = 200 ", "200 m", "was 200 nm"],
         ),
-        ({"roughness": tb.Roughness(sigma=1e-7, R=2.8)}, ["roughness.R = 2.8 ", "was 2.8 um"]),
-        (
-            {"surfaces": tb.MaterialPair(STEEL, STEEL.replace(E=205))},
-            ["surfaces.second.E = 205 ", "205 Pa", "was 205 GPa"],
-        ),
+        (lambda: tb.Roughness(sigma=1e-7, R=2.8), ["R = 2.8 ", "was 2.8 um"]),
+        (lambda: STEEL.replace(E=205), ["E = 205 ", "205 Pa", "was 205 GPa"]),
     ],
 )
-def test_a_forgotten_unit_is_told_of(changes, words):
-    options = {"surfaces": tb.MaterialPair(STEEL, STEEL), "roughness": ROUGH} | changes
+def test_a_forgotten_unit_is_told_of(make, words):
     with pytest.warns(tb.errors.RangeWarning) as heard:
-        tb.Contact(**options)
+        make()
     (one,) = heard
     assert one.filename == __file__
     for word in words:
@@ -378,8 +372,68 @@ def test_a_study_file_tells_of_a_slip_once(tmp_path):
             tb.load_study(file)
     (problem,) = told.value.problems
     assert 'was "2.8 um" meant?' in problem
-    with warns_of("unit of roughness.R", says=" 2.8 um "):
+    with warns_of("unit of R", says=" 2.8 um ") as heard:
         contact(roughness=tb.Roughness(sigma=1e-7, R=2.8))
+    assert len(heard) == 1
+
+
+NUMBERS = {"E": 205e9, "nu": 0.3, "H": 2e9}
+SLIPS = [
+    ("roughness.sigma", 100, "sigma", lambda x: tb.Roughness(sigma=x, R=2.8e-6)),
+    ("surfaces.first.E", 205, "E", lambda x: tb.Material(**NUMBERS | {"E": x})),
+    ("surfaces.first.density", 7.8, "density", lambda x: tb.Material(**NUMBERS, density=x)),
+    ("load.pressure", 5, "pressure", lambda x: tb.solve(contact(), pressure=x)),
+    ("load.separation", 200, "d", lambda x: tb.solve(contact(), d=x)),
+    ("particles.mean", 3, "diameter.mean",
+     lambda x: dust(diameter=tb.distributions.Monodisperse(mean=x), areal_density=1e-3)),
+]  # fmt: skip
+"""A number without its unit: its key in a study, its name in Python, and who takes it there."""
+
+
+@pytest.mark.parametrize(("key", "number", "name", "make"), SLIPS, ids=[row[0] for row in SLIPS])
+def test_python_doubts_the_numbers_that_a_study_refuses(key, number, name, make, tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(
+        "[surfaces]\nfirst = { E = 205e9, nu = 0.3, H = 2e9 }\nsecond = 'S45C'\n"
+        "[roughness]\nsigma = '100 nm'\nR = '2.8 um'\n[load]\npressure = '5 MPa'\n"
+        "[particles]\nmaterial = 'SiO2'\nareal_density = 1e9\n"
+        "distribution = 'monodisperse'\nmean = '3 um'\n"
+    )
+    with refuses(Mistake.UNIT, key):
+        tb.load_study(file, [f"{key}={number}"])
+    with warns_of(f"unit of {name}", effect=math.inf), contextlib.suppress(tb.errors.NoEquilibrium):
+        make(number)
+
+
+def test_a_load_is_told_of_once_and_by_the_function_that_is_called():
+    loads = {"pressure": [5.0, 20.0]}
+    doors = [
+        lambda: tb.sweep(contact(), **loads),
+        lambda: tb.equilibria.solve_states(contact(), **loads),
+        lambda: tb.compare(contact(), **loads),
+    ]
+    for door in doors:
+        with warns_of("unit of pressure") as heard:
+            door()
+        codes = [getattr(each.message.args[0], "code", "") for each in heard]
+        assert codes.count(f"{SLIP}pressure") == 1
+        assert heard[codes.index(f"{SLIP}pressure")].filename == __file__
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", "pressure")
+        tb.solve(contact(), pressure=np.geomspace(1.0, 1e6, 4))  # a range that begins low
+
+
+def test_what_a_study_says_of_a_load_is_not_said_again(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(
+        "[surfaces]\nfirst = 'S45C'\nsecond = 'S45C'\n"
+        "[roughness]\nsigma = '100 nm'\nR = '2.8 um'\n[load]\npressure = '50 Pa'\n"
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        study = tb.load_study(file)
+        study.solve()
+    assert [each.code for each in study.notes] == [f"{SLIP}load.pressure"]
 
 
 # ------------------------------------------------------------------------------ names
@@ -423,6 +477,9 @@ def test_a_copy_tells_only_of_slips_that_are_new():
         contact.replace(**{"roughness.sigma": 2e-7})
     with pytest.warns(tb.errors.RangeWarning, match=r"roughness\.sigma = 0\.03") as heard:
         contact.replace(**{"roughness.sigma": 0.03})
+    assert len(heard) == 1
+    with warns_of("unit of sigma") as heard:
+        contact.replace(roughness=tb.Roughness(sigma=0.03, R=2e-6))
     assert len(heard) == 1
 
 

@@ -2,6 +2,8 @@
 
 import copy
 import json
+import math
+import re
 import tomllib
 from pathlib import Path
 
@@ -17,7 +19,10 @@ import thirdbody as tb
 from thirdbody.cli import app
 from thirdbody.cli.commands.new import KINDS, SCHEMA
 from thirdbody.errors import InvalidValue
+from thirdbody.quantities.unit_patterns import pattern_of_unit
+from thirdbody.quantities.units import _FACTORS, _POWERS, EXAMPLES, to_si
 from thirdbody.study import check, study_schema
+from thirdbody.study.reader import UNITS
 
 FILES = mutated_studies.STUDIES
 DATA = [tomllib.loads(file.read_text("utf-8")) for file in FILES]
@@ -68,7 +73,8 @@ def test_studies_drawn_at_random_fit(schema):
 def test_ways_to_write_a_table_fit(schema, table):
     """Keys and types: whether the values make sense together is the reader's to say."""
     missing = "is a required property"
-    assert [each for each in errors(schema, table) if missing not in each] == []
+    data = {"load": {"pressure": 1e6}} | table
+    assert [each for each in errors(schema, data) if missing not in each] == []
 
 
 @pytest.mark.spread(3)
@@ -91,6 +97,84 @@ def test_no_study_that_is_read_is_refused(schema, seed):
     assert seen > refused / 2
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_template_fits(schema, kind, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert CliRunner().invoke(app, ["new", kind]).exit_code == 0
+    (file,) = tmp_path.glob("*.toml")
+    assert errors(schema, tomllib.loads(file.read_text("utf-8"))) == []
+
+
+WRONG = [
+    'roughness.sigma="300 GPa"',
+    'roughness.sigma="100 nmm"',
+    'roughness.sigma="100 furlong"',
+    'roughness.sigma="abc"',
+    'roughness.sigma="0,1 um"',
+    "roughness.sigma=true",
+    'roughness.R="60 HRC"',
+    'surfaces.first="S45D"',
+    'surfaces.second={E="205 mm", nu=0.3, H="5 GPa"}',
+    'surfaces.second={E="205 GPa", nu=0.3, H="60 HRX"}',
+    'surfaces.second={E="60 HRC", nu=0.3, H="5 GPa"}',
+    'particles.material="SiO3"',
+    'particles.mean="500 MPa"',
+    'particles.areal_density="1e11 / s"',
+    'particles.concentration=["0.1 wt%"]',
+    'load={pressure="5 um"}',
+    'load={pressure=["5 MPa", "6 nm"]}',
+    'load={pressure={from="1 MPa", to="5 kg", points=3}}',
+    'load={pressure="5 MPa", separation="1 um"}',
+    "load={}",
+    'roughness={sigma="100 nm", R="2.8 um", eta="1e11/m^2", eta_R_sigma=0.05}',
+]
+"""What a reader refuses, and an editor sees: units, words, names, two loads, none."""
+
+
+@pytest.mark.parametrize("setting", WRONG)
+def test_what_a_reader_refuses_does_not_fit(schema, setting):
+    which = [file.name for file in FILES].index("dusty_ball_screw.toml")
+    data = copy.deepcopy(DATA[which])
+    table, _, key = setting.partition("=")[0].partition(".")
+    value = tomllib.loads(f"{setting.partition('=')[0].strip()}{setting[setting.index('=') :]}")
+    data[table] = data[table] | value[table] if key else value[table]
+    with pytest.raises(InvalidValue):
+        check(data, folder=FILES[which].parent)
+    assert errors(schema, data)
+
+
+def test_a_study_without_a_load_does_not_fit(schema):
+    which = [file.name for file in FILES].index("dusty_ball_screw.toml")
+    data = {name: table for name, table in DATA[which].items() if name != "load"}
+    with pytest.raises(InvalidValue):
+        check(data, folder=FILES[which].parent)
+    assert errors(schema, data)
+    assert not errors(schema, data | {"sweep": {"pressure": ["1 MPa", "5 MPa"]}})
+
+
+@pytest.mark.parametrize("unit", sorted({*UNITS.values()} & EXAMPLES.keys()))
+def test_every_usual_way_to_write_a_unit_fits(unit):
+    pattern = re.compile(pattern_of_unit(unit))
+    texts = [f"2.5e3 {name}" for name in (*_POWERS.get(unit, ()), *_FACTORS.get(unit, ()))]
+    for text in (*texts, EXAMPLES[unit].strip('"')):
+        assert math.isfinite(to_si(text, unit))
+        assert pattern.search(text), text
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        *(("3 micrometers", "m"), ("3µm", "m"), ("1e-3 inch", "m"), ("5 N/mm²", "Pa")),
+        *(("5 kgf / mm^2", "Pa"), ("72 ksi", "Pa"), ("1e11 particles/m^2", "1/m^2")),
+        *(("7 m^-2", "1/m^2"), ("7 m⁻²", "1/m^2"), ("2 W/m/K", "W/m/K"), ("5 %", "1")),
+        *(("3 g cm^-3", "kg/m^3"), ("12 l/min", "m^3/s"), ("3 mm2", "m^2"), ("30 degree", "rad")),
+    ],
+)
+def test_other_ways_to_write_a_unit_fit(text, unit):
+    assert math.isfinite(to_si(text, unit))
+    assert re.search(pattern_of_unit(unit), text)
+
+
 def test_slips_are_seen(schema):
     data = copy.deepcopy(DATA[[file.name for file in FILES].index("dusty_ball_screw.toml")])
     data["roughness"]["sigm"] = data["roughness"].pop("sigma")
@@ -111,7 +195,7 @@ def test_words_are_those_of_the_registries():
 # ---------------------------------------------------------------------------- command line
 def test_the_command_prints_it():
     done = CliRunner().invoke(app, ["schema"])
-    assert done.exit_code == 0
+    assert (done.exit_code, done.stderr) == (0, "")
     assert json.loads(done.stdout) == study_schema()
 
 

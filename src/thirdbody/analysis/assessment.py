@@ -154,6 +154,7 @@ class Assessment(Shown, Record):
         )
         parts = [
             f"{mode} {percent(share, propagation.mode_error[mode])}"
+            + f" ({mode_of(mode)})" * (mode == "none")
             for mode, share in propagation.mode_probability.items()
             if share > 0
         ]

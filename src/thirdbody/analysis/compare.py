@@ -380,7 +380,10 @@ def _solve_law(
         if not contact.two_body:
             return _Solved(None, [NO_PARTICLES])
         _, pressure, _ = given_load(contact, load.get("pressure"), load.get("F_star"), None)
-        return _Solved(law.state(contact, pressure), ["a second opinion on the elastic area"])
+        return _Solved(
+            law.state(contact, pressure),
+            ["the elastic area after Persson, a second opinion; no asperity law of a study"],
+        )
     if isinstance(law, type):
         return _Solved(None, ["has options without a usual value: give the law itself"])
     try:

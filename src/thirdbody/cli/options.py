@@ -213,7 +213,7 @@ def read_study(
 
 def tell_notes(study: Study) -> None:
     """Warn of what looks like a slip at once; with the answer, say what was taken for a drawing."""
-    from ..quantities.value import SLIP
+    from ..quantities.slips import SLIP
 
     for sentence in study.notes:
         if getattr(sentence, "code", "").startswith(SLIP):
@@ -246,7 +246,5 @@ def metres(option: str, text: str, problems: list[str]) -> float:
     try:
         return to_si(text, "m")
     except InvalidValue as error:
-        problems += [
-            Problem(option, f": {problem}", code=problem.code) for problem in error.problems
-        ]
+        problems += [problem.put_at(option, sign=":") for problem in error.problems]
         return math.nan

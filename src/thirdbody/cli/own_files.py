@@ -39,6 +39,8 @@ JSON_KEYS = (
     {"title", "objectives", "values", "tolerance"},
 )
 """Keys by which JSON is known: of surface; of solve, film; of design."""
+PROBLEM_KEYS = {"code", "path", "allowed", "sentence"}
+"""Keys by which a mistake is known that stands in the place of an answer."""
 NAMED = {
     ".csv": "table",
     ".xlsx": "workbook",
@@ -200,22 +202,25 @@ def _is_export(path: Path) -> bool:
 
 def _is_json(path: Path) -> bool:
     """Whether JSON is that of a measured surface."""
-    return JSON_KEYS[0] <= _keys(path)
+    return JSON_KEYS[0] <= _object(path).keys()
 
 
 def _is_answer(path: Path) -> bool:
-    """Whether JSON is what a command answers."""
-    keys = _keys(path)
-    return any(needed <= keys for needed in JSON_KEYS)
+    """Whether JSON is what a command answers, or the mistakes for which it has no answer."""
+    held = _object(path)
+    problems = held.get("problems")
+    if len(held) == 1 and isinstance(problems, list):
+        return all(isinstance(one, dict) and one.keys() >= PROBLEM_KEYS for one in problems)
+    return any(needed <= held.keys() for needed in JSON_KEYS)
 
 
-def _keys(path: Path) -> set[str]:
-    """Keys of JSON that holds an object."""
+def _object(path: Path) -> dict[str, object]:
+    """The object that JSON holds; an empty one where it holds none."""
     try:
         held = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):
-        return set()
-    return set(held) if isinstance(held, dict) else set()
+        return {}
+    return held if isinstance(held, dict) else {}
 
 
 KINDS: dict[str, Callable[[Path], bool]] = {

@@ -10,9 +10,11 @@ from __future__ import annotations
 import contextlib
 import errno
 import importlib.util
+import io
 import json
 import math
 import os
+import re
 import shutil
 import stat
 import sys
@@ -21,9 +23,9 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
 from functools import partial
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -83,8 +85,8 @@ SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
 """Whether a command shows every note."""
 WARNINGS: ContextVar[int] = ContextVar("warnings", default=0)
 """How many notes a command has shown."""
-PRINTS_JSON: ContextVar[bool] = ContextVar("prints_json", default=False)
-"""Whether a command still has to print its JSON object."""
+JSON_PLACE: ContextVar[Path | None] = ContextVar("json_place", default=None)
+"""Where a command still has to put its JSON object; None where none is asked for."""
 HELD: ContextVar[list[str] | None] = ContextVar("held", default=None)
 """Lines for standard error that wait for the answer; None where none waits."""
 MOST_IN_A_SHEET = 2**20 - 1
@@ -103,8 +105,12 @@ class Commands(TyperGroup):
     """Turns errors and warnings of every command into lines on standard error."""
 
     def parse_args(self, ctx: object, args: list[str]) -> list[str]:
-        PRINTS_JSON.set(asks_for_json(args))
-        return super().parse_args(ctx, args)  # type: ignore[arg-type]
+        JSON_PLACE.set(place_of_json(args))
+        try:
+            return super().parse_args(ctx, args)  # type: ignore[arg-type]
+        except USAGE_ERROR as error:
+            show_in_one_form(error)
+            raise
 
     def resolve_command(self, ctx: object, args: list[str]) -> object:  # type: ignore[override]
         try:
@@ -112,7 +118,7 @@ class Commands(TyperGroup):
         except USAGE_ERROR:  # its sentence is printed where the command line ends
             meant = guess(args[0], self.commands)
             problem = Problem(args[0], "is no command", hint=meant, code=Mistake.UNKNOWN)
-            print_problems([problem_data(problem)])
+            give_problems([problem_data(problem)])
             raise
 
     def invoke(self, ctx: Any) -> object:
@@ -125,14 +131,15 @@ class Commands(TyperGroup):
                 return answer
             except InvalidValue as error:
                 complain(error.problems)
-                print_problems(map(problem_data, error.problems))
+                give_problems(map(problem_data, error.problems))
                 raise typer.Exit(BAD_INPUT) from None
             except USAGE_ERROR as error:  # its sentence is printed where the command line ends
-                print_problems([problem_data(problem_of_usage(error))])
+                show_in_one_form(error)
+                give_problems([problem_data(problem_of_usage(error))])
                 raise
             except (NoEquilibrium, NoTransition) as error:
                 complain([str(error)])
-                print_problems([_without_answer(error)])
+                give_problems([_without_answer(error)])
                 raise typer.Exit(NO_ANSWER) from None
             except (KeyboardInterrupt, SystemError) as error:
                 # a compiled function in which it arrives makes it a SystemError
@@ -153,14 +160,23 @@ class Command(TyperCommand):
         named = any("--json" in parameter.opts and not getattr(parameter, "is_flag", True)
                     for parameter in self.params)  # fmt: skip
         words = with_json_file(args) if named else args
-        PRINTS_JSON.set(asks_for_json(words))
+        JSON_PLACE.set(place_of_json(words))
         refuse_json_name(args, named=named)
         return super().parse_args(ctx, words)
 
 
-def asks_for_json(words: Sequence[str]) -> bool:
-    """Whether words of a command line ask for JSON on standard output."""
-    return "--json" in words or f"--json={STDOUT}" in words
+def place_of_json(words: Sequence[str]) -> Path | None:
+    """Where words of a command line ask for JSON: a file, "-" for standard output, or nowhere.
+
+    >>> str(place_of_json(["solve", "--json"])), place_of_json(["solve", "--csv", "a.csv"])
+    ('-', None)
+    """
+    place = None
+    for word in takewhile(lambda word: word != "--", words):
+        option, _, name = word.partition("=")
+        if option == "--json":
+            place = Path(name) if name else STDOUT
+    return place
 
 
 def with_json_file(args: Sequence[str]) -> list[str]:
@@ -299,11 +315,40 @@ def complain(sentences: Iterable[str]) -> None:
                 print(_wrap_line(f"error: {line}"), file=sys.stderr)
 
 
-def print_problems(problems: Iterable[Mapping[str, object]]) -> None:
-    """The JSON object of a command that has no answer, where it has printed none."""
-    if PRINTS_JSON.get():
-        print_json({"problems": list(problems)})
+def give_problems(problems: Iterable[Mapping[str, object]]) -> None:
+    """The JSON object of a command that has no answer, in the place of the answer.
+
+    A file is written where nothing stands, or what an earlier run of this program wrote: no answer
+    of an older study is taken for that of this one. Nobody else's is replaced, by ``--force``
+    neither: what is wrong may be just that. Where files cannot be written, none is.
+    """
+    place, data = JSON_PLACE.get(), {"problems": list(problems)}
+    no_files = any(problem["code"] == Mistake.UNWRITABLE for problem in data["problems"])
+    if place == STDOUT:
+        print_json(data)
         sys.stdout.flush()
+    elif place is not None and not no_files:
+        from .own_files import need_places
+
+        with contextlib.suppress(InvalidValue):
+            need_places([(place, "JSON")], force=False)
+            text = f"{json.dumps(data, indent=1, allow_nan=False)}\n"
+            write_together({place: partial(Path.write_bytes, data=text.encode())})
+            JSON_PLACE.set(None)
+            tell_written(place)
+
+
+def show_in_one_form(error: Exception) -> None:
+    """Let the sentence of a command line that does not parse begin as those of all other errors."""
+    show = error.show  # type: ignore[attr-defined]
+
+    def show_as_ours(file: TextIO | None = None) -> None:
+        shown = io.StringIO()
+        show(shown)
+        text = re.sub("^Error: ", "error: ", shown.getvalue(), flags=re.MULTILINE)
+        print(text, end="", file=file or sys.stderr)
+
+    error.show = show_as_ours  # type: ignore[attr-defined]
 
 
 def problem_of_usage(error: Exception) -> Problem:
@@ -396,7 +441,7 @@ def remark(sentence: str, *, counts: bool = False) -> None:
 
 def print_json(data: object) -> None:
     """An answer as JSON, on standard output."""
-    PRINTS_JSON.set(False)
+    JSON_PLACE.set(None)
     print(json.dumps(data, indent=1, allow_nan=False))
 
 
@@ -491,9 +536,10 @@ class TableFiles(NamedTuple):
             if self.json != STDOUT:
                 made[self.json] = partial(Path.write_bytes, data=f"{said}\n".encode())
         write_together(made)
-        if said is not None and self.json == STDOUT:
-            PRINTS_JSON.set(False)
-            print(said)
+        if said is not None:
+            JSON_PLACE.set(None)
+            if self.json == STDOUT:
+                print(said)
 
 
 def write_together(files: Mapping[Path, Callable[[Path], object]]) -> None:

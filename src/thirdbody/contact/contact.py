@@ -61,8 +61,6 @@ class Contact(Value):
     particle_law: AbstractParticleLaw = field(default_factory=Series)
     outputs: tuple[AbstractOutput, ...] = ()
 
-    _tells_of_slips = True
-
     def __post_init__(self) -> None:
         if self.particle_law is None:
             object.__setattr__(self, "particle_law", Series())

@@ -24,7 +24,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -33,7 +33,7 @@ from ..laws.base import COLUMNS, SeatedLaw
 from ..laws.field.programme import MOMENTS
 from ..laws.field.table import FIRST, TAU
 from ..numerics.chebyshev import chebyshev_transform
-from ..numerics.quadrature import panel_rule, subdivide
+from .field_seat import DENSITY, Seat
 from .field_sums import FieldSum
 from .particle_averages import SeatAverage
 from .particle_sums import Part, SeatedParticles
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.interpolate import BSpline
 
-    from ..laws.field.spectrum import Spectrum
     from ..laws.spots import ParticleSpots
 
     Array = NDArray[np.float64]
@@ -61,15 +60,8 @@ BEFORE = np.array([5.0, -10.0, 10.0, -5.0, 1.0])
 """Parts of the rows above one that is solved by itself, of which the iteration begins."""
 FINE, MORE = 1e-12, 6
 """Change of u/σ and w that is aimed at, in so many more rounds."""
-CHORDS, SET_IN, TURNS = 40, 1e-14, 80
-"""Of the search for the ground that leaves a gap: chords at most, how near [σ], and steps to the
-ground of the widest or narrowest gap."""
 SPOTS = 0.25
 """Width of panels of gaps of single particles over that of the seat."""
-HIGHEST_SEAT = 4.0
-"""Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
-DENSITY = 8.5
-"""Widths of the seat beyond which nothing is counted."""
 FAR = 30.0
 """Separation over σ from which asperities are as there: nothing of them is left."""
 LEVEL, LEVELS = 3.5, 1.0
@@ -81,9 +73,6 @@ LIFTS, LEAP, CREEPS, KINK = 12, 0.5, (4, 32), 4.0
 """Chords by which the lift of asperities is found, at most; second difference of it, over the step
 between two separations, from which on it may belong to another ground; steps between two
 separations that show whether it does, as differences of a kink are so many times less in them."""
-NODES, WIDTH, GRID = 8, 1.7, 0.25
-"""Of sums over seats: nodes of a panel, how wide one is over the width of the seat at most, and how
-far heights lie apart from which ends of panels are sought."""
 TERMS = 16
 """Of k_n over τ."""
 TINY = 1e-250
@@ -109,197 +98,6 @@ def level_out(h: Array) -> Array:
 def _series_of(tau: Array) -> Array:
     """Chebyshev polynomials at each τ between 0 and 1: (N, 16)."""
     return np.asarray(np.polynomial.chebyshev.chebvander(2 * tau - 1, TERMS - 1))
-
-
-def heights(u: Array, zeta: Array) -> Array:
-    """Σ u_n he_n at ζ (N, M) for u (N, 13), constant far from the mean plane."""
-    x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
-    after = later = np.zeros_like(x)
-    for n in range(MOMENTS, -1, -1):  # Clenshaw
-        value = after * (1 / math.sqrt(n + 1))
-        value *= x
-        value -= math.sqrt((n + 1) / (n + 2)) * later
-        value += u[:, n : n + 1]
-        later, after = after, value
-    return after
-
-
-class Nodes(NamedTuple):
-    """Nodes of sums over seats, row by row: which row, height ζ, gap over σ and weight dN, (M,)."""
-
-    rows: NDArray[np.intp]
-    zeta: Array
-    gap: Array
-    weight: Array
-
-    def sum_rows(self, values: Array, count: int) -> Array:
-        """Sums of values (M, K) over the nodes of each row: (count, K)."""
-        out = np.zeros((count, values.shape[1]))
-        first = np.flatnonzero(np.diff(self.rows, prepend=-1))
-        if len(first):
-            out[self.rows[first]] = np.add.reduceat(values, first)
-        return out
-
-
-def _in_rows(rows: NDArray[np.intp], values: Array, count: int, rest: float) -> Array:
-    """Values of rows that do not fall, beside each other, and a rest where rows have fewer."""
-    most = np.bincount(rows, minlength=count)
-    out = np.full((count, int(most.max(initial=0))), rest)
-    out[rows, np.arange(len(rows)) - np.repeat(np.cumsum(most) - most, most)] = values
-    return out
-
-
-class Seat:
-    """Particles of one shape of size distribution on ground that gives way."""
-
-    def __init__(
-        self,
-        component: Part,
-        sigma: float,
-        mean: float,
-        width: float,
-        spectrum: Spectrum,
-        shadow: str,
-    ):
-        self.height = spectrum.height
-        self.shadow = COLUMNS.index(shadow) if shadow in COLUMNS else None
-        """Column of the area in which its particles keep asperities apart, if it is one."""
-        assert isinstance(component.average, SeatAverage)
-        self.component, self.mean, self.width = component, mean, width
-        self.average = component.average
-        self.unit = component.scale / sigma
-        """Size of the standardised particles over σ."""
-
-    def _gap(self, h: Array, u: Array, zeta: Array) -> Array:
-        """Gaps over σ at h (N,) on ground u (N, 13) of heights ζ (N, M)."""
-        return h[:, None] - self.height(zeta) + heights(u, zeta)
-
-    def nodes(self, h: Array, u: Array, more: Sequence[float] = ()) -> Nodes:
-        """Nodes of sums over seats at h (N,) with u (N, 13), where particles are squeezed.
-
-        Panels end where a gap is one at which the columns over sizes have a kink, or one of
-        ``more`` [σ], where gaps are narrowest or widest, and where the ground levels out. The
-        variable is the root of the distance from the ground on which a size sets in, as loads go
-        like powers of it.
-        """
-        average = self.average.average
-        gaps = np.unique(np.concatenate([self.unit * average.edges, more]))
-        onsets = self.unit * average.onsets
-        fixed, grid, turns = self._turning_points(h, u)
-        beside = self._gap(h, u, grid)
-        ends = [np.broadcast_to(fixed, (len(h), len(fixed))), turns]
-        ends = np.concatenate([*ends, self._heights_at(h, u, gaps, grid, beside)], axis=1)
-        ends.sort(axis=1)
-        starts = [grid[:, :1], self._heights_at(h, u, onsets, grid, beside), grid[:, -1:]]
-        starts = np.sort(np.concatenate(starts, axis=1), axis=1)
-        rows, panel = np.nonzero(ends[:, 1:] > ends[:, :-1])
-        begin, end = ends[rows, panel], ends[rows, panel + 1]
-        between = self._gap(h[rows], u[rows], np.stack([begin, 0.5 * (begin + end), end], axis=1))
-        some = between[:, 1] < onsets.max()
-        rows, begin, end, between = rows[some], begin[some], end[some], between[some]
-        falls = between[:, 2] < between[:, 0]
-        # from the next ground below a falling gap, or above a rising one, on which sizes set in
-        after = np.count_nonzero(starts[rows] <= begin[:, None], axis=1)
-        start, sign = starts[rows, after - falls], np.where(falls, 1.0, -1.0)
-        distances = np.stack([begin - start, end - start], axis=1) * sign[:, None]
-        distances.sort(axis=1)
-        root, weight = panel_rule(np.sqrt(np.maximum(distances, 0.0)), NODES)
-        zeta = (start[:, None] + sign[:, None] * root**2).ravel()
-        rows = np.repeat(rows, NODES)
-        z = (zeta - self.mean) / self.width
-        normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
-        gap = self._gap(h[rows], u[rows], zeta[:, None])[:, 0]
-        return Nodes(rows, zeta, gap, (2 * root * weight).ravel() * normal)
-
-    def _turning_points(self, h: Array, u: Array) -> tuple[Array, Array, Array]:
-        """Heights at which panels end (K,), and between which gaps only fall or rise: (N, M).
-
-        Last those of widest and narrowest gaps (N, L), or the lowest in rows with fewer of them.
-        """
-        low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
-        fixed = np.linspace(low, high, math.ceil((high - low) / (WIDTH * self.width)) + 1)
-        level = np.array([-HIGHEST_SEAT, HIGHEST_SEAT])
-        fixed = np.sort(np.append(fixed, level[(level > low) & (level < high)]))
-        grid = subdivide(fixed, width=GRID * self.width)
-        gaps = self._gap(h, u, np.broadcast_to(grid, (len(h), len(grid))))
-        step = np.diff(gaps, axis=1)
-        rows, left = np.nonzero(step[:, 1:] * step[:, :-1] < 0)
-        a, b, sign = grid[left], grid[left + 2], np.sign(step[rows, left])
-        for _ in range(TURNS if len(rows) else 0):  # thirds, in which it stays
-            one, two = (2 * a + b) / 3, (a + 2 * b) / 3
-            both = self._gap(h[rows], u[rows], np.stack([one, two], axis=1)) * sign[:, None]
-            first = both[:, 0] > both[:, 1]
-            a, b = np.where(first, a, one), np.where(first, two, b)
-        turns = _in_rows(rows, 0.5 * (a + b), len(h), low)
-        every = np.concatenate([np.broadcast_to(grid, gaps.shape), turns], axis=1)
-        return fixed, np.sort(every, axis=1), turns
-
-    def _heights_at(self, h: Array, u: Array, wanted: Array, grid: Array, beside: Array) -> Array:
-        """Heights ζ at which gaps over σ are wanted ones (K,), as many as a row has, or the lowest.
-
-        By chords with the weight of an end that stays halved, from heights ``grid`` (N, M) with
-        gaps ``beside``, between which gaps only fall or only rise.
-        """
-        rows, which, left = [], [], []
-        for k, gap in enumerate(wanted):
-            above = beside >= gap
-            row, cell = np.nonzero(above[:, 1:] != above[:, :-1])
-            rows.append(row)
-            left.append(cell)
-            which.append(np.full(len(row), k))
-        row, cell, want = np.concatenate(rows), np.concatenate(left), np.concatenate(which)
-        a, b = grid[row, cell], grid[row, cell + 1]
-        f_a, f_b = beside[row, cell] - wanted[want], beside[row, cell + 1] - wanted[want]
-        found, last = np.where(f_a == 0, a, b), np.zeros(len(row))
-        close = SET_IN * np.maximum(1.0, 0.1 * np.abs(h[row]))
-        here = np.flatnonzero((f_a != 0) & (f_b != 0))
-        a, b, f_a, f_b, last = (one[here] for one in (a, b, f_a, f_b, last))
-        for _ in range(CHORDS):
-            if not len(here):
-                break
-            zeta = (a * f_b - b * f_a) / (f_b - f_a)
-            at = row[here]
-            f = self._gap(h[at], u[at], zeta[:, None])[:, 0] - wanted[want[here]]
-            found[here] = zeta
-            behind = (f < 0) == (f_b < 0)
-            f_a = np.where(behind & (last == 1), 0.5 * f_a, f_a)
-            f_b = np.where(~behind & (last == -1), 0.5 * f_b, f_b)
-            a, f_a = np.where(behind, a, zeta), np.where(behind, f_a, f)
-            b, f_b = np.where(behind, zeta, b), np.where(behind, f, f_b)
-            last = np.where(behind, 1, -1)
-            far = np.abs(f) > close[here]
-            here, a, b, f_a, f_b, last = (one[far] for one in (here, a, b, f_a, f_b, last))
-        order = np.argsort(row, kind="stable")
-        return _in_rows(row[order], found[order], len(h), grid[0, 0])
-
-    def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
-        """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""
-        nodes = self.nodes(h, u)
-        values = np.maximum(self.average.average(nodes.gap / self.unit), 0.0)
-        values *= nodes.weight[:, None]
-        moments = np.empty((len(nodes.gap), MOMENTS + 1))
-        x = np.clip(nodes.zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
-        before, now = np.zeros_like(x), values[:, 0]
-        for n in range(MOMENTS + 1):
-            moments[:, n] = now
-            before, now = now, (x * now - math.sqrt(n) * before) / math.sqrt(n + 1)
-        return nodes.sum_rows(values, len(h)), nodes.sum_rows(moments, len(h))
-
-    def shares(self, h: Array, u: Array, gaps: Array) -> Array:
-        """Number of particles in each of these gaps over σ, which increase: (N, M).
-
-        Those between two gaps count to both, by their distances: sums over what is linear in
-        between are exact.
-        """
-        nodes = self.nodes(h, u)
-        inside = (nodes.gap >= gaps[0]) & (nodes.gap <= gaps[-1])
-        rows, gap, weight = nodes.rows[inside], nodes.gap[inside], nodes.weight[inside]
-        after = np.clip(np.searchsorted(gaps, gap, side="right"), 1, len(gaps) - 1)
-        share = (gap - gaps[after - 1]) / (gaps[after] - gaps[after - 1])
-        out = np.zeros((len(h), len(gaps)))
-        np.add.at(out, (rows, after - 1), weight * (1 - share))
-        np.add.at(out, (rows, after), weight * share)
-        return out
 
 
 class Ground:

@@ -10,6 +10,7 @@ from ..contact.contact import Contact
 from ..contact.interface import Interface
 from ..errors import Note
 from ..laws.particle.breakage import about_strength
+from ..quantities.say import value_of
 from .crowding import POINTS
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["BEYOND", "SHADOW", "about_elastic", "about_particles"]
+__all__ = ["BEYOND", "SHADOW", "about_elastic", "about_hardness", "about_particles"]
 
 
 BROAD = 8.0
@@ -48,6 +49,26 @@ def about_elastic(
         "this does not matter"
     )
     return [Note(what, code="alpha", effect=0.38, action=POINTS)]
+
+
+def about_hardness(contact: Contact) -> list[str]:
+    """Note on materials that are harder than stiff, of which there are none."""
+    bodies = {"surfaces.first": contact.surfaces.first, "surfaces.second": contact.surfaces.second}
+    several = len(contact.populations) > 1
+    for i, population in enumerate(contact.populations):
+        bodies[f"particles.{i}" if several else "particles"] = population.material
+    hard = {place: body for place, body in bodies.items() if body.H > body.E}
+    if not hard:
+        return []
+    where = " and ".join(
+        f"{place}: H = {value_of(body.H, 'Pa')} above E = {value_of(body.E, 'Pa')}"
+        for place, body in hard.items()
+    )
+    what = (
+        f"{where}: no solid is harder than about a tenth of its Young's modulus; one as hard "
+        "yields nowhere, so what it carries and dents is that of no material"
+    )
+    return [Note(what, code="hardness", effect=1.0, action="check the units of H and of E")]
 
 
 def about_particles(contact: Contact) -> list[str]:

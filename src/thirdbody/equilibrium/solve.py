@@ -28,7 +28,7 @@ from ..quantities.units import to_si
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
 from .crowding import about_area, is_crowded
-from .doubts import BEYOND, SHADOW, about_elastic, about_particles
+from .doubts import BEYOND, SHADOW, about_elastic, about_hardness, about_particles
 from .load_scan import RESIDUAL, is_carried, load_scan
 from .status import DEEPEST, Status, Statuses
 
@@ -638,6 +638,7 @@ def _warnings(
             )
             out.append(Note(what, code=BEYOND))
     out += about_elastic(contact, contact_interface, full, d)
+    out += about_hardness(contact)
     scaled = [output.name for output in contact.outputs if output.one_by_one(contact)]
     if contact_interface.one_field and scaled:
         names = ", ".join(f"outputs.{name}" for name in scaled)

@@ -19,7 +19,8 @@ from ..populations.materials import BULK
 from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
 from ..quantities.progress import report_solved, watch_states, weigh_states
-from ..quantities.value import paths_of, warn_of_slip
+from ..quantities.slips import warn_of_slip
+from ..quantities.value import paths_of
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
 from .crowding import is_crowded

@@ -15,6 +15,7 @@ __all__ = [
     "MODES",
     "MOST_MEET_NONE",
     "NO_CONTACT",
+    "NO_MODE",
     "RARE",
     "critical_load",
     "critical_name",
@@ -64,6 +65,10 @@ THERE = {
     ("F_cr2", ABOVE): "at the greatest of them the mode is not s-s yet",
 }
 """What is known where a critical load lies outside: share and load need not fall together."""
+
+
+NO_MODE = "there is no contact, or no equilibrium"
+"""What it means where a state has no mode."""
 
 
 def mode_of(mode: str | None) -> str:

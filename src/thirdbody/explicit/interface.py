@@ -17,7 +17,7 @@ from ..laws.base import AbstractParticleLaw
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.topography import Topography
 from ..quantities.say import number, percent, plural, value_of
-from ..quantities.value import warn_of_slip
+from ..quantities.slips import warn_of_slip
 from .bodies import NONE, Bodies, LawTable, covered_share
 from .press import HARDEST
 from .seats import (

@@ -18,6 +18,7 @@ from ..errors import InvalidValue, Mistake, Problem, UnknownMaterial
 from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
 from ..quantities.nearest import Guess, guess, nearest_word
+from ..quantities.slips import slips_are_told
 from ..quantities.value import Value, quantity
 
 __all__ = ["Material", "MaterialLibrary", "MaterialPair", "materials"]
@@ -110,7 +111,8 @@ class Material(Value):
     @property
     def carrying(self) -> Material:
         """What decides how a contact carries load, and nothing else: E, ν, H and K_c."""
-        return Material(E=self.E, nu=self.nu, H=self.H, K_c=self.K_c)
+        with slips_are_told():
+            return Material(E=self.E, nu=self.nu, H=self.H, K_c=self.K_c)
 
 
 BULK = frozenset(item.name for item in dataclasses.fields(Material) if "bulk" in item.metadata)

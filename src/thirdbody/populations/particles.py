@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ..errors import Advice, InvalidValue, Mistake, Problem
+from ..errors import Advice, InvalidValue, Mistake, Note, Problem, tell_of_range
+from ..quantities.say import percent
+from ..quantities.slips import is_silent
 from ..quantities.units import say, to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
@@ -17,7 +20,7 @@ from .measured.concentration import Amount
 from .shape import SPHERE, Angular, Sphere
 from .strength import WeibullStrength
 
-__all__ = ["Particles"]
+__all__ = ["Particles", "about_gaps", "wider_part"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,7 +205,9 @@ class Particles(Value):
             oil_density=_read_value("oil_density", oil_density, "kg/m^3"),
         )
         density = n * _gap(gap)
-        return cls(material=material, diameter=diameter, areal_density=density, **others)
+        particles = cls(material=material, diameter=diameter, areal_density=density, **others)
+        _warn_of_gap(particles, gap)
+        return particles
 
     @classmethod
     def from_iso4406(
@@ -262,7 +267,10 @@ class Particles(Value):
             smallest=_optional("smallest", smallest, "m"),
             largest=_optional("largest", largest, "m"),
         )
-        return cls(material=material, diameter=diameter, areal_density=n * _gap(gap), **others)
+        density = n * _gap(gap)
+        particles = cls(material=material, diameter=diameter, areal_density=density, **others)
+        _warn_of_gap(particles, gap)
+        return particles
 
     @classmethod
     def from_cleanliness_class(
@@ -310,7 +318,10 @@ class Particles(Value):
             smallest=_optional("smallest", smallest, "m"),
             largest=_optional("largest", largest, "m"),
         )
-        return cls(material=material, diameter=diameter, areal_density=n * _gap(gap), **others)
+        density = n * _gap(gap)
+        particles = cls(material=material, diameter=diameter, areal_density=density, **others)
+        _warn_of_gap(particles, gap)
+        return particles
 
     @classmethod
     def test_dust(
@@ -417,6 +428,50 @@ class Particles(Value):
         )
 
 
+WIDER = 0.01
+"""Part of the particles, by number, that may be wider than the gap without a word."""
+
+
+def wider_part(particles: Particles, gap: float) -> float:
+    """Part of the particles, by number, that is wider than a gap [m].
+
+    >>> import thirdbody as tb
+    >>> grains = tb.Particles(material=tb.materials["SiO2"], areal_density=1e6,
+    ...                       diameter=tb.distributions.Monodisperse(mean=5e-6))
+    >>> wider_part(grains, 1e-6), wider_part(grains, 6e-6)
+    (1.0, 0.0)
+    """
+    largest = particles.diameter.support[1]
+    if largest <= gap:
+        return 0.0
+    return float(particles.diameter.partial_moment(0, gap, largest))
+
+
+def about_gaps(wider: Mapping[str, float]) -> Note | None:
+    """Doubt of particles that are wider than the gap which brings them; None where few are.
+
+    >>> about_gaps({"gap": 0.5}).effect, about_gaps({"gap": 0.001})
+    (0.5, None)
+    """
+    most = max(wider.values(), default=0.0)
+    if not most > WIDER:
+        return None
+    where = " and ".join(place for place, share in wider.items() if share > WIDER)
+    what = (
+        f"{where}: {percent(most)} of the particles are wider than the height of the fluid that "
+        "brings them; how many of these enter is not known, and all that particles do is "
+        "proportional to it"
+    )
+    action = "give areal_density, or as gap the height in which they are caught"
+    return Note(what, code="gap", effect=most, action=action)
+
+
+def _warn_of_gap(particles: Particles, gap: float | str) -> None:
+    """Warn of particles that are wider than their gap [m], unless the caller says it."""
+    if not is_silent() and (note := about_gaps({"gap": wider_part(particles, _gap(gap))})):
+        tell_of_range(note)
+
+
 def _sizes_meant(diameter: object) -> str:
     """What to write for a diameter that is one length, or none."""
     try:
@@ -434,7 +489,7 @@ def _read_value(name: str, value: float | str, unit: str) -> float:
     try:
         return to_si(value, unit)
     except InvalidValue as error:
-        raise InvalidValue(Problem(name, f"= {error}", say(value), code=error.code)) from None
+        raise InvalidValue(error.problems[0].put_at(name, say(value))) from None
 
 
 def _optional(name: str, value: float | str | None, unit: str) -> float | None:

@@ -50,6 +50,7 @@ class Distribution(Named):
 
     __slots__ = ()
     registry: ClassVar[dict[str, type[Any]]] = {}
+    _tells_of_slips = False
 
     @property
     @abstractmethod

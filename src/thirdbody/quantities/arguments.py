@@ -11,6 +11,7 @@ import ast
 import inspect
 import math
 import os
+import re
 import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache, wraps
@@ -37,6 +38,8 @@ __all__ = [
 SPOKEN = {"separation": "d", "gap": "d", "load": "pressure", "p": "pressure", "speeds": "speed"}
 """Names that people say for arguments, which are no misspelling of them."""
 
+LONGEST_MEANING = 80
+"""Letters of what an argument is, above which only the first of its clauses is told."""
 F = TypeVar("F", bound=Callable[..., Any])
 FAILURES = (
     *(TypeError, AttributeError, ValueError, LookupError, ArithmeticError),
@@ -94,12 +97,32 @@ class NamesArguments:
         """An instance whose fields are still empty, unless a name is no argument of the class."""
         if cls.__init__ is object.__init__ and (args or named):
             return object.__new__(cls, *args, **named)  # which says that it takes none
-        takes = _takes(cls) if args or named else None  # type: ignore[arg-type]
-        if takes is not None:  # a copy in the making is given nothing
+        takes = _takes(cls)  # type: ignore[arg-type]
+        if takes is not None and not args and not named:  # a copy in the making is given nothing
+            if takes.needed and not hasattr(cls.__init__, "needs_some"):
+                cls.__init__ = _needs_some(cls.__init__)  # type: ignore[method-assign]
+        elif takes is not None:
             some = {*takes.in_order[: len(args)], *named}
             if len(args) > len(takes.in_order) or not takes.needed <= some <= takes.names:
                 refuse_misfits(TypeError(), cls, args, named, where=cls.__name__)
         return object.__new__(cls)
+
+
+def _needs_some(constructor: F) -> F:
+    """Decorate a constructor: called with nothing at all it names what it needs.
+
+    Only a constructor that is called so bears it, so that all other calls are as quick as before.
+    """
+
+    @wraps(constructor)
+    def with_some(self: object, *args: object, **named: object) -> None:
+        if not args and not named:
+            kind = type(self)
+            refuse_misfits(TypeError(), kind, (), {}, where=kind.__name__)
+        constructor(self, *args, **named)
+
+    with_some.needs_some = True  # type: ignore[attr-defined]
+    return with_some  # type: ignore[return-value]
 
 
 class _Takes(NamedTuple):
@@ -276,6 +299,8 @@ def misfits(
     []
     >>> misfits(pressed, (1,), {"plces": ["A_t"]})
     ['plces = a list is no argument; did you mean places?']
+    >>> misfits(pressed, (), {"lod": 1})
+    ['lod = 1 is no argument; did you mean load?']
     >>> misfits(pressed, (), {"places": ["A_t"]})
     ['load is missing']
     >>> misfits(pressed, (1, ["A_t"]), {})
@@ -286,31 +311,31 @@ def misfits(
         arguments = signature.bind_partial(*args, **named).arguments
     except TypeError:
         names = [name for name in signature.parameters if name not in ("self", "cls")]
+        few = {name: value for name, value in named.items() if name in names}
         unknown = [
             Problem(
                 name,
                 "is no argument",
                 _short_text(value),
-                hint=f"did you mean {SPOKEN[name]}?"
-                if SPOKEN.get(name) in names
-                else guess(name, names, otherwise="it takes "),
+                hint=guess(
+                    name,
+                    names,
+                    meant=SPOKEN[name] if SPOKEN.get(name) in names else None,
+                    otherwise="it takes ",
+                ),
                 code=Mistake.UNKNOWN,
             )
             for name, value in named.items()
             if name not in signature.parameters
         ]
-        return unknown or _problem_without_name(signature, args)
-    try:
-        signature.bind(*args, **named)
-    except TypeError:
-        fields = getattr(function, "__dataclass_fields__", {})
-        return [
-            Problem(name, f"is missing{_meaning(fields.get(name))}", code=Mistake.MISSING)
-            for name, one in signature.parameters.items()
-            if one.default is one.empty
-            and one.kind not in (one.VAR_KEYWORD, one.VAR_POSITIONAL)
-            and name not in arguments
+        if not unknown:
+            return _problem_without_name(signature, args)
+        meant = {problem.meant for problem in unknown}
+        return unknown + [
+            problem for problem in _missing(function, args, few) if problem.path not in meant
         ]
+    if missing := _missing(function, args, named):
+        return missing
     problems = []
     for name, value in arguments.items():
         parameter = signature.parameters[name]
@@ -343,12 +368,77 @@ def _problem_without_name(signature: inspect.Signature, args: tuple[object, ...]
     return [Problem("", rule, hint=f"write {which} here", code=Mistake.MISSING)]
 
 
-def _meaning(field: object) -> str:
-    """What a field is that declares a quantity."""
-    about = getattr(field, "metadata", {}).get("quantity")
-    if about is None:
-        return ""
-    return f": {about['meaning']}" + (f" [{about['unit']}]" if about["unit"] != "1" else "")
+def _missing(
+    function: Callable[..., object], args: tuple[object, ...], named: Mapping[str, object]
+) -> list[Problem]:
+    """Problems of arguments that a function needs and is not given, each with what it is."""
+    signature = inspect.signature(function)
+    try:
+        arguments = signature.bind_partial(*args, **named).arguments
+    except TypeError:
+        return []
+    needed = (
+        name
+        for name, one in signature.parameters.items()
+        if one.default is one.empty
+        and one.kind not in (one.VAR_KEYWORD, one.VAR_POSITIONAL)
+        and name not in arguments
+        and name not in ("self", "cls")
+    )
+    return [
+        Problem(name, f"is missing{_meaning(function, name)}", code=Mistake.MISSING)
+        for name in needed
+    ]
+
+
+def _meaning(function: Callable[..., object], name: str) -> str:
+    """What an argument is: as its quantity declares it, else as the docstring says."""
+    field = getattr(function, "__dataclass_fields__", {}).get(name)
+    metadata = getattr(field, "metadata", {})
+    if about := metadata.get("quantity"):
+        return f": {words_of_quantity(name, about)}"
+    if about := metadata.get("choice") or metadata.get("several"):
+        return f": {about['meaning']}" + (f" [{about['unit']}]" if "unit" in about else "")
+    entries = entries_of(inspect.getdoc(function) or "").items()
+    kind, words = next((entry for names, entry in entries if name in names.split(", ")), ("", ""))
+    about = re.split(r"[.:;](?:\s|$)", words.replace("`", ""), maxsplit=1)[0] or kind
+    if len(about) > LONGEST_MEANING:
+        about = about.partition(", ")[0]
+    return f": {about}" if about else ""
+
+
+def words_of_quantity(name: str, about: Mapping[str, object]) -> str:
+    """Meaning of a quantity, with its symbol where that is not its name, and its unit.
+
+    >>> words_of_quantity("eta", {"symbol": "η", "unit": "Pa s", "meaning": "viscosity"})
+    'viscosity η [Pa s]'
+    """
+    symbol, unit = about["symbol"], about["unit"]
+    shown = f"{about['meaning']}" + (f" {symbol}" if symbol != name else "")
+    return shown + (f" [{unit}]" if unit != "1" else "")
+
+
+def entries_of(docstring: str) -> dict[str, tuple[str, str]]:
+    """Arguments that a docstring in the style of numpydoc describes: types, and what they are.
+
+    >>> entries_of('''One line.
+    ...
+    ...     Parameters
+    ...     ----------
+    ...     load, R : float
+    ...         Force [N] and radius [m].
+    ...     seed : int
+    ...         Of the generator.
+    ... ''')
+    {'load, R': ('float', 'Force [N] and radius [m].'), 'seed': ('int', 'Of the generator.')}
+    """
+    text = inspect.cleandoc(docstring)
+    section = re.search(r"^Parameters\n-+\n(.*?)(?=^\S[^\n]*\n-{3,}|\Z)", text, re.S | re.M)
+    entries = {}
+    for entry in re.split(r"^(?=\S)", section[1], flags=re.M) if section else ():
+        if head := re.match(r"(\*{0,2}\w+(?:, *\w+)*) : *([^\n]*)", entry):
+            entries[head[1]] = head[2], " ".join(entry[head.end() :].split())
+    return entries
 
 
 def _annotation_tree(annotation: object) -> ast.expr | None:

@@ -24,9 +24,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..errors import InvalidValue, Mistake, Problem
-from .arguments import FAILURES, refuse_misfits
+from ..errors import InvalidValue, Mistake, Problem, is_inside
+from .arguments import FAILURES, entries_of, refuse_misfits
 from .kinds import kind_needed, kind_of, library_unit, registry
+from .slips import LOADS, warn_of_load
 from .uncertain import is_uncertain
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
@@ -258,6 +259,7 @@ def takes_units(function: F) -> F:
 
     of_contact = str(function.__annotations__.get("contact", "")) == "Contact"
     place = function.__code__.co_varnames.index("contact") if of_contact else 0
+    loads = LOADS.keys() & function.__annotations__ if of_contact else ()
 
     @wraps(function)
     def with_units(*args: object, **named: object) -> Any:
@@ -268,6 +270,9 @@ def takes_units(function: F) -> F:
                 args, named = _all_in_si(function, args, named)
             if any(map(_may_be_none, args)) or (named and any(map(_may_be_none, named.values()))):
                 _refuse_no_numbers(function, args, named)
+            for load in loads:  # what the library hands on means what it says
+                if named.get(load) is not None and not is_inside(sys._getframe(1)):
+                    warn_of_load(load, named[load])
             return function(*args, **named)
         except FAILURES as error:
             owner: type = type(args[0]) if args else object
@@ -435,10 +440,7 @@ def _argument_in_si(
     try:
         return in_si(value, unit)
     except InvalidValue as error:
-        problems += [
-            Problem(name, f"= {problem}", str(value)[:80], code=problem.code)
-            for problem in error.problems
-        ]
+        problems += [problem.put_at(name, str(value)[:80]) for problem in error.problems]
         return value
 
 
@@ -499,13 +501,9 @@ def arguments_of(docstring: str) -> Iterator[tuple[str, str | None]]:
     ... '''))
     [('load', 'N'), ('R', 'm'), ('seed', None)]
     """
-    text = inspect.cleandoc(docstring)
-    section = re.search(r"^Parameters\n-+\n(.*?)(?=^\S[^\n]*\n-{3,}|\Z)", text, re.S | re.M)
-    for entry in re.split(r"^(?=\S)", section[1], flags=re.M) if section else ():
-        if not (head := re.match(r"(\*{0,2}\w+(?:, *\w+)*) :", entry)):
-            continue
-        names = head[1].split(", ")
-        units = re.findall(r"\[([^\]\[]+)\]", entry)
+    for head, entry in entries_of(docstring).items():
+        names = re.split(", *", head)
+        units = re.findall(r"\[([^\]\[]+)\]", " ".join(entry))
         if len(set(units)) == 1:
             units = units[:1] * len(names)
         named_units = units if len(units) == len(names) else [None] * len(names)

@@ -10,10 +10,12 @@ __all__ = ["Guess", "guess", "near_path", "nearest_word", "no_attribute"]
 
 
 class Guess(str):
-    """A hint that asks for the name that was probably meant, which it keeps.
+    """A hint that asks for the name that was probably meant, which it keeps beside other words.
 
     >>> guess("sigm", ["R", "sigma"]).meant, guess("x", ["R", "sigma"]).meant
     ('sigma', None)
+    >>> (guess("sigm", ["R", "sigma"]) + "; m are meant").meant
+    'sigma'
     """
 
     meant: str | None
@@ -22,6 +24,12 @@ class Guess(str):
         self = super().__new__(cls, text)
         self.meant = meant
         return self
+
+    def __add__(self, other: str) -> Guess:
+        return Guess(str(self) + other, self.meant)
+
+    def __radd__(self, other: str) -> Guess:
+        return Guess(other + str(self), self.meant)
 
     def __reduce__(self) -> tuple[type[Guess], tuple[str, str | None]]:
         return type(self), (str(self), self.meant)

@@ -14,10 +14,10 @@ from typing import Any, NoReturn, NotRequired, TypedDict
 
 from ..errors import InvalidValue, Mistake, Problem
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
-from .nearest import nearest_word
+from .nearest import guess, nearest_word
 
 __all__ = [
-    *("EXAMPLES", "MICRONS", "Meant", "Quantity", "Range", "Usual", "comma_may_part_thousands"),
+    *("EXAMPLES", "MICRONS", "Meant", "Quantity", "Range", "comma_may_part_thousands"),
     *("not_among", "quantity_to_si", "say", "to_si"),
 ]
 
@@ -27,13 +27,6 @@ class Meant(TypedDict):
 
     unit: str
     meaning: str
-
-
-class Usual(TypedDict):
-    """Unit of a number, and the size up to which it looks like no slip."""
-
-    unit: str
-    usual: NotRequired[float | None]
 
 
 class Range(TypedDict):
@@ -288,8 +281,8 @@ def _one(value: Any, unit: str) -> float:
         return _refuse(f"{say(value)} must be {_need_text(unit)}", Mistake.KIND)
 
 
-def _refuse(sentence: str, code: Mistake = Mistake.UNIT) -> NoReturn:
-    raise InvalidValue(sentence, code=code)
+def _refuse(sentence: str, code: Mistake = Mistake.UNIT, *, hint: str = "") -> NoReturn:
+    raise InvalidValue(Problem("", sentence, hint=hint, code=code))
 
 
 def say(value: object) -> str:
@@ -338,7 +331,7 @@ def _scale(number: str, body: str, shown: str, unit: str) -> float:
     try:
         parsed = units.parse_units(body)
     except Exception:
-        return _refuse(_unknown(body, shown, unit))
+        return _refuse_unknown(body, shown, unit)
     if strange := next((word for word in re.findall(r"[^\W\d_]+", body) if not is_usual(word)), ""):
         return _refuse(
             f"{shown} has the unit {strange}, which is not used here; it must be {_need_text(unit)}"
@@ -358,17 +351,18 @@ def _scale(number: str, body: str, shown: str, unit: str) -> float:
     )
 
 
-def _unknown(body: str, shown: str, unit: str) -> str:
+def _refuse_unknown(body: str, shown: str, unit: str) -> NoReturn:
     units = registry()
     for word in re.findall(r"[^\W\d_]+", body):
         if word in units:
             continue
         if word in ("HV", "HB", "HK"):
-            return (
+            _refuse(
                 f"{shown} is a hardness number, not a pressure; one unit of {word} is 1 kgf/mm^2, "
                 f"so write {shown.replace(word, 'kgf/mm^2')}"
             )
+        rule = f"{shown} has the unit {word}, which is not known (case matters)"
         meant = nearest_word(word, _USUAL, cutoff=0.7)
-        hint = f"did you mean {meant}?" if meant else f"it must be {_need_text(unit)}"
-        return f"{shown} has the unit {word}, which is not known (case matters); {hint}"
-    return f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}"
+        hint = guess("", (), meant=meant) if meant else f"it must be {_need_text(unit)}"
+        _refuse(rule, hint=hint)
+    _refuse(f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}")

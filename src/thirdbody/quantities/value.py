@@ -14,20 +14,19 @@ import re
 import sys
 import types
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
 from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict, get_args
 
-from ..errors import Clause, InvalidValue, Mistake, NotCompiled, Note, Problem, tell_of_range
+from ..errors import Clause, InvalidValue, Mistake, NotCompiled, Problem
 from .arguments import FAILURES, NamesArguments, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
 from .notebook import Card, Row, Shown, words_of
 from .plain_data import plain_data
+from .slips import is_silent, slips_are_told, unit_meant, warn_of_slip
 from .uncertain import HELD, is_uncertain
-from .units import Quantity, Range, Usual, say
+from .units import Quantity, Range, say
 
 if TYPE_CHECKING:
     import numpy as np
@@ -216,76 +215,13 @@ def why_extreme(number: float, unit: str, *, positive: bool) -> Clause | None:
     return None
 
 
-USUAL_LENGTH, USUAL_STRESS, USUAL_LOAD = 0.01, 1e5, 100.0
-"""What lies in an interface is shorter [m], what holds it is stiffer [Pa], and what presses it
-together is more [Pa]."""
-SLIPS: dict[str, tuple[float, float, str]] = {
-    "Pa m^0.5": (1e3, math.inf, "MPa m^0.5"),
-    "kg/m^3": (50.0, math.inf, "g/cm^3"),
-    "Pa s": (0.0, 10.0, "mPa s"),
-    "1/Pa": (0.0, 1e-5, "/ GPa"),
-    "J/m^2": (0.0, 5.0, "mJ/m^2"),
-    "m^3": (0.0, 50.0, "L"),
-    "m^3/s": (0.0, 0.5, "L/min"),
-    "kg": (0.0, 20.0, "g"),
-}
-"""Sizes within which numbers in SI are no slip, and what was probably meant outside: a solid is
-tougher than 1 kPa m^0.5, denser than 50 kg/m^3; an oil is thinner than 10 Pa s, its pressure
-coefficient below 10 /MPa; no surface has 5 J/m^2; and no circuit 50 m³ of oil, 30 m³/min through a
-filter, or 20 kg in it."""
-
-
-def unit_meant(about: Usual, number: float, *, load: bool = False) -> str | None:
-    """The unit that was probably forgotten, where a number in SI is allowed but looks like a slip.
-
-    Lengths of 1 cm and more, moduli, hardnesses and stresses below 0.1 MPa, loads below 100 Pa, and
-    what lies outside `SLIPS`.
-    """
-    unit, size = about["unit"], abs(number)
-    usual = about.get("usual") or USUAL_LENGTH
-    if unit == "m" and size >= usual:
-        return "mm" if usual >= 1 else "nm" if size >= 10 else "um"
-    if unit == "Pa" and load:
-        return "MPa" if 0 < number < USUAL_LOAD else None
-    if unit == "Pa" and about.get("usual"):
-        return "kPa" if 0 < number < usual else None
-    if unit == "Pa":
-        return "GPa" if 0 < number < USUAL_STRESS else None
-    least, most, meant = SLIPS.get(unit, (0.0, math.inf, ""))
-    return meant if size and not least <= size <= most else None
-
-
-_is_silent: ContextVar[bool] = ContextVar("_is_silent", default=False)
-
-
-@contextmanager
-def slips_are_told() -> Iterator[None]:
-    """Context without warnings of unit slips; the caller reports them."""
-    token = _is_silent.set(True)
-    try:
-        yield
-    finally:
-        _is_silent.reset(token)
-
-
-SLIP = "unit of "
-"""How codes of notes on numbers begin whose unit looks like a slip."""
-
-
-def warn_of_slip(where: str, about: Usual, number: float) -> None:
-    """Warn of a number that looks like a forgotten unit."""
-    if not _is_silent.get() and (meant := unit_meant(about, number)):
-        what = f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI"
-        action = f"was {number:g} {meant} meant?"
-        tell_of_range(Note(what, code=SLIP + where, effect=math.inf, action=action))
-
-
 def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None) -> None:
-    """Warn of every number of a value, and of the values in it, that looks like a slip.
+    """Warn of every number of a value that looks like a slip.
 
-    Of a copy of ``before`` only what has changed is told: the rest was, when that was made.
+    Values in it have told of theirs when they were made, but for those that do not. Of a copy of
+    ``before`` all that has changed is told.
     """
-    if _is_silent.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
+    if is_silent() or not dataclasses.is_dataclass(value):  # an output or law of one's own
         return
     for name, about, _ in _declarations(type(value)):
         new, old = getattr(value, name), getattr(before, name, None)
@@ -297,8 +233,15 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
         elif isinstance(new, (Value, tuple)):
             old_values = dict(_values_in(prefix + name, old))
             for where, inner in _values_in(prefix + name, new):
-                if inner is not old_values.get(where):
+                tells = before is not None or not inner._tells_of_slips
+                if tells and inner is not old_values.get(where):
                     warn_of_slips(inner, prefix=f"{where}.", before=old_values.get(where))
+
+
+def _tells(content: object) -> bool:
+    """Whether what a field holds has told of its slips when it was made."""
+    values = content if isinstance(content, tuple) else (content,)
+    return all(isinstance(value, Value) and value._tells_of_slips for value in values)
 
 
 @cache
@@ -333,8 +276,9 @@ class Value(Shown, NamesArguments):
 
     __slots__ = ()
     _classes: ClassVar[dict[str, type[Value]]] = {}
-    _tells_of_slips: ClassVar[bool] = False
-    """Whether it warns of numbers in it that look like slips, when it is made."""
+    _tells_of_slips: ClassVar[bool] = True
+    """Whether it warns of numbers in it that look like slips, when it is made. What may stand
+    without a unit, as a distribution of sizes over their mean, is told of by what holds it."""
 
     def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
@@ -411,13 +355,14 @@ class Value(Shown, NamesArguments):
                 inner.setdefault(head, {})[rest] = value
             else:
                 now[head] = value
-        for head, deeper in inner.items():
-            where, field_value = f"{type(self).__name__}.{head}", now.get(head, getattr(self, head))
-            now[head] = _replace_at(where, field_value, deeper)
+        before = self.replace_unchecked(**{head: now[head] for head in now if _tells(now[head])})
         with slips_are_told():
+            for head, deeper in inner.items():
+                where = f"{type(self).__name__}.{head}"
+                now[head] = _replace_at(where, now.get(head, getattr(self, head)), deeper)
             out = dataclasses.replace(self, **now)  # type: ignore[type-var]
         if self._tells_of_slips:
-            warn_of_slips(out, before=self)
+            warn_of_slips(out, before=before)
         return out
 
     def replace_unchecked(self, **changes: object) -> Self:
@@ -587,7 +532,7 @@ def _without_unit(kind: type[Value], name: str, value: object) -> tuple[object, 
             )
         return in_si(value, about["unit"]), ""
     except InvalidValue as error:
-        return value, Problem(name, f"= {error}", say(value), owner=kind.__name__, code=error.code)
+        return value, error.problems[0].put_at(name, say(value)).changed(owner=kind.__name__)
 
 
 def items_of(values: Any) -> tuple[object, ...]:

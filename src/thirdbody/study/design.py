@@ -108,7 +108,7 @@ def _amount(where: str, value: Any) -> cleanliness.Concentration:
     try:
         return cleanliness.concentration(value)
     except InvalidValue as error:
-        raise InvalidValue(Problem(where, f"= {error}", say(value), code=error.code)) from None
+        raise InvalidValue(error.problems[0].put_at(where, say(value))) from None
 
 
 def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, object]:
@@ -190,7 +190,7 @@ def _in_si(where: str, value: object, unit: str) -> float:
     try:
         return float(to_si(value, unit))
     except InvalidValue as error:
-        raise InvalidValue(Problem(where, f"= {error}", say(value), code=error.code)) from None
+        raise InvalidValue(error.problems[0].put_at(where, say(value))) from None
 
 
 KEYS = {

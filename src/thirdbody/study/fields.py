@@ -13,6 +13,8 @@ from functools import cache
 from typing import Any, Literal
 
 from ..laws import asperity
+from ..quantities.arguments import words_of_quantity
+from ..quantities.slips import slips_are_told
 from ..quantities.units import EXAMPLES, Quantity
 from ..quantities.value import allowed_range, problem_with
 
@@ -131,7 +133,8 @@ def filled_in(kind: Any) -> frozenset[str]:
         if item.default is None and "quantity" not in item.metadata:
             names.add(item.name)
         elif item.default is None:
-            law = kind(**{item.name: 0.1})
+            with slips_are_told():
+                law = kind(**{item.name: 0.1})
             used = law.bound(R=1e-6, E_star=1e11, H=1e9, nu=0.3)
             if getattr(used, item.name) != 0.1:
                 names.add(item.name)
@@ -151,9 +154,8 @@ def idle(kind: type) -> dict[str, str]:
 
 def about_of(name: str, about: Quantity) -> str:
     """Meaning of a quantity, with an example of how to write it."""
-    unit, symbol = about["unit"], about["symbol"]
+    unit = about["unit"]
     example = EXAMPLES.get(unit, f"1 [{unit}]")
     if unit == "1" and problem_with(about, 0.5):
         example = "2.0"
-    shown = f"{about['meaning']}" + (f" {symbol}" if symbol != name else "")
-    return shown + (f" [{unit}]" if unit != "1" else "") + f", e.g. {name} = {example}"
+    return f"{words_of_quantity(name, about)}, e.g. {name} = {example}"

@@ -14,7 +14,16 @@ from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import NOTHING, Key, Reader, Table, amounts, variants
 from .vocabulary import LOADS
 
-__all__ = ["BODY", "FORCE", "LOAD", "force_sentences", "loads_of", "press_forces", "told_forces"]
+__all__ = [
+    "BODY",
+    "FORCE",
+    "LOAD",
+    "PRESSES",
+    "force_sentences",
+    "loads_of",
+    "press_forces",
+    "told_forces",
+]
 
 FORCE = quantity(
     "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
@@ -22,6 +31,8 @@ FORCE = quantity(
 MOST_INTEGRATED = 3
 """Forces that are integrated over the contact, which takes seconds each; of more, the ends."""
 
+PRESSES = ("film", "connector", "plate")
+"""Tables that say themselves what presses the surfaces together."""
 KEYS = {name: amounts(name, about) for name, about in (LOADS | {"force": FORCE}).items()}
 
 
@@ -45,7 +56,7 @@ def _is_needed(whole: Mapping[str, object]) -> bool:
     """Whether no other table of a file says what presses the surfaces together."""
     sweep = whole.get("sweep")
     is_swept = isinstance(sweep, dict) and any(sweep.get(name) is not None for name in LOADS)
-    return not is_swept and not {"film", "connector", "plate"} & whole.keys()
+    return not is_swept and whole.keys().isdisjoint(PRESSES)
 
 
 LOAD = Table(

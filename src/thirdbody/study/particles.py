@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,14 +10,13 @@ from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.distributions import Distribution, Histogram
 from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
-from ..populations.particles import Particles
+from ..populations.particles import Particles, about_gaps, wider_part
 from ..populations.shape import SPHERE, Angular, Sphere
 from ..populations.strength import WeibullStrength
 from ..quantities.units import say, to_si
 from ..quantities.value import quantity
 from .mistakes import clash
 from .reader import (
-    ANYTHING,
     FIELDS,
     NOTHING,
     Key,
@@ -35,7 +34,7 @@ from .reader import (
 from .surfaces import PARTICLE_LAW
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "SHAPES", "gaps_of", "populations"]
+__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "SHAPES", "gaps_of", "notes_on_gaps", "populations"]
 
 AMOUNT = {
     name: declared.metadata["quantity"]
@@ -188,6 +187,20 @@ def gaps_of(whole: Mapping[str, object]) -> tuple[float | None, ...]:
     return tuple(None if gap is None else to_si(gap, "m") for gap in gaps)
 
 
+def notes_on_gaps(several: Sequence[Particles], gaps: Sequence[float | None]) -> list[Note]:
+    """Doubt of populations that are wider than the oil which brings them, one note at most."""
+    places = [f"particles.{i}.gap" for i in range(len(several))]
+    if len(several) == 1:
+        places = ["particles.gap"]
+    wider = {
+        place: wider_part(population, gap)
+        for place, population, gap in zip(places, several, gaps, strict=False)
+        if gap is not None
+    }
+    note = about_gaps(wider)
+    return [] if note is None else [note]
+
+
 def _particles(reader: Reader, path: str, data: object) -> object:
     """One population, or a list of them."""
     if not (isinstance(data, list) and data):
@@ -297,7 +310,8 @@ def _keys_of_population(table: Mapping[str, object], kind: str, by_volume: bool)
         about="law of these particles, in the place of [particle_law]"
     )
     if kind not in (*CODES, SETTLED):
-        keys["concentration"] = Key(_concentration, False, 'e.g. "0.1 wt%"')
+        about = 'e.g. "0.1 wt%"'
+        keys["concentration"] = Key(_concentration, False, about, WORD_OR_NUMBER)
     keys |= {name: KEYS_OF_AMOUNT[name] for name in LEADING[kind]}
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
@@ -339,7 +353,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concent
     try:
         return cleanliness.concentration(value)
     except InvalidValue as error:
-        raise InvalidValue(Problem(path, f"= {error}", say(value), code=error.code)) from None
+        raise InvalidValue(error.problems[0].put_at(path, say(value))) from None
 
 
 def _keys_of_count(table: Mapping[str, object], kind: str) -> dict[str, Key]:
@@ -363,9 +377,14 @@ def _keys_of_count(table: Mapping[str, object], kind: str) -> dict[str, Key]:
             raise InvalidValue(Problem(path, f": {error}", code=error.code)) from None
 
     bins = table_of(Histogram).table if kind == "sizes" else None
-    return keys | {
-        kind: Key(read, True, schema={"type": "string"} if bins else ANYTHING, table=bins)
-    }
+    return keys | {kind: Key(read, True, schema=CODE_TEXT.get(kind, WORD_OR_NUMBER), table=bins)}
+
+
+CODE_TEXT: dict[str, dict[str, object]] = {
+    kind: {"type": "string"} for kind in ("iso4406", "test_dust", "sizes")
+}
+WORD_OR_NUMBER: dict[str, object] = {"type": ["number", "string"]}
+"""What a schema says of codes, of classes that are numbers too, and of concentrations."""
 
 
 def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> object:

@@ -16,17 +16,17 @@ import numpy as np
 from ..errors import InvalidValue, Mistake, Note, Problem, in_study
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
-from ..quantities.nearest import guess
+from ..quantities.nearest import Guess, guess
 from ..quantities.say import join_words
+from ..quantities.slips import SLIP, unit_meant
+from ..quantities.unit_patterns import HARDNESS_TEXT, name_of_unit
 from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
 from ..quantities.value import (
-    SLIP,
     allowed_range,
     hint_on,
     limits_of,
     problem_with,
     quantity,
-    unit_meant,
 )
 from .fields import about_of, declarations
 from .mistakes import Known, Missing, Unknown, clash, in_file
@@ -81,6 +81,10 @@ LIMITS = {
 """Limits of a quantity as JSON Schema calls them; of a number, which is in SI, not of text."""
 ANYTHING: dict[str, Any] = {}
 NOTHING: dict[str, Any] = {"enum": []}
+DEFINITIONS = "#/definitions/"
+"""Where a schema keeps the pattern of a unit."""
+UNITS: dict[str, str] = {}
+"""Units of the keys that are declared, by their names in a schema."""
 """What JSON Schema says of a key under which all, or nothing, can stand."""
 
 Item = TypeVar("Item")
@@ -392,11 +396,20 @@ def quantity_key(name: str, about: Quantity, *, required: bool = False) -> Key:
 
 def number(about: Quantity) -> Key:
     """Key of a number in SI inside the range of its quantity; text has a unit."""
-    schema: dict[str, object] = {"type": ["number", "string"]}
-    schema |= {LIMITS[key]: limit for key, limit in limits_of(about).items()}
+    plain: dict[str, object] = {"type": "number"}
+    plain |= {LIMITS[key]: limit for key, limit in limits_of(about).items()}
     if about.get("whole"):
-        schema["multipleOf"] = 1
-    return Key(partial(read_number, about), schema=schema)
+        plain["multipleOf"] = 1
+    ways = [plain, text_of_unit(about["unit"])]
+    if about["unit"] == "Pa" and about["meaning"].startswith("hardness"):
+        ways.append({"type": "string", "pattern": HARDNESS_TEXT})
+    return Key(partial(read_number, about), schema={"anyOf": ways})
+
+
+def text_of_unit(unit: str) -> dict[str, object]:
+    """What a schema says of a text with a unit; the pattern stands once in its definitions."""
+    UNITS[name_of_unit(unit)] = unit
+    return {"$ref": DEFINITIONS + name_of_unit(unit)}
 
 
 def read_number(about: Quantity, reader: Notes, path: str, value: object) -> float:
@@ -404,11 +417,11 @@ def read_number(about: Quantity, reader: Notes, path: str, value: object) -> flo
     try:
         si_value = quantity_to_si(value, about)
     except InvalidValue as error:
-        elsewhere = "; a load in Pa goes under the key pressure"
-        cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
-        raise InvalidValue(
-            Problem(path, f"= {error}{cause}", say(value), code=error.code)
-        ) from None
+        problem = error.problems[0].put_at(path, say(value))
+        if path.startswith("load.F_star") and "Pa" in str(value):
+            cause = "a load in Pa goes under the key pressure"
+            problem = problem.changed(hint=problem.hint + f"; {cause}" if problem.hint else cause)
+        raise InvalidValue(problem) from None
     if not math.isfinite(si_value):
         allowed = f"; it must be {allowed_range(about)}" if limits_of(about) else ""
         raise wrong(path, f"is not a finite number{allowed}", value, code=Mistake.RANGE)
@@ -434,7 +447,8 @@ def _refuse_slip(reader: Notes, path: str, value: object, taken: str, meant: str
         return
     rule = f"has no unit, so it would be {taken}, which is not plausible"
     any_value = f'With its unit any value is taken: "{taken}"'
-    raise wrong(path, rule, value, hint=f'was "{meant}" meant? {any_value}', code=Mistake.UNIT)
+    hint = Guess(f'was "{meant}" meant? {any_value}', meant)
+    raise wrong(path, rule, value, hint=hint, code=Mistake.UNIT)
 
 
 def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
@@ -451,7 +465,8 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
             )
         return read_numbers(one, Unsaid(), path, value)
 
-    schema = {"type": "array", "items": {"type": ["number", "string"]}}
+    item = {"anyOf": [{"type": "number"}, text_of_unit(unit)]}
+    schema = {"type": "array", "items": item}
     return Key(read, about=about or f"a list of numbers [{unit}]", schema=schema)
 
 

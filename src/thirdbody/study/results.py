@@ -157,7 +157,14 @@ class StudyResult(_Result):
     @property
     def oil_notes(self) -> tuple[str, ...]:
         """A note that the oil is left out, where the study has one."""
-        return () if self.study.film is None else (note_without_oil("states are"),)
+        return (
+            ()
+            if self.study.film is None
+            else (
+                note_without_oil("states are"),
+                *self.study.gap_notes,
+            )
+        )
 
     @property
     def warnings(self) -> tuple[str, ...]:

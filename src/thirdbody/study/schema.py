@@ -5,13 +5,18 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
+from ..populations.materials import materials
+from ..quantities.unit_patterns import pattern_of_unit
 from .life import LIFE
+from .load import LOAD, PRESSES
 from .mistakes import Known
-from .reader import Key, Reader, Table, get, keys_of, tag_key
+from .reader import NOTHING, ONE_OF, UNITS, Key, Reader, Table, get, keys_of, tag_key
 from .tables import TABLES
+from .vocabulary import LOADS
 
 __all__ = ["Describer", "study_schema"]
 
@@ -48,8 +53,39 @@ def study_schema() -> dict[str, Any]:
     schema = describer.table("", {}, keys)
     # an oil without a contact needs no surfaces
     contact = {"required": schema.pop("required")}
+    contact["anyOf"] = [
+        *({"required": [name]} for name in (LOAD.name, *PRESSES)),
+        *({"required": ["sweep"], "properties": {"sweep": {"required": [name]}}} for name in LOADS),
+    ]
     schema |= {"if": {"required": [LIFE.name]}, "then": {}, "else": contact}
+    schema["allOf"] = [
+        *_exclusions(),
+        _named_materials(schema["properties"]["surfaces"]["properties"]),
+    ]
+    schema["definitions"] = {
+        name: {"type": "string", "pattern": pattern_of_unit(unit)}
+        for name, unit in sorted(UNITS.items())
+    }
     return {"$schema": DRAFT, "title": "A study file of thirdbody"} | schema
+
+
+def _exclusions() -> Iterator[dict[str, object]]:
+    """Tables in which two keys say the same thing."""
+    for name, keys in ONE_OF.items():
+        table = name.partition(".")[0]
+        for pair in combinations(keys, 2):
+            yield {"properties": {table: {"not": {"required": list(pair)}}}}
+    yield {"properties": {LOAD.name: {"minProperties": 1}}}
+
+
+def _named_materials(surfaces: Iterable[str]) -> dict[str, object]:
+    """Materials by their names are those of the library, but where a file has its own."""
+    name = {"anyOf": [{"not": {"type": "string"}}, {"enum": list(materials)}]}
+    one = {"properties": {"material": name}}
+    several = {"anyOf": [one | {"type": "object"}, {"type": "array", "items": one}]}
+    sides = {"properties": {side: name for side in surfaces}}
+    tables = {"properties": {"surfaces": sides, "particles": several}}
+    return {"if": {"required": ["materials"]}, "then": {}, "else": tables}
 
 
 class Describer(Reader):
@@ -75,6 +111,7 @@ class Describer(Reader):
             return {}
         self.known_keys.keys[path] = {name: key.about for name, key in keys.items()}
         properties = {}
+        keys = {name: key for name, key in keys.items() if not _is_refused(key)}
         for name, key in keys.items():
             where = f"{path}.{name}" if path else name
             ways = self._ways(key, where, get(data, name))
@@ -127,6 +164,11 @@ class Describer(Reader):
             yield self.read_each(
                 {form.format(path, i): entry for i, entry in enumerate(items)}, key.items
             )
+
+
+def _is_refused(key: Key) -> bool:
+    """Whether nothing can stand under a key: it is known elsewhere, and told of here."""
+    return key.schema is NOTHING and key.table is None and key.items is None
 
 
 def _any_of(ways: Iterable[dict[str, object]]) -> dict[str, Any]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake
 from ..laws import asperity, particle
 from ..populations.materials import Material, MaterialPair, materials
+from ..quantities.nearest import guess
 from ..quantities.units import say
 from .reader import (
     FIELDS,
@@ -51,9 +52,10 @@ def _from_library(reader: Reader, path: str, value: object) -> Material:
     some = ", ".join(list(library)[:3])
     rule = (
         f"is not a material of the library ({some} and {len(library) - 3} more: thirdbody "
-        "materials)" + (f"; did you mean {say(near)}?" if near else "")
+        "materials)"
     )
-    raise wrong(path, rule, value, hint=OTHER, code=Mistake.UNKNOWN)
+    hint = guess("", (), meant=near, show=say) + f"; {OTHER}" if near else OTHER
+    raise wrong(path, rule, value, hint=hint, code=Mistake.UNKNOWN)
 
 
 NAMES = {"anyOf": [{"enum": list(materials)}, {"type": "string"}]}  # and those of a file
@@ -68,10 +70,7 @@ def _own_materials(reader: Reader, path: str, value: object) -> object:
     except InvalidValue as error:
         reader.library = None
         raise InvalidValue(
-            *(
-                Problem(path, f": {problem}", say(value), code=problem.code)
-                for problem in error.problems
-            )
+            *(problem.put_at(path, say(value), sign=":") for problem in error.problems)
         ) from None
     return name
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.files import read_bytes
-from ..quantities.nearest import nearest_word
+from ..quantities.nearest import guess, nearest_word
 from ..quantities.say import join_words
 from ..quantities.units import say
 from .other_files import problem_of_other_file
@@ -35,10 +35,9 @@ def _read(path: Path) -> dict[str, object]:
         text = content.decode("utf-8-sig")
     except FileNotFoundError:
         meant = nearest_word(path.name, [p.name for p in _toml_files(path)], cutoff=0.75)
-        guess = f"; did you mean {path.with_name(meant)}?" if meant else ""
-        raise InvalidValue(
-            f"cannot read {path}: there is no such file{guess}", code=Mistake.UNREADABLE
-        ) from None
+        hint = guess("", (), meant=str(path.with_name(meant))) if meant else ""
+        rule = f"cannot read {path}: there is no such file"
+        raise InvalidValue(Problem("", rule, hint=hint, code=Mistake.UNREADABLE)) from None
     except IsADirectoryError:
         raise InvalidValue(
             f"cannot read {path}: it is a folder, not a study file", code=Mistake.UNREADABLE
@@ -122,10 +121,7 @@ def override(data: dict[str, object], overrides: Iterable[str]) -> dict[str, obj
         try:
             _set(data, keys, value_of(value))
         except InvalidValue as error:
-            problems += [
-                Problem("--set", f": {problem}", text, code=problem.code)
-                for problem in error.problems
-            ]
+            problems += [problem.put_at("--set", text, sign=":") for problem in error.problems]
     if problems:
         raise InvalidValue(*problems)
     return data

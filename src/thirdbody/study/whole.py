@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue, Mistake, Note, Problem
 from ..populations.measured.topography import Topography
 from ..quantities.arguments import names_arguments
-from ..quantities.value import slips_are_told
+from ..quantities.slips import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from ..systems.oil_filter import Filter
@@ -30,13 +30,16 @@ from .life import AskedDry, AskedLife, life_of
 from .load import loads_of
 from .outputs import on_area
 from .own_code import load_installed
-from .particles import gaps_of
+from .particles import gaps_of, notes_on_gaps
 from .plate import AskedPlate, plate_of
 from .reader import Reader
 from .schema import Describer
 from .sweep import ends, plan, with_nested_names
 from .tables import TABLES
 from .toml import heading_of, override, read, setting_in_words
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["Study", "check", "load_study", "load_tables", "read_tables"]
 
@@ -124,6 +127,24 @@ class Study:
     def heading(self) -> str:
         """The title, and what was set over the file."""
         return heading_of(self.title or "Study", self.settings)
+
+    @property
+    def gap_notes(self) -> list[Note]:
+        """Doubt of particles that are wider than the oil which brings them, beside a film."""
+        return [] if self.film is None else notes_on_gaps(self.contact.populations, self.gaps)
+
+    def stribeck(self) -> xarray.Dataset:
+        """Lubricated states over the speeds of the table [film]; see `thirdbody.films.stribeck`."""
+        if self.film is None:
+            raise InvalidValue(
+                Problem(
+                    "film",
+                    "is no table of this study",
+                    hint="it says oil, bodies, load and speeds; solve() answers a dry contact",
+                    code=Mistake.MISSING,
+                )
+            )
+        return self.film.stribeck(self.contact)
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -256,6 +277,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     if "particle_law" in parts and all(population.law is not None for population in several):
         what = "[particle_law] has no effect: all particles have laws of their own"
         reader.notes.append(Note(what, code="idle.particle_law"))
+    gaps = gaps_of(reader.whole)
     sweep = values.get("sweep")
     film: Any = values.get("film")
     contact = reader.make(Contact, "", parts)
@@ -289,6 +311,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
                 for d in loads[deep][:5]
             )
         )
+    if film is None:
+        reader.notes += notes_on_gaps(several, gaps)
     states = None if sweep is None else plan(reader, contact, load, loads, sweep)
     return Study(
         title=values.get("title", ""),
@@ -297,7 +321,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         values=loads,
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
-        gaps=gaps_of(reader.whole),
+        gaps=gaps,
         filter=None if film is None else filter_of(reader.whole),
         stated=reader.stated_keys,
         sweep=states,

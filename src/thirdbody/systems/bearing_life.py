@@ -29,6 +29,11 @@ __all__ = [
     "viscosity_ratio",
 ]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 OILS: dict[str, dict[str, tuple[float, float]]] = {
     "filter": {
         "-/13/10": (0.0864, 0.5663),

@@ -17,6 +17,11 @@ from .machine_elements import BallBearing
 
 __all__ = ["DESIGNATIONS", "BearingSize", "bearing_size"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 FILL = 0.6
 """Part of the pitch circle that balls of a Conrad bearing take, in angle."""
 BALL = 0.3

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 __all__ = ["Chuck"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chuck(Value):
     r"""A plate, film or wafer held on a flat, and the dust between them.

@@ -250,8 +250,6 @@ class Oil(Value):
     (0.04, True)
     """
 
-    _tells_of_slips = True
-
     eta: float = quantity("η", "Pa s", "viscosity", gt=1e-4, lt=1e5, hint="40 mPa s are 0.04")
     alpha: float = quantity(
         "α", "1/Pa", "pressure-viscosity coefficient", ge=0, lt=1e-6, hint="20 1/GPa are 20e-9"

@@ -60,6 +60,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Connector"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 BY_MATERIAL = "by material"
 STEP, FEWEST, ROUGHLY = 0.02, 250, 100
 """Widths of classes of size in ln x, how many there are at least, and to see what sizes occur."""

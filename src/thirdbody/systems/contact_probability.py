@@ -40,6 +40,11 @@ if TYPE_CHECKING:
 
 __all__ = ["ContactProbability"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 CELLS, SHARED = 2048, 2.0
 """Steps between 0 and a load on the solids; loads within this factor share them."""
 PER_PARTICLE, MOST_CELLS = 16, 40_000

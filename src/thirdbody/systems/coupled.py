@@ -58,6 +58,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Coupled", "CoupledState", "coupled"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 Law = JunctionGrowth | Softening | Thinning
 WARMEST = 500.0
 """Rise up to which a branch is followed where no body melts [K]."""

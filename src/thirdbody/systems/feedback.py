@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 
 __all__ = ["HalfSpaces", "JunctionGrowth", "Softening", "ThermalPath", "Thinning"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 SHEAR_WEIGHT = 9.0
 """α of junction growth where nobody says another."""
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
 
 from ..contact.contact import Contact
-from ..errors import Mistake, Problem
+from ..errors import Mistake, Problem, WrongKind
 from ..populations.distributions import Distribution
+from ..quantities.nearest import guess
 from ..quantities.value import Value, choice, quantity
 from .film_formulas import AbstractFilm, Line, Oil, Point
 from .mixed_film import FEW, MOST, MixedFilm, mixed_film
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = ["Entrainment", "FilmConditions"]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
 
 
 # ------------------------------------------------------------------ what enters with the oil
@@ -243,6 +248,18 @@ class FilmConditions(Value):
         if speed is None:
             speed = self.speed[0] if len(self.speed) == 1 else self.speed
         return mixed_film(contact, speed=speed, slide_roll=self.slide_roll, **self.arguments())
+
+    def __call__(self, *_: object, **__: object) -> NoReturn:
+        """Refuse the call of what a study holds as its film."""
+        raise WrongKind(
+            Problem(
+                "film",
+                "holds the numbers of the table [film]; it is no function",
+                hint=guess("", (), meant="stribeck()"),
+                owner="study",
+                code=Mistake.KIND,
+            )
+        )
 
     def stribeck(self, contact: Contact) -> xarray.Dataset:
         """`stribeck` over these speeds."""

@@ -48,6 +48,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 # ---------------------------------------------------------------- Majumdar and Bhushan
 class FractalLoad(NamedTuple):
     """The load [N] on elastic and on plastic spots, and together; see `MajumdarBhushan`.

@@ -59,6 +59,11 @@ __all__ = [
     "mean_interaction",
 ]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 SQUARE_CENTRE = 4 * math.log(1 + math.sqrt(2)) / math.pi
 """U E*/(p √A) at the centre of a square under uniform pressure: 1.1222."""
 SQUARE_MEAN = 4 / math.pi * (math.log(1 + math.sqrt(2)) + (1 - math.sqrt(2)) / 3)

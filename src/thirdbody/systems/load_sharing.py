@@ -32,6 +32,11 @@ if TYPE_CHECKING:
 
 __all__ = ["BALLS", "ROLLERS", "RadialShare", "radial_integral", "share_radial_load"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 BALLS, ROLLERS = 1.5, 10 / 9
 """Exponents of load over approach: point contacts (Hertz) and line contacts (Palmgren)."""
 NODES = 48

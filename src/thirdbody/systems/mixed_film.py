@@ -56,6 +56,11 @@ if TYPE_CHECKING:
 
 __all__ = ["MixedFilm", "height_of", "mean_gap", "mixed_film"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 BOUNDARY, MIXED, FULL = "boundary", "mixed", "full film"
 FEW, MOST = 0.01, 0.99
 """Default shares of the solids below which a film is full, and above which it is boundary."""

@@ -27,6 +27,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Filter"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 FINEST = 0.5
 """Size from which a filter holds something, over the smallest one of its data sheet, where that
 names one size alone."""

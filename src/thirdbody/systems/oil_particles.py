@@ -49,6 +49,11 @@ if TYPE_CHECKING:
 
 __all__ = ["FilmDents", "FilmParticles", "SeverityIndex"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 NODES = 16
 """Gauss nodes for each panel over sizes."""
 

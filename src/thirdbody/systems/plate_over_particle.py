@@ -27,6 +27,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Bump", "PlateOverParticle"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 ATOM = 1e-10
 """Metres, about the size of an atom: a plate that stands less high does not stand on the particle,
 which is pressed into plate and chuck."""

@@ -58,6 +58,10 @@ PER_LENGTH = {"load": "N/m", "stiffness": "N/m^2", "real_area": "m^2/m"}
 """Units of a cylinder."""
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 # ------------------------------------------------------------------------------ results
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class RoughBody(TableRecord):

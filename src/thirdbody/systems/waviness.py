@@ -49,6 +49,10 @@ if TYPE_CHECKING:
 __all__ = ["WavyContact", "elastic_wave", "measured_wave", "rigid_wave"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class WavyContact(TableRecord):
     """A rough contact on a wavy surface.

@@ -20,7 +20,7 @@ from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import CODE, about, labels_of
 from ...equilibrium.crowding import AREA, about_area, chi_of
-from ...equilibrium.doubts import SHADOW, about_particles
+from ...equilibrium.doubts import SHADOW, about_hardness, about_particles
 from ...equilibrium.load import as_load
 from ...equilibrium.modes import MODES
 from ...equilibrium.solve import solve
@@ -337,7 +337,7 @@ class Plan(Record):
             sign = -1 if self.load == "d" else 1
             if hardest is None or sign * load > hardest[0]:
                 hardest = sign * load, load, contact
-            for sentence in about_particles(contact):
+            for sentence in (*about_hardness(contact), *about_particles(contact)):
                 sentences.setdefault(code_of(sentence), sentence)
         if hardest is not None:
             _, load, contact = hardest

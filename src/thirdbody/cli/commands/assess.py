@@ -38,6 +38,7 @@ def command(options: Options) -> None:
     """
     from ...quantities.files import write_text
     from ...study.analyses import assess_study
+    from ...study.film import note_without_oil
     from ...study.life_uncertainty import asks_for_bands
     from ...views.assess_page import page
     from ..own_files import need_places
@@ -60,6 +61,8 @@ def command(options: Options) -> None:
             "[life] is not assessed without [life.uncertainty]: the answer is of the contact alone"
         )
     need_places([(options.html, "page")], force=options.force)
+    if study.film is not None:
+        warn(note_without_oil("this page will be"))  # before the work, which is long
     answer = assess_study(study, progress=True)
     shown = replace(answer, title=study.heading) if study.settings else answer
     if options.html is not None:

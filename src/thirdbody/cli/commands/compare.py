@@ -59,7 +59,8 @@ class Options:
     study: StudyFile
     names: str | None = option(
         "--laws",
-        'Asperity laws, e.g. ke,jg, or "all"; without it all but adhesive and elliptic.',
+        'Asperity laws, e.g. ke,jg, or "all"; without it all but adhesive and elliptic, and for '
+        "two bodies persson, the elastic area after Persson, which is no law of a study.",
         "NAMES",
     )
     at: str = option(

@@ -37,7 +37,7 @@ class Options:
     )
     seats: str | None = option(
         "--seats",
-        "Where particles lie: random, settled, downhill, valleys, highest, summits.",
+        "Where particles lie: random, settled, downhill, valleys, highest, summits, sphere.",
         "NAME",
     )
     maps: str = option("--maps", "Loads whose maps are kept in DIR.", "last|all", default="last")

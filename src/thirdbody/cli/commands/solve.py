@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...equilibrium.words import (
     MOST_MEET_NONE,
+    NO_MODE,
     RARE,
     critical_load,
     critical_name,
@@ -171,8 +172,10 @@ def _cell(column: Shown, values: Sequence[float], i: int) -> str:
 def _some_states(columns: Columns, total: int) -> Table:
     """A row a state; of many states some, evenly spread."""
     rows = [[cell(i) for cell in columns.values()] for i in some(total)]
-    rare = f"; {RARE}: {MOST_MEET_NONE}" * any(RARE in row for row in rows)
-    legend = MEANS | {"mode": MEANS["mode"] + rare}
+    more = f"; {RARE}: {MOST_MEET_NONE}" * any(RARE in row for row in rows)
+    mode = columns.get("mode", str)
+    more += f"; -: {NO_MODE}" * any(mode(i) == "-" for i in some(total))
+    legend = MEANS | {"mode": MEANS["mode"] + more}
     table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=legend, wrap=True)
     for row in rows:
         table.add_row(*row)

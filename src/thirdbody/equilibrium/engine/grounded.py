@@ -36,35 +36,25 @@ from .fields import (
 )
 from .gaps import SUMS
 from .gaps import TERMS as OF_ONSET
-from .ground import (
-    A_CELL,
+from .ground import K_PP, TAUS, WAVES, U, lay_surface, round_of
+from .ground_cells import A_CELL, COLUMNS, MOST_CELLS, OF_CELL, SETTLED, lay_gaps
+from .ground_seats import (
     BETA,
-    COLUMNS,
     DENSE,
     FIXED,
-    K_PP,
     LAST_SECTION,
     LEFT,
     LOWEST,
-    MOST_CELLS,
     MOST_PLACES,
-    OF_CELL,
     OF_NODES,
     OF_PLACE,
     PLACES,
     ROWS,
     SECTION,
-    SETTLED,
     SIGMA,
     STEP,
-    TAUS,
     UNIT,
     UNKNOWNS,
-    WAVES,
-    U,
-    lay_gaps,
-    lay_surface,
-    round_of,
     weigh_ground,
 )
 from .sides import is_alike, scalar

@@ -326,7 +326,7 @@ class Grounds:
     """
 
     def __init__(self, skins: Array, parts: Array, found: Sequence[Section], rough: Roughness):
-        from . import ground as g
+        from . import ground_seats as g
 
         skin, count, alpha = skins[:, 0], len(skins), np.clip(rough.alpha, *ALPHAS)
         chi, sigma = skin[:, f.CHI], np.broadcast_to(rough.sigma, count)[:, None]
@@ -338,20 +338,21 @@ class Grounds:
         self.seats = np.zeros((count, found[-1].component + 1, g.OF_SEAT))
         # none are seated where there are none
         top = np.where(parts[:, :, f.DENSITY] > 0, parts[:, :, f.HIGH], 0.0) / sigma
+        tops = np.zeros(self.seats.shape[:2])
         for s, each in enumerate(found):
             seat = self.seats[:, each.component]
             if seat[0, g.LAST_SECTION] == 0:
                 seat[:, g.MEAN], seat[:, g.SPREAD] = each.varied.zeta_mean, each.varied.zeta_std
                 seat[:, g.SECTION] = s
             seat[:, g.LAST_SECTION] = s + 1
-            seat[:, g.TOP] = np.maximum(seat[:, g.TOP], top[:, s])
+            tops[:, each.component] = np.maximum(tops[:, each.component], top[:, s])
             seat[:, g.DENSE] += parts[:, s, f.DENSITY]
-        mean, width, top = (self.seats[:, :, k] for k in (g.MEAN, g.SPREAD, g.TOP))
-        if np.any(top > WIDEST * width):
+        mean, width = self.seats[:, :, g.MEAN], self.seats[:, :, g.SPREAD]
+        if np.any(tops > WIDEST * width):
             raise NotCompiled(SHORT)
         soft = skin[:, f.IS_SOFT] == 1
         lowest = np.where(soft, separations(True)[0], separations(False)[0])
-        reach = (top + NORMAL_REACH * width + mean - found[0].law.centre).max(axis=1)
+        reach = (tops + NORMAL_REACH * width + mean - found[0].law.centre).max(axis=1)
         last = np.maximum(reach, lowest + 1.0)
         steps = rows_between(lowest, reach, np.minimum(1.0, width.min(axis=1)))
         self.numbers = np.zeros((count, g.OF_GROUND))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from ...errors import InvalidValue, Mistake, Problem
+from ...quantities.nearest import guess
 from ...quantities.value import choice, quantity
 from ..base import FLAKES, SERIES, AbstractParticleLaw, OneParticle
 
@@ -123,13 +124,12 @@ class Horng2022(AbstractParticleLaw):
     def __init__(self, *, preset: str = "published", **switches: Any):
         fields = {item.name: item for item in dataclasses.fields(type(self))}
         if unknown := [key for key in switches if key not in fields]:
-            names = ", ".join(fields)
             raise InvalidValue(
                 *(
                     Problem(
                         "",
                         f"has no switch {key!r}",
-                        hint=f"it has {names}",
+                        hint=guess(key, fields, otherwise="it has "),
                         owner="Horng2022",
                         code=Mistake.UNKNOWN,
                     )

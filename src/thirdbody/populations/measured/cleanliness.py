@@ -372,6 +372,7 @@ def iso4406_of_counts(counts: ArrayLike) -> str:
     return "/".join(out)
 
 
+@names_arguments
 def counted_sizes() -> tuple[float, ...]:
     """The sizes from which ISO 4406 counts, 4, 6 and 14 µm(c) [m].
 

@@ -32,6 +32,11 @@ if TYPE_CHECKING:
 
 __all__ = ["OilCircuit", "OilTerms", "settling_speed"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 GRAVITY = 9.81
 """Acceleration of free fall [m/s²]."""
 HOUR = 3600.0

@@ -32,6 +32,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Debris"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 ESTIMATE = (
     "sizes of debris are an estimate: between two ways to measure them on one pair of steels under "
     "boundary lubrication"

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 __all__ = ["entry_ratio_from_dents", "oil_layer"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 @takes_units
 def oil_layer(
     classes: SizeClasses, *, film: float, largest: float = math.inf, height: str = "size"

@@ -29,6 +29,10 @@ if TYPE_CHECKING:
 __all__ = ["FatiguePair", "miner_pair"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FatiguePair(Record):
     """Damage and rating life of a bearing over a history of codes; made by `miner_pair`.

@@ -30,6 +30,11 @@ if TYPE_CHECKING:
 
 __all__ = ["LifeEvent", "LifeHistory", "SteadyOil"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 SETTLES_TO = 0.01
 """Part of the way to the steady state that is left when it counts as reached."""
 EMPTY = 1e-9

@@ -22,6 +22,10 @@ from .oil_dirt import problems_of_kinds
 __all__ = ["Ingress"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ingress(Value):
     r"""Particles of one material that enter an oil.

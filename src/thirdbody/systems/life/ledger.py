@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Ledger"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 IN_OIL = "oil"
 """Name of the oil in the table of flows."""
 

@@ -23,6 +23,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Flowing", "dirt_gain", "flowing", "generations", "reproduction", "steady_numbers"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 TERMS = 16
 """Least number of terms of the series of the divided difference."""
 NEAR = 0.5

@@ -19,6 +19,10 @@ from ...quantities.value import Value, quantity
 __all__ = ["OilDirt"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OilDirt(Value):
     r"""Particles of one material in an oil.

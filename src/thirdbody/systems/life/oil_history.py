@@ -35,6 +35,11 @@ if TYPE_CHECKING:
 
 __all__ = ["run_oil_history", "usual_times"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 POINTS = 120
 """Times of a history, evenly and in the logarithm each."""
 AFTER = 8

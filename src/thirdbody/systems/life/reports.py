@@ -44,6 +44,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Approach", "OilReports", "approach_of_reports", "oil_reports", "read_reports"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 WIDTH = 2.0
 """Largest over least count that one number of an ISO 4406 code stands for."""
 LEAST = 1e6

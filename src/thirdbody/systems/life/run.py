@@ -32,6 +32,10 @@ if TYPE_CHECKING:
 __all__ = ["life"]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 @overload
 def life(
     contact: Contact | None = None,

@@ -29,6 +29,11 @@ if TYPE_CHECKING:
 
 __all__ = ["SizeClasses"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 ORIGIN = 0.25e-6
 """An edge of every grid of classes [m]; 0.5, 1, 2, 4, 8 ... µm are edges too."""
 PER_OCTAVE = 4

@@ -20,6 +20,11 @@ from .until import Until
 
 __all__ = ["Longest", "filter_for_code", "least_flow", "longest_time", "time_of_event"]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 FASTEST = 1e3
 """Volumes of the oil per second beyond which no flow is sought."""
 

@@ -27,6 +27,11 @@ __all__ = [
     "find_steady_points",
 ]
 
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 MATTERS = 0.3
 """R_0 above which hardness and sizes of debris decide the answer."""
 

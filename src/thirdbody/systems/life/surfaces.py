@@ -38,6 +38,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 def _check_positive(**values: ArrayLike) -> None:
     wrong = [
         Problem(name, "must be finite and > 0", repr(value), code=Mistake.RANGE)

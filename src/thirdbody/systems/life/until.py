@@ -28,6 +28,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 class Until(Value):
     """Something that a history waits for, and whether it ends there."""
 
