@@ -59,10 +59,12 @@ def solved(case, **load):
         return tb.solve(case, **load)
 
 
+NORM = np.array([math.sqrt(math.factorial(n)) for n in range(13)])
+
+
 def ground_at(zeta, u):
     """Σ u_n He_n/√n! at a height."""
-    norm = np.array([math.sqrt(math.factorial(n)) for n in range(len(u))])
-    return float(np.polynomial.hermite_e.hermeval(min(max(zeta, -4.0), 4.0), u / norm))
+    return float(np.polynomial.hermite_e.hermeval(min(max(zeta, -4.0), 4.0), u / NORM))
 
 
 @pytest.fixture(scope="module")
@@ -135,6 +137,47 @@ def test_load_of_particles_on_their_ground():
         parts = (quad(load, a, b, limit=900, epsabs=0, epsrel=1e-11) for a, b in pairwise(ends))
         expected = 1e11 * sum(part for part, _ in parts)
         assert bound.fields(d)["F_sa"][0] == pytest.approx(expected, rel=1e-8)
+
+
+SIZES = {
+    "one": tb.distributions.Monodisperse(mean=SIGMA),
+    "Gaussian": tb.TruncatedGaussian(mean=3 * SIGMA, std=0.3 * SIGMA, n=3.0),
+    "power": tb.distributions.PowerLaw(
+        edges=(0.03 * SIGMA, SIGMA, 3 * SIGMA), counts=(1e4, 50.0), slopes=(5.0, 3.0)
+    ),
+}
+
+
+@pytest.mark.parametrize("wild", [False, True])
+@pytest.mark.parametrize("sizes", SIZES)
+def test_sums_over_heights_by_many_even_steps(sizes, wild):
+    """Soft particles, whose law has kinks; on wild ground gaps rise with the height in places."""
+    case = contact(0.1, density=1e9)
+    soft = case.particles.replace(
+        diameter=SIZES[sizes],
+        material=case.particles.material.replace(H=0.3 * case.surfaces.first.H),
+    )
+    ground = interface(case.replace(particles=soft)).asperities.ground
+    rng = np.random.default_rng(5)
+    zeta = np.linspace(-8.5, 8.5, 400_001)
+    for row in (6, 12, 20):
+        u, h = ground.u[row], ground.h[row]
+        if wild:
+            u = 0.5 * rng.normal(size=13) * 0.8 ** np.arange(13)
+        (seat,) = ground.seats
+        columns, moments = seat.sums(np.array([h]), u[None])
+        x = np.clip(zeta, -4.0, 4.0)
+        polynomials = np.polynomial.hermite_e.hermevander(x, 12) / NORM
+        gap = h - zeta + polynomials @ u
+        assert np.any(np.diff(gap) > 0) == wild
+        values = np.maximum(seat.average.average(gap / seat.unit), 0.0)
+        mass = np.exp(-0.5 * zeta**2) / math.sqrt(2 * math.pi) * (zeta[1] - zeta[0])
+        expected = mass @ values
+        np.testing.assert_allclose(columns[0, 1:], expected[1:], atol=3e-5 * expected[1:].max())
+        assert columns[0, 0] == pytest.approx(expected[0], rel=1e-6)
+        np.testing.assert_allclose(
+            moments[0], (mass * values[:, 0]) @ polynomials, atol=2e-5 * expected[0]
+        )
 
 
 def test_ground_by_its_own_equation():

@@ -246,6 +246,28 @@ def test_none_of_another_size_change_nothing(size):
     same(own_columns(contact((none, HARD)), vary, "F_star", loads), alone, 1e-11)
 
 
+def test_one_power_law_in_two_populations_is_the_same():
+    """Sizes that set in at another place than the largest change nothing in the sums over heights."""
+    vary, loads = drawn({}, 12, 11, ROUGH)
+    edges, counts, slopes = (20e-9, 90e-9, 300e-9), (1e4, 150.0), (4.0, 4.0)
+    both = HARD.replace(
+        diameter=tb.distributions.PowerLaw(edges=edges, counts=counts, slopes=slopes)
+    )
+    one, two = (
+        HARD.replace(
+            areal_density=HARD.areal_density * counts[k] / sum(counts),
+            diameter=tb.distributions.PowerLaw(
+                edges=edges[k : k + 2], counts=counts[k : k + 1], slopes=slopes[k : k + 1]
+            ),
+        )
+        for k in range(2)
+    )
+    whole = own_columns(contact(both), vary, "F_star", loads)
+    parts = own_columns(contact((one, two)), vary, "F_star", loads)
+    # each population has splines of its own between the rows
+    assert errors(parts, whole, vary["roughness.sigma"]).max() < 2e-6
+
+
 def test_populations_in_any_order():
     case, _ = SEVERAL["three kinds of sizes"]
     vary, loads = drawn({}, 20, 9, ROUGH)
