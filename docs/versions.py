@@ -14,8 +14,9 @@ MADE = "<!-- made by docs/versions.py -->"
 
 
 def in_order(version):
-    """A key that sorts versions by their numbers."""
-    return [int(part) if part.isdigit() else -1 for part in version.replace("-", ".").split(".")]
+    """A key that sorts versions by their numbers, and one with .dev0 before its release."""
+    parts = [*version.replace("-", ".").split("."), "0"]
+    return [int(part) if part.isdigit() else -1 for part in parts]
 
 
 def add_switch(folder, version):

@@ -134,7 +134,7 @@ NINE = {"found", "given", "told", "own", "known", "asked", "bound", "each", "par
 FILLERS = {
     "analysis": 1,
     "app": 2,
-    "equilibrium": 247,
+    "equilibrium": 243,
     "laws": 6,
     "papers": 1,
     "populations": 1,

@@ -282,10 +282,11 @@ class Problem(str):
         return self.changed(owner=owner, rule=": " + self.rule if whole else self.rule)
 
     def put_at(self, path: str, value: str | None = None, *, sign: str = "=") -> Problem:
-        """The same mistake told of the place where what it is about stands.
+        """The same mistake at the place where what it is about stands.
 
-        >>> told = Problem("", "5 nmm has the unit nmm", hint="did you mean nm?")
-        >>> told.put_at("sigma", '"5 nmm"')
+        >>> from thirdbody.errors import Problem
+        >>> mistake = Problem("", "5 nmm has the unit nmm", hint="did you mean nm?")
+        >>> mistake.put_at("sigma", '"5 nmm"')
         'sigma = 5 nmm has the unit nmm; did you mean nm?'
         """
         rule = f"{sign} {self.changed(hint='')}"

@@ -93,7 +93,8 @@ def test_examples_of_the_page_are_valid_and_plausible(name, tmp_path):
     state = State(example(name), tmp_path)
     assert not state.problems
     assert len(state.answer.loads) == 200
-    assert not state.answer.notes
+    # particles of an oil are wider than the film that brings them
+    assert {note.code for note in state.answer.notes} <= {"gap"}
 
 
 def test_first_example_is_that_of_the_examples():

@@ -179,7 +179,7 @@ class Seat:
         row, cell, want = np.concatenate(crossings, axis=1)
         a, b = grid[row, cell], grid[row, cell + 1]
         f_a, f_b = beside[row, cell] - wanted[want], beside[row, cell + 1] - wanted[want]
-        found, last = np.where(f_a == 0, a, b), np.zeros(len(row))
+        places, last = np.where(f_a == 0, a, b), np.zeros(len(row))
         close = SET_IN * np.maximum(1.0, 0.1 * np.abs(h[row]))
         here = np.flatnonzero((f_a != 0) & (f_b != 0))
         a, b, f_a, f_b, last = (one[here] for one in (a, b, f_a, f_b, last))
@@ -189,7 +189,7 @@ class Seat:
             zeta = (a * f_b - b * f_a) / (f_b - f_a)
             at = row[here]
             f = self._gap(h[at], u[at], zeta[:, None])[:, 0] - wanted[want[here]]
-            found[here] = zeta
+            places[here] = zeta
             behind = (f < 0) == (f_b < 0)
             f_a = np.where(behind & (last == 1), 0.5 * f_a, f_a)
             f_b = np.where(~behind & (last == -1), 0.5 * f_b, f_b)
@@ -199,7 +199,7 @@ class Seat:
             far = np.abs(f) > close[here]
             here, a, b, f_a, f_b, last = (one[far] for one in (here, a, b, f_a, f_b, last))
         order = np.argsort(row, kind="stable")
-        return _in_rows(row[order], found[order], len(h), grid[0, 0])
+        return _in_rows(row[order], places[order], len(h), grid[0, 0])
 
     def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
         """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""

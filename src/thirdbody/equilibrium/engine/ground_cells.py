@@ -42,11 +42,11 @@ BELOW = 1e-9
 
 
 @scalar
-def _add_under(given, sides, panels, count, gap, rule, sums, onsets, out):
+def _add_under(sections, sides, panels, count, gap, rule, sums, onsets, out):
     """Add what the particles of all sections carry under a gap; False below their range."""
     keep_apart()
-    for s in range(len(given)):
-        one = given[s : s + 1]
+    for s in range(len(sections)):
+        one = sections[s : s + 1]
         if one[0, DENSITY] == 0:
             continue
         if has_powers(one, 0):
@@ -57,8 +57,8 @@ def _add_under(given, sides, panels, count, gap, rule, sums, onsets, out):
 
 
 @scalar
-def _fill_cell(given, sides, panels, count, rule, places, sums, onsets, root, power, a, b, values,
-               series, terms):  # fmt: skip
+def _fill_cell(sections, sides, panels, count, rule, places, sums, onsets, root, power, a, b,
+               values, series, terms):  # fmt: skip
     """Fill series of all columns between two gaps; their last terms over the largest value.
 
     In the root of the distance to ``root``, if it is one, and over its ``power``.
@@ -70,13 +70,13 @@ def _fill_cell(given, sides, panels, count, rule, places, sums, onsets, root, po
         gap = root - place * place if root > 0 else place
         for k in range(10):
             terms[k] = 0.0
-        if not _add_under(given, sides, panels, count, gap, rule, sums, onsets, terms):
+        if not _add_under(sections, sides, panels, count, gap, rule, sums, onsets, terms):
             return math.nan
         # by the gap as it is rounded, as is what is carried
         over = (root - gap) ** (-0.5 * power) if power > 0 else 1.0
         for k in range(COLUMNS - 1):
             values[k, j] = terms[F_SA + k] * over
-        if power > 0 and given[0, SHADOW] == PROJECTED:
+        if power > 0 and sections[0, SHADOW] == PROJECTED:
             over *= (root - gap) / root  # all of a size is dark once it is touched
         values[COLUMNS - 1, j] = terms[F_SA + COLUMNS - 1] * over
     worst = wide = load = 0.0
@@ -128,19 +128,19 @@ def _note(edges, count, gap, onset, low, high):
 
 
 @scalar
-def _differs(given, sides, panels, n):
+def _differs(sections, sides, panels, n):
     """Whether another of the two areas is the larger on panel n than on the one before."""
     keep_apart()
     signs = 1.0
     for m in range(n - 1, n + 1):
         eps = 0.5 * (panels[0, m, EDGE] + panels[0, m, TO])
-        _, one, two = particle_at(given, sides, panels, 0, m, eps)
+        _, one, two = particle_at(sections, sides, panels, 0, m, eps)
         signs *= 1.0 if one > two else -1.0
     return signs < 0
 
 
 @scalar
-def _note_sizes(given, sides, panels, count, low, high, edges):
+def _note_sizes(sections, sides, panels, count, low, high, edges):
     """Note the gaps at which a size begins to be squeezed or comes to another panel."""
     keep_apart()
     last, marked = panels[0, count - 1, TO], 0
@@ -148,18 +148,18 @@ def _note_sizes(given, sides, panels, count, low, high, edges):
         eps = panels[0, n, EDGE] if n < count else last
         # an end of panels alone: the formula is the same behind it
         alone = 0 < n < count and panels[0, n, ONE] < 0
-        if alone and (given[0, EQUAL] == 1 or not _differs(given, sides, panels, n)):
+        if alone and (sections[0, EQUAL] == 1 or not _differs(sections, sides, panels, n)):
             continue
         onset = 1.0 if n == 0 else 0.0
-        for s in range(len(given)):
-            if given[s, DENSITY] > 0:
+        for s in range(len(sections)):
+            if sections[s, DENSITY] > 0:
                 for k in (SMALLEST, HIGH):
-                    marked = _note(edges, marked, given[s, k] * (1 - eps), onset, low, high)
+                    marked = _note(edges, marked, sections[s, k] * (1 - eps), onset, low, high)
     return marked
 
 
 @scalar
-def _begin_sections(given, sides, panels, count, finest, some, sums, onsets):
+def _begin_sections(sections, sides, panels, count, finest, some, sums, onsets):
     """Sum over the squeeze what sizes that are powers carry.
 
     The smallest and the largest size, the power of the root of the distance from that like which
@@ -167,9 +167,9 @@ def _begin_sections(given, sides, panels, count, finest, some, sums, onsets):
     """
     keep_apart()
     low, high, power, worst, powers = math.inf, 0.0, 4.0, 0.0, False
-    for s in range(len(given)):
-        one = given[s : s + 1]
-        some[s] = len(given)  # not summed
+    for s in range(len(sections)):
+        one = sections[s : s + 1]
+        some[s] = len(sections)  # not summed
         if one[0, DENSITY] == 0:
             continue
         if one[0, HIGH] >= high:
@@ -179,12 +179,12 @@ def _begin_sections(given, sides, panels, count, finest, some, sums, onsets):
             some[s], powers = 0, True
             sum_onset(one, sides, panels, 0, onsets[s])
     if powers:
-        worst = sum_panels(given, sides, panels, 0, some, count, finest, sums)
+        worst = sum_panels(sections, sides, panels, 0, some, count, finest, sums)
     return low, high, power, worst
 
 
 @scalar
-def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, floor, edges,
+def lay_gaps(sections, sides, panels, count, rule, places, finest, settled, cells, floor, edges,
              values, series, terms, some, sums, onsets):  # fmt: skip
     """Lay cells over the gap, from the largest size down; how many, and what they leave out.
 
@@ -196,10 +196,10 @@ def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, 
     if last >= 1:
         return 0, 0.0
     low, high, power, worst = _begin_sections(
-        given, sides, panels, count, finest, some, sums, onsets
+        sections, sides, panels, count, finest, some, sums, onsets
     )
     bottom = low * (1 - last)
-    marked = _note_sizes(given, sides, panels, count, bottom, high, edges)
+    marked = _note_sizes(sections, sides, panels, count, bottom, high, edges)
     if marked >= edges.shape[1] - 1:
         return -1, 0.0
     edges[0, marked], edges[1, marked] = bottom, 0.0
@@ -207,25 +207,25 @@ def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, 
         terms[k] = 0.0
     # of one size, what all are squeezed beyond begins below the last panel
     _add_under(
-        given, sides, panels, count, bottom * (1 - BELOW), rule, sums, onsets, terms
+        sections, sides, panels, count, bottom * (1 - BELOW), rule, sums, onsets, terms
     )  # fmt: skip
     for k in range(COLUMNS):
         floor[k] = terms[F_SA + k]
-    found, n, many, start, begins = 0, 0, 1, 0, high
+    laid, n, many, start, begins = 0, 0, 1, 0, high
     while n < marked:
         # where formulas change little at their ends, one series does over several of them
         b, last_n, alone = edges[0, n], min(n + many, marked), False
         if edges[1, n] == 1:
-            start, begins = found, b
+            start, begins = laid, b
         a = edges[0, last_n]
         while True:
-            if found == MOST_CELLS:
+            if laid == MOST_CELLS:
                 return -1, 0.0
             root = begins if begins - b < b - a else 0.0
             over = power if root == high else 0.0
             left = _fill_cell(
-                given, sides, panels, count, rule, places, sums, onsets, root, over, a, b, values,
-                series, terms,
+                sections, sides, panels, count, rule, places, sums, onsets, root, over, a, b,
+                values, series, terms,
             )  # fmt: skip
             if left != left:
                 return -1, 0.0
@@ -242,11 +242,11 @@ def lay_gaps(given, sides, panels, count, rule, places, finest, settled, cells, 
                         a = root - middle * middle
                 continue
             worst = max(worst, left)
-            _keep_cell(root, start, over, a, b, series, cells[found])
-            found += 1
+            _keep_cell(root, start, over, a, b, series, cells[laid])
+            laid += 1
             if a <= edges[0, last_n]:
                 break
             a, b = max(edges[0, last_n], a - 2 * (b - a)), a
         many = 1 if alone else min(2 * many, 2)
         n = last_n
-    return found, worst
+    return laid, worst
