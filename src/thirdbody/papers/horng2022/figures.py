@@ -174,7 +174,7 @@ def _two_sizes(name: str, curves: Curves) -> Panel:
         ylim=(3e-6, 3e-2),
         marks=[
             Mark("1000 nm begins to rise", 3e-5, left=True),
-            Mark("1000 nm: all $\\sigma$ alike below", 6e-5),
+            Mark("1000 nm: all $\\sigma$ alike below", 6e-5, dashed=True),
         ],
     )
 
