@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -27,16 +28,18 @@ if TYPE_CHECKING:
 
 __all__ = ["Nodes", "Seat", "heights"]
 
-CHORDS, SET_IN, TURNS = 40, 1e-14, 80
+CHORDS, SET_IN, TURNS = 40, 1e-14, 30
 """Of the search for the ground that leaves a gap: chords at most, how near [σ], and steps to the
 ground of the widest or narrowest gap."""
 HIGHEST_SEAT = 4.0
 """Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
 DENSITY = 8.5
 """Widths of the seat beyond which nothing is counted."""
-NODES, WIDTH, GRID = 8, 1.7, 0.25
-"""Of sums over seats: nodes of a panel, how wide one is over the width of the seat at most, and how
-far heights lie apart from which ends of panels are sought."""
+NODES, GRID = 8, 0.25
+"""Of sums over seats: nodes of a panel, and how far heights lie apart from which ends of panels are
+sought, over the width of the seat."""
+WIDTH, FALL = 1.25, 3.5
+"""Width of a panel over that of the seat, at most, and how much ln dN may change over one."""
 
 
 def heights(u: Array, zeta: Array) -> Array:
@@ -75,6 +78,16 @@ def _in_rows(rows: NDArray[np.intp], values: Array, count: int, rest: float) -> 
     out = np.full((count, int(most.max(initial=0))), rest)
     out[rows, np.arange(len(rows)) - np.repeat(np.cumsum(most) - most, most)] = values
     return out
+
+
+@cache
+def _fixed_ends() -> Array:
+    """Heights from the mean of a seat over its width at which panels end at least."""
+    ends = [0.0]
+    while ends[-1] < DENSITY:
+        ends.append(ends[-1] + min(WIDTH, FALL / (ends[-1] + 0.5)))
+    ends[-1] = DENSITY
+    return np.array([*(-end for end in ends[:0:-1]), *ends])
 
 
 def _beside(*values: Array) -> Array:
@@ -149,7 +162,7 @@ class Seat:
         Last those of widest and narrowest gaps (N, L), or the lowest in rows with fewer of them.
         """
         low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
-        fixed = np.linspace(low, high, math.ceil((high - low) / (WIDTH * self.width)) + 1)
+        fixed = self.mean + self.width * _fixed_ends()
         level = np.array([-HIGHEST_SEAT, HIGHEST_SEAT])
         fixed = np.sort(np.append(fixed, level[(level > low) & (level < high)]))
         grid = subdivide(fixed, width=GRID * self.width)

@@ -21,11 +21,12 @@ from .sums import add_plane
 
 __all__ = ["lay_gaps"]
 
-MOST_CELLS = 400
+MOST_CELLS = 800
 FROM, UNTIL, ROOT, ROOT_CELL, START, RATE, OVER, POWERS = range(8)
 """Of a cell: its gaps [m]; the gap to which the distance has the root that is its variable, or 0
 where it is the gap itself, and the cell that begins there; where the variable starts and its rate;
-the power of that root like which all sets in; from there on powers of each column in turn."""
+the power of the root of the distance to the largest size over which columns stand; from there on
+powers of each column in turn."""
 OF_CELL, COLUMNS = 16, 6
 A_CELL = POWERS + COLUMNS * OF_CELL
 CONVERT = np.zeros((OF_CELL, OF_CELL))
@@ -37,6 +38,11 @@ for _n in range(OF_CELL):
 SETTLED, THINNEST = 2e-11, 1e-6
 """Last terms of a series over its largest value, at most; width of a cell over the largest size
 below which it is not halved."""
+LAST, KINKED, THIN = 4, 0.01, 1e-4
+"""So many terms say what a series leaves out; the part of that which one over several intervals may
+leave out, as terms fall slowly behind a kink; width of a cell over the largest size below which it
+counts in proportion, on seats that are wider than `STEEP` times that."""
+STEEP = 8.5
 BELOW = 1e-9
 """Part of a gap by which another lies surely below it."""
 
@@ -57,11 +63,12 @@ def _add_under(sections, sides, panels, count, gap, rule, sums, onsets, out):
 
 
 @scalar
-def _fill_cell(sections, sides, panels, count, rule, places, sums, onsets, root, power, a, b,
+def _fill_cell(sections, sides, panels, count, rule, places, sums, onsets, root, top, power, a, b,
                values, series, terms):  # fmt: skip
     """Fill series of all columns between two gaps; their last terms over the largest value.
 
-    In the root of the distance to ``root``, if it is one, and over its ``power``.
+    In the root of the distance to ``root``, if it is one, and over a ``power`` of that to the
+    largest size.
     """
     keep_apart()
     low, high = (math.sqrt(root - b), math.sqrt(max(root - a, 0.0))) if root > 0 else (a, b)
@@ -73,22 +80,25 @@ def _fill_cell(sections, sides, panels, count, rule, places, sums, onsets, root,
         if not _add_under(sections, sides, panels, count, gap, rule, sums, onsets, terms):
             return math.nan
         # by the gap as it is rounded, as is what is carried
-        over = (root - gap) ** (-0.5 * power) if power > 0 else 1.0
+        over = (top - gap) ** (-0.5 * power) if power > 0 else 1.0
         for k in range(COLUMNS - 1):
             values[k, j] = terms[F_SA + k] * over
         if power > 0 and sections[0, SHADOW] == PROJECTED:
-            over *= (root - gap) / root  # all of a size is dark once it is touched
+            over *= (top - gap) / top  # all of a size is dark once it is touched
         values[COLUMNS - 1, j] = terms[F_SA + COLUMNS - 1] * over
-    worst = wide = load = 0.0
+    worst, wide, load, least = 0.0, 0.0, 0.0, math.inf
     for j in range(OF_CELL):
-        load = max(load, abs(values[0, j]))
+        load, least = max(load, abs(values[0, j])), min(least, abs(values[0, j]))
         for k in range(1, COLUMNS):
             wide = max(wide, abs(values[k, j]))
     for k in range(COLUMNS):
         transform(places, values[k], series[k])
-        most = wide if k > 0 else load
+        # high ground may see the end of a cell alone at which little is carried
+        most = wide if k > 0 else math.sqrt(load * least)
         if most > 0:
-            left = abs(series[k, OF_CELL - 1]) + abs(series[k, OF_CELL - 2])
+            left = 0.0
+            for j in range(OF_CELL - LAST, OF_CELL):
+                left += abs(series[k, j])
             worst = max(worst, left / most)
     return worst
 
@@ -222,14 +232,16 @@ def lay_gaps(sections, sides, panels, count, rule, places, finest, settled, cell
             if laid == MOST_CELLS:
                 return -1, 0.0
             root = begins if begins - b < b - a else 0.0
-            over = power if root == high else 0.0
+            over = power if a + b > high else 0.0
             left = _fill_cell(
-                sections, sides, panels, count, rule, places, sums, onsets, root, over, a, b,
+                sections, sides, panels, count, rule, places, sums, onsets, root, high, over, a, b,
                 values, series, terms,
             )  # fmt: skip
             if left != left:
                 return -1, 0.0
-            if left > settled and b - a > THINNEST * high:
+            left *= min(1.0, (b - a) / (THIN * high))
+            most = settled if last_n == n + 1 else KINKED * settled
+            if left > most and b - a > THINNEST * high:
                 if last_n > n + 1:
                     last_n = many = n + (last_n - n) // 2
                     many -= n

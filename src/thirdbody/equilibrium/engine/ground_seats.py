@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ...contact.field_seat import DENSITY as REACH
-from ...contact.field_seat import HIGHEST_SEAT, NODES
+from ...contact.field_seat import FALL, HIGHEST_SEAT, NODES
 from ...contact.field_seat import WIDTH as WIDEST
 from ...laws.field.programme import MOMENTS
 from ...numerics.quadrature import gauss_legendre
@@ -62,7 +62,7 @@ MOST_PLACES = MOST_CELLS + 60
 PLACES = NODES * MOST_PLACES
 HEIGHTS = np.linspace(-HIGHEST_SEAT, HIGHEST_SEAT, 64)
 """Between which ends of cells are sought."""
-NEWTON, FLATTEST, MISSED, TURNS = 8, 1e-3, 1e-10, 60
+NEWTON, FLATTEST, MISSED, TURNS = 8, 1e-3, 1e-10, 40
 """Steps of the search, the slope of a gap over the height at least, what a gap may be off before
 the last step [σ], and halvings near the height of a widest or narrowest gap."""
 
@@ -136,19 +136,20 @@ def _lay_panels(seat, sign, rooted, begin, a, b, which, places, count):
     """Lay panels from one height to another, in the root of the distance from where it begins or in
     the height."""
     keep_apart()
-    if not sign * (b - a) > 0:
-        return count
-    parts = max(1, math.ceil(abs(b - a) / (WIDEST * seat[SPREAD])))
-    for m in range(min(parts, MOST_PLACES - count)):
-        one, two = a + (b - a) * m / parts, a + (b - a) * (m + 1) / parts
+    width = seat[SPREAD]
+    while sign * (b - a) > 0 and count < MOST_PLACES:
+        step = min(WIDEST, FALL / (abs(a - seat[MEAN]) / width + 0.5)) * width
+        end = b if abs(b - a) <= 1.1 * step else a + sign * step
+        one, two = a, end
         if rooted:
             one, two = (
-                math.sqrt(max(sign * (one - begin), 0.0)), math.sqrt(max(sign * (two - begin), 0.0))
+                math.sqrt(max(sign * (a - begin), 0.0)), math.sqrt(max(sign * (end - begin), 0.0))
             )  # fmt: skip
         places[FIRST_PLACE, count], places[LAST_PLACE, count] = one, two
         places[BY_ROOT, count] = sign if rooted else 0.0
         places[BEGIN, count], places[WHICH, count] = begin, which
         count += 1
+        a = end
     return count
 
 
@@ -323,15 +324,16 @@ def _read_powers(c, places, out):
 
 
 @exact
-def _lower_powers(root, power, gap, out):
-    """Take what stands over a power of the root times that, and nothing below zero."""
+def _take_power(top, power, gap, out):
+    """Take what stands over a power of the root of the distance to the top times that, and nothing
+    below zero."""
     if power == 4:
         for j in range(NODES):
-            rise = max(root - gap[j], 0.0)
+            rise = max(top - gap[j], 0.0)
             out[j] *= rise * rise
     elif power == 2:
         for j in range(NODES):
-            out[j] *= max(root - gap[j], 0.0)
+            out[j] *= max(top - gap[j], 0.0)
     for j in range(NODES):
         out[j] = max(out[j], 0.0)
 
@@ -345,10 +347,10 @@ def _sum_products(mass, values):
 
 
 @scalar
-def _read_panel(cell, darker, whole, gap, mass, loads, shades, places, columns):
+def _read_panel(cell, top, darker, whole, gap, mass, loads, shades, places, columns):
     """Loads and shades at the nodes of a panel, and sums of other columns if the whole is asked."""
     keep_apart()
-    root, power = cell[ROOT], cell[OVER]
+    power = cell[OVER]
     _take_places(cell, gap, places)
     dark = power
     if darker and power > 0:
@@ -359,12 +361,12 @@ def _read_panel(cell, darker, whole, gap, mass, loads, shades, places, columns):
         out = loads if k == 0 else shades  # others on their way
         _read_powers(cell[POWERS + OF_CELL * k : POWERS + OF_CELL * (k + 1)], places, out)
         if k == COLUMNS - 1:
-            _lower_powers(root, dark, gap, out)
+            _take_power(top, dark, gap, out)
             if dark != power:
                 for j in range(NODES):
-                    out[j] *= root
+                    out[j] *= top
         else:
-            _lower_powers(root, power, gap, out)
+            _take_power(top, power, gap, out)
         if 0 < k < COLUMNS - 1:
             columns[k] += _sum_products(mass, out)
 
@@ -438,8 +440,8 @@ def _weigh_seat(own, seat, h, u, cells, count, darker, floor, nodes, places, fou
                     columns[k] += floor[k] * mass[NODES * n + j]
         else:
             _read_panel(
-                cells[which], darker, whole, gap[here], mass[here], loads[here], shades[here],
-                zeta[here], columns,
+                cells[which], cells[0, UNTIL], darker, whole, gap[here], mass[here], loads[here],
+                shades[here], zeta[here], columns,
             )  # fmt: skip
     _take_powers(mass, loads, cut, p)
     columns[0], columns[COLUMNS - 1] = p[0], _sum_products(mass, shades)

@@ -37,7 +37,17 @@ from .fields import (
 from .gaps import SUMS
 from .gaps import TERMS as OF_ONSET
 from .ground import K_PP, TAUS, WAVES, U, lay_surface, round_of
-from .ground_cells import A_CELL, COLUMNS, MOST_CELLS, OF_CELL, SETTLED, lay_gaps
+from .ground_cells import (
+    A_CELL,
+    COLUMNS,
+    MOST_CELLS,
+    OF_CELL,
+    SETTLED,
+    STEEP,
+    THIN,
+    UNTIL,
+    lay_gaps,
+)
 from .ground_seats import (
     BETA,
     DENSE,
@@ -52,6 +62,7 @@ from .ground_seats import (
     ROWS,
     SECTION,
     SIGMA,
+    SPREAD,
     STEP,
     UNIT,
     UNKNOWNS,
@@ -629,8 +640,8 @@ def _is_seat_alike(i, parts, bodies, first, last):
 
 
 @scalar
-def _lay_seats(i, parts, bodies, seats, rules, care, scratch, cells, counts, darker, floor, left,
-               fates, sides):  # fmt: skip
+def _lay_seats(i, parts, bodies, seats, sigma, rules, care, scratch, cells, counts, darker, floor,
+               left, fates, sides):  # fmt: skip
     """Lay the cells of every seat of state i anew that differs from that of the state before.
 
     What they leave out, at most, what became of them, and whether none differs.
@@ -650,7 +661,8 @@ def _lay_seats(i, parts, bodies, seats, rules, care, scratch, cells, counts, dar
                 left[m], fates[m], counts[m] = _lay_section(
                     parts[i, first:last], sides, rules, care, scratch, cells[m], floor[m]
                 )
-        worst = max(worst, left[m])
+        steep = STEEP * THIN * cells[m, 0, UNTIL] / (seats[i, m, SPREAD] * sigma)
+        worst = max(worst, left[m] * max(1.0, steep))
         fate = max(fate, fates[m])
     return worst, fate, same
 
@@ -709,8 +721,8 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, alone, 
     )  # fmt: skip
     for i in range(len(target)):
         worst, laid, same = _lay_seats(
-            i, parts, bodies, seats, rules, care, scratch, cells, counts, darker, floor, left,
-            fates, sides,
+            i, parts, bodies, seats, grounds[i, SIGMA], rules, care, scratch, cells, counts, darker,
+            floor, left, fates, sides,
         )  # fmt: skip
         fate[i] = max(fate[i], laid)
         if fate[i] != OK:
