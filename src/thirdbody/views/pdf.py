@@ -114,8 +114,8 @@ def _without_chance(pdf: bytes) -> bytes:
     A browser counts nodes on from those that it made while it read the page, which differ with
     what else the machine does. No byte moves, as places in the file are counted.
 
-    >>> _without_chance(b"/Creator (A browser and its version)/ModDate (D:20260102030405+01'00')")
-    b"/Creator (thirdbody 0.1.0)          /ModDate (D:19800101000000+00'00')"
+    >>> _without_chance(b"/Creator (A browser)/ModDate (D:20260102030405+01'00')")[-34:]
+    b"/ModDate (D:19800101000000+00'00')"
     >>> _without_chance(b"/ID (node00000048) /ID (node00000050) /Headers [(node00000048)]")
     b'/ID (node00000001) /ID (node00000002) /Headers [(node00000001)]'
     """
