@@ -1102,7 +1102,8 @@ def test_unsolved_states_keep_their_place(write):
 def test_examples_are_sensible(path):
     study = load_study(path)
     assert study.title
-    assert study.notes == ()
+    # particles of an oil are wider than the film that brings them
+    assert {note.code for note in study.notes} <= {"gap"}
     result = run_study(study)
     states = result["states"]
     assert set(states["status"]) == {"ok"}
@@ -1114,7 +1115,8 @@ def test_examples_are_sensible(path):
         "as debris = 'ductile' says",
         "at chi = H/(E* g)",
     )
-    doubts = [text for text in result["warnings"] if text not in result.oil_notes]
+    notes = {*result.oil_notes, *study.notes}
+    doubts = [text for text in result["warnings"] if text not in notes]
     assert [text for text in doubts if not any(each in text for each in known)] == []
     assert max(states["residual"]) < 1e-9
     order = np.argsort(states["F_star"])
