@@ -16,13 +16,15 @@ touch there are higher than any of which twelve moments say something.
 
 k_n^pp and k_n^as leave out what lies nearer than one diameter, and half of one; their n = 0 is
 minus that distance, as the mean plane sinks with the nominal pressure and nothing else does.
-β_n are found by iteration at separations of a table; between these every column is a spline.
+β_n are found by iteration at separations of a table. Where a separation between two of these is
+asked, it is found at more of them there, until every column is a series that leaves nothing out.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -32,9 +34,10 @@ from ..errors import NoEquilibrium
 from ..laws.base import COLUMNS, SeatedLaw
 from ..laws.field.programme import MOMENTS
 from ..laws.field.table import FIRST, TAU
-from ..numerics.chebyshev import chebyshev_transform
-from .field_seat import DENSITY, Seat
-from .field_sums import FieldSum
+from ..numerics.chebyshev import PiecewiseChebyshev, chebyshev_transform
+from .broken_averages import is_rough
+from .field_seat import DENSITY, TINY, Seat
+from .field_sums import ROUNDING, FieldSum
 from .particle_averages import SeatAverage
 from .particle_sums import Part, SeatedParticles
 from .spots import AsperitySpots
@@ -75,9 +78,14 @@ between two separations, from which on it may belong to another ground; steps be
 separations that show whether it does, as differences of a kink are so many times less in them."""
 TERMS = 16
 """Of k_n over τ."""
-TINY = 1e-250
-FEWEST = 12
-"""Separations that a table must keep."""
+FEWEST, HALVINGS = 12, 10
+"""Separations that a table must keep, and halvings of one of its steps to where it ends."""
+DEGREE, LEFT_OUT, LEFT_OUT_ROUGHLY, DEEPEST, ON_ROW, AT_ONCE = 9, 1e-10, 1e-7, 7, 1e-12, 32
+"""Of series between two separations of the table: degree, what they leave out of u/σ, w, ln load
+and areas over it, that of one of many samples, halvings, how near a row [σ] is the row, and steps
+of the table that are looked into together."""
+LIFT, OF_SEATS = MOMENTS + 1, MOMENTS + 2
+"""Columns of these: u_n, w, then those of each seat."""
 
 
 def rows_between(lowest: float | Array, reach: float | Array, width: float | Array) -> Any:
@@ -111,6 +119,8 @@ class Ground:
         Hermite moments of the particles' ground over σ.
     w : array (M,)
         Lift of the asperities' ground over σ.
+    state : array (M, 14)
+        β_n and the shadow.
     cut : bool
         Whether nothing was found at the lowest separations of the field, which are left out.
     """
@@ -132,7 +142,8 @@ class Ground:
         width = min(1.0, *(seat.width for seat in seats))
         count = int(rows_between(lowest, reach, width))
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
-        self.u, self.w = self._solve_separations()
+        self._series: dict[int, PiecewiseChebyshev | None] = {}
+        self.u, self.w, self.state = self._solve_separations()
 
     def _of_asperities(self, h: Array) -> Array:
         """k_n^zs a_n at h: (N, 13)."""
@@ -180,7 +191,7 @@ class Ground:
             before, w = w, w + np.where(short, chord, miss)
         return lift
 
-    def _solve_separations(self) -> tuple[Array, Array]:
+    def _solve_separations(self) -> tuple[Array, Array, Array]:
         """Solve all separations at once; those that fail or leap, one by one from the ones above.
 
         Of several grounds that answer the equations, the one to which surfaces come together. The
@@ -191,14 +202,14 @@ class Ground:
         failed = np.zeros(count, bool)
         failed[self._iterate_states(self.h, u, w, kept)] = True
         if failed[-2:].any():
-            return self._above(count, u, w)
+            return self._above(count, u, w, kept)
         for row in range(count - 3, -1, -1):
             whole = not failed[row] and not self._leaps(w[row : row + 3])
             whole = whole or self._solve_from_above(row, u, w, kept)
             whole = whole or self._creep_down(row, u, w, kept)
             if not whole or u[row, 1] >= FLAT:
-                return self._above(row + 1, u, w)
-        return u, w[:, 0]
+                return self._above(row + 1, u, w, kept)
+        return u, w[:, 0], kept
 
     def _leaps(self, lifts: Array) -> bool:
         """Whether the first of three lifts (3, 1) may belong to another ground than the others."""
@@ -270,7 +281,7 @@ class Ground:
             state = _next_state(states, misses)
         return rest[left == MORE]
 
-    def _above(self, first: int, u: Array, w: Array) -> tuple[Array, Array]:
+    def _above(self, first: int, u: Array, w: Array, kept: Array) -> tuple[Array, Array, Array]:
         """The table without separations where particles, all but grown together, find no ground."""
         if len(self.h) - first < FEWEST:
             raise NoEquilibrium(
@@ -278,31 +289,93 @@ class Ground:
                 f"{self.h[first - 1]:.3g} sigma (law field)"
             )
         self.h, self.cut = self.h[first:], True
-        return u[first:], w[first:, 0]
+        return u[first:], w[first:, 0], kept[first:]
 
-    @property
+    @cached_property
     def lowest(self) -> float:
         """Separation over σ from which asperities on lifted ground are within their table."""
-        outside = np.flatnonzero(
-            (self.w < 0) & (self.h + self.w <= self.field.surface.lowest + 1e-9)
-        )
-        return float(
-            self.h[min(int(outside[-1]) + 1, len(self.h) - 1)] if len(outside) else self.h[0]
-        )
+        outside = np.flatnonzero(self.h + self.w <= self.field.surface.lowest + ON_ROW)
+        if not len(outside):
+            return float(self.h[0])
+        low, high = self.h[outside[-1]], self.h[min(outside[-1] + 1, len(self.h) - 1)]
+        for _ in range(HALVINGS):
+            middle = np.array([0.5 * (low + high)])
+            start = self._spline(middle)
+            w, state = start[:, LIFT : LIFT + 1].copy(), start[:, OF_SEATS:].copy()
+            failed = self._iterate_states(middle, np.zeros((1, MOMENTS + 1)), w, state)
+            inside = not len(failed) and middle + w[0] > self.field.surface.lowest + ON_ROW
+            low, high = (low, middle[0]) if inside else (middle[0], high)
+        return float(high)
 
     @cached_property
     def _spline(self) -> BSpline:
-        columns = np.column_stack([self.u, self.w])
+        """u_n, w and the state between the rows, as far as they say."""
         from scipy.interpolate import make_interp_spline
 
-        return make_interp_spline(self.h, columns, k=5)
+        return make_interp_spline(self.h, np.column_stack([self.u, self.w, self.state]), k=5)
 
-    def patch_moments(self, h: Array, derivative: int = 0) -> Array:
-        """u_n and w, or a derivative, at h: (N, 14); beyond the table as at its end."""
-        out = np.asarray(self._spline(np.minimum(h, self.h[-1]), derivative))
+    def patch_moments(self, h: Array) -> Array:
+        """u_n and w at h: (N, 14); beyond the table as at its end."""
+        out = self._spline(np.minimum(h, self.h[-1]))[:, :OF_SEATS, None]
+        self.refine(h, range(OF_SEATS), out)
         out[h > self.h[-1]] = 0.0
         out[h < self.h[0]] = np.nan
+        return out[:, :, 0]
+
+    def lifts(self, h: Array) -> Array:
+        """w over σ at h with two derivatives: (N, 3); nothing beyond the table."""
+        inside = np.clip(h, self.h[0], self.h[-1])
+        out = np.stack([self._spline(inside, nu)[:, LIFT] for nu in range(3)], axis=1)
+        self.refine(h, (LIFT,), out[:, None])
+        out[h > self.h[-1]] = 0.0
         return out
+
+    def refine(self, h: Array, columns: Sequence[int], out: Array) -> None:
+        """Put columns with derivatives at h (N,), where it lies between rows: (N, K, 1 or 3)."""
+        after = np.clip(np.searchsorted(self.h, h), 1, len(self.h) - 1)
+        apart = np.minimum(np.abs(h - self.h[after]), np.abs(h - self.h[after - 1]))
+        inside = (h > self.h[0]) & (h < self.h[-1]) & (apart > ON_ROW)
+        rows = np.unique(after[inside] - 1)
+        new = np.array([row for row in rows.tolist() if row not in self._series], dtype=int)
+        for beside in np.split(new, np.flatnonzero(np.diff(new) > 1) + 1):
+            for begin in range(0, len(beside), AT_ONCE):
+                self._fill_series(beside[begin : begin + AT_ONCE].tolist())
+        for series in dict.fromkeys(self._series[row] for row in rows.tolist()):
+            if series is None:
+                continue
+            here = inside & (h > series.edges[0]) & (h < series.edges[-1])
+            out[here] = series.derivatives(h[here], tuple(columns))[:, :, : out.shape[2]]
+            out[here, :, 0] -= 1.0
+
+    def _fill_series(self, rows: list[int]) -> None:
+        """Lay every column with 1 added, from each of these rows to the next, side by side.
+
+        None where no ground is found.
+        """
+        series = None
+        with suppress(NoEquilibrium):
+            series = PiecewiseChebyshev(
+                self._columns_at,
+                self.h[rows[0] : rows[-1] + 2],
+                degree=DEGREE,
+                tolerance=LEFT_OUT_ROUGHLY if is_rough() else LEFT_OUT,
+                max_depth=DEEPEST,
+            )
+        if series is None and len(rows) > 1:
+            for row in rows:
+                self._fill_series([row])
+        else:
+            self._series |= dict.fromkeys(rows, series)
+
+    def _columns_at(self, h: Array) -> Array:
+        """Every column at separations h, solved there, with 1 added: what is small is rounding."""
+        start = self._spline(h)
+        w, state = start[:, LIFT : LIFT + 1].copy(), start[:, OF_SEATS:].copy()
+        u = np.zeros((len(h), MOMENTS + 1))
+        if len(self._iterate_states(h, u, w, state)):
+            raise NoEquilibrium("between two separations of the table")
+        columns = [seat.logarithms(h, u) for seat in self.seats]
+        return 1.0 + np.column_stack([u, w, *columns])
 
 
 def field_offset(seat: Seat, field: FieldSum) -> float:
@@ -333,7 +406,6 @@ class GroundedPart(Part):
             component.average, component.scale, component.density, offset=component.offset
         )
         self.ground, self.seat = ground, seat
-        self._cut: dict[tuple[int, ...], list[BSpline]] = {}
 
     def _h(self, d: Array) -> Array:
         return self.ground.field.h(d)
@@ -341,26 +413,16 @@ class GroundedPart(Part):
     @cached_property
     def _spline(self) -> tuple[BSpline, float]:
         """Splines of ln load and of the other columns over the load, with their ends."""
-        h = self.ground.h
-        values, _ = self.seat.sums(h, self.ground.u)
-        some = values[:, 0] > TINY
-        last = int(np.argmin(some)) if not some.all() else len(h)
+        from scipy.interpolate import BSpline, make_interp_spline
+
+        rows = self.seat.logarithms(self.ground.h, self.ground.u)
+        some = rows[:, 0] > math.log(TINY)
+        last = int(np.argmin(some)) if not some.all() else len(rows)
         if last < 6:
             knots = np.array([0.0] * 6 + [1.0] * 6)
-            from scipy.interpolate import BSpline
-
             return BSpline(knots, np.zeros((6, len(COLUMNS))), 5), -math.inf
-        values, h = values[:last], h[:last]
-        rows = np.column_stack([np.log(values[:, 0]), values[:, 1:] / values[:, :1]])
-        from scipy.interpolate import make_interp_spline
-
-        return make_interp_spline(h, rows, k=5), float(h[-1])
-
-    @property
-    def separations(self) -> Array:
-        """Separations over σ of the table at which something is carried, from the lowest up."""
-        _, last = self._spline
-        return self.ground.h[self.ground.h <= last]
+        h = self.ground.h[:last]
+        return make_interp_spline(h, rows[:last], k=5), float(h[-1])
 
     @property
     def marks(self) -> Array:
@@ -370,50 +432,53 @@ class GroundedPart(Part):
     def stretch(self) -> float:
         return math.inf
 
+    def _read(self, d: Array, columns: Sequence[int], derivatives: int) -> Array:
+        """ln load and other columns over it, with derivatives in h: (N, K, 1 or 3)."""
+        spline, last = self._spline
+        h, first = self._h(d), OF_SEATS + len(COLUMNS) * self.ground.seats.index(self.seat)
+        inside = np.clip(h, self.ground.h[0], max(last, self.ground.h[0]))
+        out = np.stack([spline(inside, nu)[:, list(columns)] for nu in range(derivatives)], axis=-1)
+        self.ground.refine(inside, [first + column for column in columns], out)
+        return out
+
+    def _outside(self, d: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Whether separations lie above what carries anything, and below the table."""
+        h = self._h(d)
+        return h > self._spline[1], h < self.ground.h[0]
+
     def _derivatives(self, d: Array, columns: tuple[int, ...]) -> Array:
         """Columns per factor with two derivatives in h: (N, len(columns), 3)."""
-        spline, last = self._spline
-        if columns not in self._cut:
-            from scipy.interpolate import BSpline
-
-            some = BSpline(spline.t, np.ascontiguousarray(spline.c[:, [0, *columns]]), 5)
-            self._cut[columns] = [some, some.derivative(1), some.derivative(2)]
-        h = self._h(d)
-        inside = np.clip(h, self.ground.h[0], max(last, self.ground.h[0]))
-        value, first, second = (series(inside) for series in self._cut[columns])
-        F = np.exp(value[:, 0])
-        F1 = F * first[:, 0]
-        F2 = F * (second[:, 0] + first[:, 0] ** 2)
-        out = np.empty((len(h), len(columns), 3))
+        every = self._read(d, [0, *(column for column in columns if column)], 3)
+        (log, first, second), rest = every[:, 0].T, every[:, 1:] / self.seat.pressure
+        F = np.exp(log)
+        F1 = F * first
+        F2 = F * (second + first**2)
+        out = np.empty((len(d), len(columns), 3))
+        place = 0
         for i, column in enumerate(columns):
             if column == 0:
                 out[:, i] = np.stack([F, F1, F2], axis=-1)
                 continue
-            r, r1, r2 = value[:, i + 1], first[:, i + 1], second[:, i + 1]
+            r, r1, r2 = rest[:, place].T
+            place += 1
             out[:, i, 0] = F * r
             out[:, i, 1] = F1 * r + F * r1
             out[:, i, 2] = F2 * r + 2 * F1 * r1 + F * r2
-        out[h > last] = 0.0
-        out[h < self.ground.h[0]] = np.nan
+        above, below = self._outside(d)
+        out[above], out[below] = 0.0, np.nan
         return out
 
     def load(self, d: Array, shadow: int) -> Array:
         sigma = self.ground.field.sigma
         return self.factor / sigma ** np.arange(3) * self._derivatives(d, (0, shadow))
 
-    def reduced_columns(self, d: Array) -> Array:
-        """Columns per factor inside the table, areas with what its splines overshoot: (N, 7)."""
-        spline, last = self._spline
-        value = spline(np.clip(self._h(d), self.ground.h[0], max(last, self.ground.h[0])))
-        value[:, 0] = np.exp(value[:, 0])
-        value[:, 1:] *= value[:, :1]
-        return value
-
     def columns(self, d: Array) -> Array:
-        _, last = self._spline
-        h, value = self._h(d), np.maximum(self.reduced_columns(d), 0.0)
-        value[h > last] = 0.0
-        value[h < self.ground.h[0]] = np.nan
+        value = self._read(d, range(len(COLUMNS)), 1)[:, :, 0]
+        value[:, 0] = np.exp(value[:, 0])
+        value[:, 1:] *= value[:, :1] / self.seat.pressure
+        value = np.maximum(value, 0.0)
+        above, below = self._outside(d)
+        value[above], value[below] = 0.0, np.nan
         return self.factor * value
 
     def direct_columns(self, d: Array) -> Array:
@@ -459,28 +524,25 @@ class LiftedSum(FieldSum):
         self._ends(ground.lowest)
         if ground.cut:
             self.ends = "below which particles press their ground down too far for the law field"
-        from scipy.interpolate import make_interp_spline
 
-        lift = make_interp_spline(ground.h, ground.w, k=5)
-        self._lift = [lift, lift.derivative(1), lift.derivative(2)]
-
-    def _lift_at(self, d: Array, derivative: int = 0) -> Array:
-        """w over σ, or a derivative with respect to h; nothing beyond the table."""
-        h, (low, high) = self.h(d), self.ground.h[[0, -1]]
-        out = self._lift[derivative](np.clip(h, low, high))
-        return np.where(h > high, 0.0, out)
+    def _lifts(self, d: Array) -> Array:
+        """w over σ with two derivatives with respect to h: (N, 3)."""
+        return self.ground.lifts(self.h(d))
 
     def _lift_separations(self, d: Array) -> Array:
-        return d + self.sigma * self._lift_at(d)
+        return d + self.sigma * self._lifts(d)[:, 0]
 
-    def lifted_separations(self, h: Array) -> Array:
-        """Separations over σ that asperities see at h (N,)."""
-        return h + self._lift_at(self.sigma * h - self.rough.y_s + self.centre)
+    @property
+    def rows(self) -> Array:
+        """Separations d [m] of the table, from its lowest up: loads there are known."""
+        h = self.ground.h
+        rows = np.append(self.ground.lowest + ROUNDING, h[h > self.ground.lowest])
+        return self.sigma * rows - self.rough.y_s + self.centre
 
     def load(self, d: Array) -> Array:
-        F = self.plain.load(self._lift_separations(d))
-        first = 1 + self._lift_at(d, 1)
-        second = self._lift_at(d, 2) / self.sigma
+        lift, slope, bend = self._lifts(d).T
+        F = self.plain.load(d + self.sigma * lift)
+        first, second = 1 + slope, bend / self.sigma
         bend = F[:, 2] * first**2 + F[:, 1] * second
         return np.stack([F[:, 0], F[:, 1] * first, bend], axis=-1)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -33,6 +33,8 @@ CHORDS, SET_IN, TURNS = 40, 1e-14, 30
 ground of the widest or narrowest gap."""
 HIGHEST_SEAT = 4.0
 """Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
+TINY = 1e-250
+"""Load over that of a particle without a gap below which nothing is carried."""
 DENSITY = 8.5
 """Widths of the seat beyond which nothing is counted."""
 NODES, GRID = 8, 0.25
@@ -115,6 +117,9 @@ class Seat:
         self.average = component.average
         self.unit = component.scale / sigma
         """Size of the standardised particles over σ."""
+        load, *areas = component.average.average.floor
+        self.pressure = load / max(areas)
+        """On the area that particles without a gap have [Pa]."""
 
     def _gap(self, h: Array, u: Array, zeta: Array) -> Array:
         """Gaps over σ at h (N,) on ground u (N, 13) of heights ζ (N, M)."""
@@ -156,16 +161,21 @@ class Seat:
         gap = self._gap(h[rows], u[rows], zeta[:, None])[:, 0]
         return Nodes(rows, zeta, gap, (2 * root * weight).ravel() * normal)
 
+    @cached_property
+    def _places(self) -> tuple[Array, Array]:
+        """Heights at which panels end at any ground, and between which ends are sought."""
+        low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
+        fixed = self.mean + self.width * _fixed_ends()
+        level = np.array([-HIGHEST_SEAT, HIGHEST_SEAT])
+        fixed = np.sort(np.append(fixed, level[(level > low) & (level < high)]))
+        return fixed, subdivide(fixed, width=GRID * self.width)
+
     def _turning_points(self, h: Array, u: Array) -> tuple[Array, Array, Array]:
         """Heights at which panels end (K,), and between which gaps only fall or rise: (N, M).
 
         Last those of widest and narrowest gaps (N, L), or the lowest in rows with fewer of them.
         """
-        low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
-        fixed = self.mean + self.width * _fixed_ends()
-        level = np.array([-HIGHEST_SEAT, HIGHEST_SEAT])
-        fixed = np.sort(np.append(fixed, level[(level > low) & (level < high)]))
-        grid = subdivide(fixed, width=GRID * self.width)
+        (fixed, grid), low = self._places, self.mean - DENSITY * self.width
         gaps = self._gap(h, u, np.broadcast_to(grid, (len(h), len(grid))))
         step = np.diff(gaps, axis=1)
         rows, left = np.nonzero(step[:, 1:] * step[:, :-1] < 0)
@@ -226,6 +236,12 @@ class Seat:
             moments[:, n] = now
             before, now = now, (x * now - math.sqrt(n) * before) / math.sqrt(n + 1)
         return nodes.sum_rows(values, len(h)), nodes.sum_rows(moments, len(h))
+
+    def logarithms(self, h: Array, u: Array) -> Array:
+        """ln of the load, not below `TINY`, and `pressure` over that on each area: (N, 7)."""
+        values, _ = self.sums(h, u)
+        load = np.maximum(values[:, :1], TINY)
+        return np.hstack([np.log(load), self.pressure * values[:, 1:] / load])
 
     def shares(self, h: Array, u: Array, gaps: Array) -> Array:
         """Number of particles in each of these gaps over σ, which increase: (N, M).

@@ -80,6 +80,11 @@ class Interface:
         """Whether the rough surface is one field of heights, not a sum over summits."""
         return isinstance(self.asperities, FieldSum)
 
+    @property
+    def rows(self) -> Array:
+        """Separations d [m] of a table of ground; none where there is no such table."""
+        return getattr(self.asperities, "rows", np.empty(0))
+
     def load(self, d: Array) -> Array:
         """F_t [Pa] with first and second derivative: (N, 3)."""
         two_body = self.asperities.load(d)

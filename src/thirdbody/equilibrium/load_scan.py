@@ -69,6 +69,8 @@ class LoadScan:
         d = np.unique(np.concatenate(grid))
         if contact_interface.one_field:
             d = d[d >= low]
+        if len(rows := contact_interface.rows):
+            d = np.append(rows, d[d > rows[-1]])
         F, slope, _ = contact_interface.load(d).T
         if np.any(F < 0):
             # adhesion: the load sets in at a separation where it changes its sign

@@ -1,7 +1,6 @@
-"""One field of heights, and particles on its ground, as series in the separation.
+"""One field of heights as series in the separation.
 
-What the tables of an interface say is laid out once more, piece by piece between their own knots:
-the numbers are theirs.
+What its table says is laid out once more, piece by piece between its own knots.
 """
 
 from __future__ import annotations
@@ -12,9 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...contact.field_ground import GroundedPart, LiftedSum
 from ...contact.field_sums import FieldSum
-from ...laws.base import KINDS
 from ...numerics.chebyshev import PiecewiseChebyshev
 
 if TYPE_CHECKING:
@@ -22,7 +19,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["asperity_numbers", "asperity_series", "beside_gaussian", "grounded_series"]
+__all__ = ["asperity_numbers", "asperity_series", "beside_gaussian"]
 
 TOLERANCE, DEPTH = 1e-13, 12
 GRID, HALVINGS, MOST_KINKS = 1_000, 60, 40
@@ -62,15 +59,8 @@ def asperity_series(skin: FieldSum) -> PiecewiseChebyshev:
     lowest, highest = asperity_numbers(skin)["lowest"], _highest(skin)
     surface = skin.surface
     knots = np.concatenate([[0.0], surface.h, np.arange(surface.h[-1], highest, FARTHEST)])
-    marks = [knots]
-    if isinstance(skin, LiftedSum):
-        # where asperities on lifted ground are at a knot of theirs, and the knots of the lift
-        h = np.linspace(lowest, highest, 40 * GRID)
-        lifted = skin.lifted_separations(h)
-        turns = np.flatnonzero(np.diff(np.searchsorted(np.sort(knots), lifted)))
-        marks = [0.5 * (h[turns] + h[turns + 1]), skin.ground.h]
-    marks.append(_kinks(columns, lowest, min(highest, float(surface.h[-1]) + 1)))
-    edges = np.unique(np.concatenate([*marks, [lowest, highest]]))
+    kinks = _kinks(columns, lowest, min(highest, float(surface.h[-1]) + 1))
+    edges = np.unique(np.concatenate([knots, kinks, [lowest, highest]]))
     edges = edges[(edges >= lowest) & (edges <= highest)]
     return PiecewiseChebyshev(
         columns, edges, tolerance=TOLERANCE, max_depth=DEPTH, kinds=(0, 1, 1, 1)
@@ -100,21 +90,3 @@ def _kinks(columns: Callable[[Array], Array], low: float, high: float) -> Array:
 def beside_gaussian(series: PiecewiseChebyshev) -> Array:
     """The load m_0 exp(−h²/2) as the kernel takes it: m_0, −m_0′, m_0″, (panels, terms, 3)."""
     return series.with_derivatives[:, :, 0, :] * np.array([1.0, -1.0, 1.0])
-
-
-@lru_cache(maxsize=64)
-def grounded_series(component: GroundedPart) -> PiecewiseChebyshev | None:
-    """The seven columns per factor over the gap in the size of the particles.
-
-    None where nothing is carried at any separation.
-    """
-    skin, h = component.ground.field, component.separations
-    if not len(h):
-        return None
-
-    def columns(gap: Array) -> Array:
-        return component.reduced_columns(component.scale * gap - component.offset)
-
-    d = skin.sigma * h - skin.rough.y_s + skin.centre
-    edges = (d + component.offset) / component.scale
-    return PiecewiseChebyshev(columns, edges, tolerance=TOLERANCE, max_depth=DEPTH, kinds=KINDS)

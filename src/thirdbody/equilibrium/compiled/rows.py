@@ -18,7 +18,7 @@ from ...contact.asperity_sums import (
     scales,
 )
 from ...contact.contact import Contact
-from ...contact.field_ground import GroundedPart
+from ...contact.field_ground import LiftedSum
 from ...contact.field_sums import FieldSum
 from ...contact.interface import Interface
 from ...contact.particle_averages import SeatAverage, SizeAverage, size_average
@@ -32,7 +32,7 @@ from ...populations.heights import GaussianHeights
 from ...populations.particles import Particles
 from ...populations.shape import Angular
 from . import layout
-from .field_series import asperity_numbers, asperity_series, beside_gaussian, grounded_series
+from .field_series import asperity_numbers, asperity_series, beside_gaussian
 from .inputs import MATERIALS, NOT_MONOTONE, SHAPES, bare, common_law, own_sizes, size_factor
 from .layout import INTERFACE, NONE, PART, RULE
 from .size_rules import (
@@ -105,6 +105,8 @@ class InterfaceRows(Rows):
         self._finish()
 
     def _add_asperities(self, row: np.void, asperities: object) -> None:
+        if isinstance(asperities, LiftedSum):
+            raise NotCompiled("the ground of particles is solved at separations that are asked")
         if isinstance(asperities, FieldSum):
             series = asperity_series(asperities)
             row["kind"] = layout.GAUSSIAN
@@ -132,14 +134,6 @@ class InterfaceRows(Rows):
             component["inverse"] = NONE
             component["size"], component["factor"] = source.scale, source.factor
             component["offset"] = source.offset
-            if isinstance(source, GroundedPart):
-                if (series := grounded_series(source)) is not None:
-                    component["kind"], component["upper"] = (
-                        layout.ROUGH,
-                        self._panels.add_average(series, shadow),
-                    )
-                    component["least"], component["reach"] = series.edges[[0, -1]]
-                continue
             average = plane = source.average
             if isinstance(average, SeatAverage):
                 plane = average.average

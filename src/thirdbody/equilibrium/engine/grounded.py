@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numba import njit
-from scipy.interpolate import make_interp_spline
 
 from ...contact.field_ground import FLAT, LEAP
-from ...contact.field_ground import TINY as TINIEST
 from ...laws.field.table import COLUMNS as OF_SURFACE
 from ..compiled.cached import Cached
 from ..compiled.machine import keep_apart
@@ -76,25 +74,21 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["EXACT", "ROUGH", "SPLINES", "solve_grounded"]
+__all__ = ["EXACT", "ROUGH", "solve_grounded"]
 
-BESIDE, NEAREST = 30, 22
-"""Rows beside a cell that decide what the spline is there: others change it by 1e-11 of what they
-are themselves. And so many at least, 1e-8, where asperities leave their table below."""
 MOST_ROWS = 16_384
 LONG, CLOSE, ABOVE = 128, 0.1, 48
 """Where the rows to be solved are more than so many, part of the load from which on, and rows above
 these."""
 LOOSE, CLEARLY = 1e-5, 0.999
 """Accuracy of u [σ] coming down, and part of a load below which a row carries less even so."""
-OF_ROOT, OF_ROWS, WORST, MANY, LEAST, SHARES, OF_CELLS, NEGLIGIBLE, OF_TABLES = range(9)
-"""Of the care with which a state is solved: accuracy of u [σ] of rows beside the root and of any
-that the spline needs, the largest error, rows beside a cell and the least of them, whether states
-of one contact side by side share their rows, what cells over the gap may leave out, the part of the
-load from where on rows are solved, and the error of NumPy's tables, iterated to 1e-12 of σ (some
-ten times that where particles press down each other's), or of far integrals that are not exact."""
-EXACT = np.array([1e-13, 1e-9, 1e-9, BESIDE, NEAREST, 0, SETTLED, 1e-8, 4e-11])
-ROUGH = np.array([1e-10, 1e-10, 1e-6, 18, 14, 1, 1e-7, 1e-4, 3e-7])
+OF_ROOT, BALANCE, WORST, SHARES, OF_CELLS, NEGLIGIBLE, OF_TABLES = range(7)
+"""Of the care with which a state is solved: accuracy of u [σ] and of the load, the largest error,
+whether states of one contact side by side share their rows, what cells over the gap may leave out,
+the part of the load from where on rows are solved, and the error of NumPy's tables or of far
+integrals that are not exact."""
+EXACT = np.array([1e-13, 4e-12, 1e-9, 0, SETTLED, 1e-8, 2e-10])
+ROUGH = np.array([1e-10, 1e-9, 1e-6, 1, 1e-7, 1e-4, 3e-7])
 """Care for a state, and for one of many samples."""
 AFTERWARDS = 30.0
 """By how much the step after a round makes it better, at least: another round sees whether."""
@@ -102,32 +96,12 @@ KEPT, ROUNDS, OLDER = 6, 40, 5
 """Pairs of steps that are remembered, rounds at most, and rows from which others are guessed."""
 SAME = 1e-4
 """Of a pair, what must be left beside the others."""
-BALANCED, STEPS = 4e-13, 60
-SAFE, FADES = 20.0, 0.43
-"""Change of a column, at most, by what the ground of a row misses; what is left of it a row on."""
-FEWER, UNKNOWN = 3, 0.1
-"""So many rows less on either side say how much the others leave out: no more than the difference,
-where each row fades to 0.43 (0.43³ is 0.08). What a row that is not found may hold besides."""
-DONE, GUESSED, NONE = 2, 1, 0
-"""Of a row: solved, guessed roughly, or neither."""
-
-
-def _fill_splines() -> Array:
-    """Of quintic splines through rows below and above a cell: coefficients in the cell."""
-    out = np.zeros((BESIDE + 1, BESIDE + 1, TERMS, 2 * BESIDE + 2))
-    for below in range(BESIDE + 1):
-        for above in range(BESIDE + 1):
-            count = below + above + 2
-            if count < TERMS:
-                continue
-            whole = make_interp_spline(np.arange(float(count)), np.eye(count), k=TERMS - 1)
-            for k in range(TERMS):
-                power = TERMS - 1 - k
-                out[below, above, k, :count] = whole(float(below), power) / math.factorial(power)
-    return out
-
-
-SPLINES = _fill_splines()
+NEARLY, STEPS, OUTSIDE = 1e-9, 12, 0.25
+"""Accuracy of u [σ] of the first separation that is tried for a load, so many at most, and how far
+it may lie outside the step of the table in which it was expected, over that step."""
+SAFE, BENT = 20.0, 1e4
+"""Change of a column, at most, by what the ground misses; change of ln F over its accuracy from
+which on it says a slope."""
 
 
 @scalar
@@ -183,22 +157,19 @@ def _follow(pairs, memory, state, miss, turned):
 
 
 @scalar
-def _solve_row(field, k, accuracy, whole, rows, work):
-    """Solve the ground of row k from what stands there; rounds, or −1 where there is none.
+def _solve_at(field, h, state, lift, accuracy, whole, work):
+    """Solve the ground at h [σ] from a state and a lift that are near; and columns if asked.
 
-    Its state and lift go into the rows and, if the whole is asked, its columns and what it misses.
+    The lift, what the state misses, and rounds, or −1 where there is none.
     """
     keep_apart()
-    own, kernels = field[0], field[3]
-    states, lifts, columns, misses, done = rows
-    small, nodes, places, pairs, memory, turned, other = work
+    kernels = field[3]
+    small, nodes, places, pairs, memory, turned, other, columns = work
     found, miss, old_state, old_miss = other[0], other[1], other[2], other[3]
-    h, state, close = own[LOWEST] + k * own[STEP], states[k], False
+    close = False
     for n in range(ROUNDS):
         full = whole and close
-        lifts[k], off = round_of(
-            field, h, state, lifts[k], small, nodes, places, found, columns[k], full
-        )
+        lift, off = round_of(field, h, state, lift, small, nodes, places, found, columns, full)
         size = 0.0
         for m in range(UNKNOWNS):
             miss[m] = found[m] - state[m]
@@ -206,58 +177,71 @@ def _solve_row(field, k, accuracy, whole, rows, work):
                 size = max(size, abs(WAVES * kernels[K_PP + m] * miss[m]))
         size = max(size, abs(miss[BETA]))
         if size != size:
-            return -1
+            break
         if n > 0:
             _remember(pairs, memory, state, miss, old_state, old_miss)
         if size <= accuracy and small[U, 1] >= FLAT:
-            return -1
+            break
         if full and size <= accuracy:
-            misses[k], done[k] = max(size, off), DONE
-            return n + 1
+            return lift, max(size, off), n + 1
         for m in range(UNKNOWNS):
             old_state[m], old_miss[m] = state[m], miss[m]
         _follow(pairs, memory, state, miss, turned)
         if not whole and size <= accuracy:
-            misses[k], done[k] = size, GUESSED
-            return n + 1
+            return lift, size, n + 1
         close = size <= AFTERWARDS * accuracy
-    return -1
+    return lift, math.inf, -1
 
 
 @scalar
-def _guess_row(k, way, rows, last):
-    """Put what the rows before, on one side, say of row k into it."""
-    keep_apart()
-    states, lifts, _, _, done = rows
-    known, near = 0, k + way
-    while known < OLDER:
-        m = k + way * (known + 1)
-        if not 0 <= m <= last or done[m] == NONE or not states[m, 0] > 0:
-            break
-        known += 1
-    if known == 0:
-        lifts[k] = 0.0
-        for n in range(UNKNOWNS):
-            states[k, n] = 0.0
-        if 0 <= near <= last and done[near] != NONE:
-            lifts[k] = lifts[near]
-            for n in range(UNKNOWNS):
-                states[k, n] = states[near, n]
-        return
-    lifts[k] = 0.0
-    for n in range(UNKNOWNS):
-        states[k, n] = 0.0
+def _share(x, j, count):
+    """Part of value j of so many, one step from each other, in the polynomial through all at x."""
     part = 1.0
-    for j in range(1, known + 1):
-        part *= -(known - j + 1) / j
-        m = k + way * j
-        lifts[k] -= part * lifts[m]
-        states[k, 0] -= part * math.log(states[m, 0])
+    for i in range(count):
+        if i != j:
+            part *= (x - i) / (j - i)
+    return part
+
+
+@scalar
+def _guess_at(x, first, rows, state):
+    """The lift, and into ``state`` the state, that rows from the first up say of x steps above."""
+    keep_apart()
+    states, lifts, _, done = rows
+    last, count, lift = len(done) - 1, 0, 0.0
+    while count < OLDER and first + count <= last:
+        if not done[first + count] or not states[first + count, 0] > 0:
+            break
+        count += 1
+    for n in range(UNKNOWNS):
+        state[n] = 0.0
+    if count == 0 and first <= last and done[first]:
+        for n in range(UNKNOWNS):
+            state[n] = states[first, n]
+        return lifts[first]
+    for j in range(count):
+        part, m = _share(x, j, count), first + j
+        lift += part * lifts[m]
+        state[0] += part * math.log(states[m, 0])
         for n in range(1, UNKNOWNS):
-            states[k, n] -= part * states[m, n] / states[m, 0]
-    states[k, 0] = math.exp(min(max(states[k, 0], -600.0), 100.0))
-    for n in range(1, UNKNOWNS):
-        states[k, n] *= states[k, 0]
+            state[n] += part * states[m, n] / states[m, 0]
+    if count > 0:
+        state[0] = math.exp(min(max(state[0], -600.0), 100.0))
+        for n in range(1, UNKNOWNS):
+            state[n] *= state[0]
+    return lift
+
+
+@scalar
+def _log_load_at(x, first, rows):
+    """ln of the load that rows from the first up say of x steps above."""
+    _, _, loads, done = rows
+    count, value = 0, 0.0
+    while count < OLDER and first + count < len(done) and done[first + count]:
+        count += 1
+    for j in range(count):
+        value += _share(x, j, count) * math.log(loads[first + j])
+    return value
 
 
 @scalar
@@ -270,29 +254,28 @@ def _load_of(own, skin, held, h, w, load, shadow, out):
 
 
 @scalar
-def _plain_load(field, held, k, rows, work, out):
+def _plain_load(field, held, k, work, out):
     """Load at row k on ground that does not give way: more than is carried there, or nearly."""
     keep_apart()
-    own, skin = field[0], field[4]
-    columns, found, spare = rows[2], work[6][0], len(rows[0])
+    own, skin, found = field[0], field[4], work[6][0]
     h, u = own[LOWEST] + k * own[STEP], work[0][U]
     for n in range(BETA):
         u[n] = 0.0
-    weigh_ground(field, h, u, work[1], work[2], found, columns[spare], False)
+    weigh_ground(field, h, u, work[1], work[2], found, work[7], False)
     if not add_field(skin, held, h, out):
         return math.inf
     return out[F_SS] + found[0] * own[UNIT]
 
 
 @scalar
-def _first_row(field, held, load, high, rows, work, out):
+def _first_row(field, held, load, high, work, out):
     """The row, up to ``high``, above which less than a load is carried; how many were asked."""
     keep_apart()
     low, count = 0, 0
     while high - low > 1:
         middle = (low + high) // 2
         count += 1
-        if _plain_load(field, held, middle, rows, work, out) > load:
+        if _plain_load(field, held, middle, work, out) > load:
             low = middle
         else:
             high = middle
@@ -300,12 +283,11 @@ def _first_row(field, held, load, high, rows, work, out):
 
 
 @scalar
-def _leaps(lifts, done, k, way, step):
-    """Whether the lift of row k may be that of another ground than those before it, on one side."""
-    far = k + 2 * way
-    if not 0 <= far < len(done) or done[k + way] == NONE or done[far] == NONE:
+def _leaps(lifts, done, k, step):
+    """Whether the lift of row k may be that of another ground than those above it."""
+    if k + 2 >= len(done) or not done[k + 1] or not done[k + 2]:
         return False
-    return not abs(lifts[k] - 2 * lifts[k + way] + lifts[far]) <= LEAP * step
+    return not abs(lifts[k] - 2 * lifts[k + 1] + lifts[k + 2]) <= LEAP * step
 
 
 @scalar
@@ -316,26 +298,24 @@ def _come_down(field, held, k, target, h, rows, work, out):
     carries clearly less.
     """
     keep_apart()
-    own, skin, states, lifts = field[0], field[4], rows[0], rows[1]
-    last, rounds, before, left = int(own[ROWS]) - 1, 0, 0.0, False
+    own, skin, states, lifts, loads, done = field[0], field[4], rows[0], rows[1], rows[2], rows[3]
+    rounds, before, left = 0, 0.0, False
     while k >= 0:
-        if rows[4][k] == NONE:
-            _guess_row(k, 1, rows, last)
-            n = _solve_row(field, k, LOOSE, False, rows, work)
-            if n < 0 or _leaps(lifts, rows[4], k, 1, own[STEP]):
-                rows[4][k] = NONE
-                return -1, rounds, UNSOLVED
-            rounds += n
         at = own[LOWEST] + k * own[STEP]
-        left = left or _leaves_table(own, lifts, k)
+        if not done[k]:
+            lift = _guess_at(-1.0, k + 1, rows, states[k])
+            lifts[k], _, n = _solve_at(field, at, states[k], lift, LOOSE, False, work)
+            if n < 0 or _leaps(lifts, done, k, own[STEP]):
+                return -1, rounds, UNSOLVED
+            done[k], rounds = True, rounds + n
+            beta, shade = states[k, 0] * own[UNIT], states[k, BETA]
+            loads[k] = _load_of(own, skin, held, at, lifts[k], beta, shade, out)
+        left = left or _leaves_table(own, at, lifts[k])
         if target > 0:
-            load = _load_of(
-                own, skin, held, at, lifts[k], states[k, 0] * own[UNIT], states[k, BETA], out
-            )
-            if not load >= before * (1 - 1e-9):
-                return -1, rounds, NOT_MONOTONE if load == load else UNSOLVED
-            before = load
-            if load >= target:
+            if not loads[k] >= before * (1 - 1e-9):
+                return -1, rounds, NOT_MONOTONE if loads[k] == loads[k] else UNSOLVED
+            before = loads[k]
+            if before >= target:
                 return k, rounds, OK
         elif at <= h:
             return k, rounds, OK
@@ -344,262 +324,141 @@ def _come_down(field, held, k, target, h, rows, work, out):
 
 
 @scalar
-def _finish_rows(field, care, k, low, high, rows, work):
-    """Solve every row of a window as well as it counts in cell k.
-
-    Rounds, or −1, and where the window begins: above a row whose ground is not found.
-    """
-    keep_apart()
-    done, rounds, last = rows[4], 0, int(field[0][ROWS]) - 1
-    step, first = field[0][STEP], high
-    while first > low and done[first] == NONE:
-        first -= 1
-    for way in range(2):  # up from the rows that are known, then down
-        i = first + 1 if way == 0 else first
-        while low <= i <= high:
-            if done[i] == NONE:
-                _guess_row(i, -1 if way == 0 else 1, rows, last)
-            if done[i] != DONE:
-                accuracy = min(care[OF_ROOT] * 2.0 ** max(k - i, i - k - 1), care[OF_ROWS])
-                n = _solve_row(field, i, accuracy, True, rows, work)
-                if n < 0 or _leaps(rows[1], done, i, -1 if way == 0 else 1, step):
-                    done[i] = NONE
-                    return (rounds, i + 1) if i < k else (-1, low)
-                rounds += n
-            i += 1 if way == 0 else -1
-    return rounds, low
+def _leaves_table(own, h, lift):
+    """Whether asperities on lifted ground at h [σ] are beyond their table."""
+    return lift < 0 and h + lift <= own[LOWEST] + 1e-9
 
 
 @scalar
-def _lay_cell(splines, k, low, high, lasts, rows, poly):
-    """Polynomials of the splines in cell k through rows from low to high: of seats, and the lift.
+def _begin(field, held, care, target, h, work, out):
+    """The row from which to come down, evaluations, and whether there is one.
 
-    Of each seat up to the row in ``lasts``. False where too few rows carry anything.
+    That at which particles on rigid ground carry little of the target, or of what is carried at h.
     """
     keep_apart()
-    lifts, columns, count = rows[1], rows[2], len(lasts)
-    if high - low + 1 < TERMS:
-        return False
-    for j in range(TERMS):
-        for s in range(count + 1):
-            for c in range(COLUMNS):
-                poly[s, j, c] = 0.0
-    for i in range(low, high + 1):
-        for j in range(TERMS):
-            poly[count, j, 0] += splines[k - low, high - k - 1, j, i - low] * lifts[i]
-    carried = False
-    for s in range(count):
-        last = min(lasts[s], high)
-        if last < k + 1:
-            poly[s, TERMS - 1, 0] = -math.inf
-            continue
-        if last - low + 1 < TERMS:
-            return False
-        carried = True
-        for i in range(low, last + 1):
-            load = columns[i, s, 0]
-            for j in range(TERMS):
-                part = splines[k - low, last - k - 1, j, i - low]
-                poly[s, j, 0] += part * math.log(load)
-                for c in range(1, COLUMNS):
-                    poly[s, j, c] += part * columns[i, s, c] / load
-    return carried
+    own, load, least = field[0], target, 0
+    count = int(own[ROWS])
+    if not target > 0:
+        least = math.floor((h - own[LOWEST]) / own[STEP]) + 1
+        if not 1 <= least <= count - 1:
+            return least, 0, False
+        load = min(_plain_load(field, held, least - 1, work, out), own[UNIT])
+    k, asked = _first_row(field, held, care[NEGLIGIBLE] * load, count - 1, work, out)
+    if k > LONG:
+        near, n = _first_row(field, held, CLOSE * load, k, work, out)
+        k, asked = min(k, near + ABOVE), asked + n
+    return max(k, least), asked, True
 
 
 @scalar
-def _read_cell(own, seats, skin, held, poly, k, t, row):
-    """Columns at part t of cell k; the load."""
+def _expect_root(k, target, rows):
+    """Steps above row k at which the target is expected, and the slope of ln F over one."""
+    keep_apart()
+    x, slope, goal = 0.0, 0.0, math.log(target)
+    for _ in range(3):
+        f = _log_load_at(x, k, rows) - goal
+        slope = (_log_load_at(x + 1e-4, k, rows) - goal - f) / 1e-4
+        if not slope < 0:
+            break
+        x = min(max(x - f / slope, 0.0), 1.0)
+    return x, slope
+
+
+@scalar
+def _add_columns(own, seats, skin, held, h, columns, row):
+    """Columns at h [σ] that asperities see, of them and of all seats; the load."""
     keep_apart()
     for c in range(COLUMNS):
         row[F_SA + c] = 0.0
-    lift = 0.0
-    for s in range(len(seats) + 1):
-        load = 0.0
-        for c in range(COLUMNS if s < len(seats) else 1):
-            value = 0.0
-            for j in range(TERMS):
-                value = value * t + poly[s, j, c]
-            if s == len(seats):
-                lift = value
-            elif c == 0:
-                load = seats[s, DENSE] * math.exp(value)
-                row[F_SA] += load
-            else:
-                row[F_SA + c] += max(load * value, 0.0)
+        for s in range(len(seats)):
+            row[F_SA + c] += seats[s, DENSE] * columns[s, c]
     row[SHADE] += own[FIXED]
-    if not add_field(skin, held, own[LOWEST] + (k + t) * own[STEP] + lift, row):
+    if not add_field(skin, held, h, row):
         return math.nan
     return (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA]
 
 
 @scalar
-def _root_in(own, seats, skin, held, poly, k, target, row):
-    """Part of cell k at which the target is carried, and the slope of ln F; −1 or 2 beside it."""
-    keep_apart()
-    low, high = 0.0, 1.0
-    f_low = math.log(_read_cell(own, seats, skin, held, poly, k, low, row) / target)
-    f_high = math.log(_read_cell(own, seats, skin, held, poly, k, high, row) / target)
-    if not f_low >= 0:
-        return -1.0, 0.0
-    if not f_high <= 0:
-        return 2.0, 0.0
-    t = f = side = 0.0
-    for _ in range(STEPS):
-        t = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else low
-        f = math.log(_read_cell(own, seats, skin, held, poly, k, t, row) / target)
-        if abs(f) <= BALANCED or high - low < 1e-15:
-            break
-        if f > 0:
-            low, f_low = t, f
-            f_high *= 0.5 if side == 1 else 1.0
-            side = 1.0
-        else:
-            high, f_high = t, f
-            f_low *= 0.5 if side == -1 else 1.0
-            side = -1.0
-    near = t - 1e-4 if t > 0.5 else t + 1e-4
-    beside = math.log(_read_cell(own, seats, skin, held, poly, k, near, row) / target)
-    _read_cell(own, seats, skin, held, poly, k, t, row)
-    return t, (beside - f) / (near - t)
+def _settle(field, held, care, k, target, h, rows, work, row):
+    """Find the separation from row k up at which the target is carried, or solve the one at h.
 
-
-@scalar
-def _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out):
-    """What rows beyond the window change at most, from what fewer rows do."""
-    keep_apart()
-    count = int(field[0][ROWS])
-    fewer = low + FEWER if low > 0 else low
-    most = high - FEWER if high < count - 1 else high
-    if fewer == low and most == high:
-        return 0.0
-    if not _lay_cell(splines, k, fewer, most, lasts, rows, poly):
-        return math.inf
-    _read_cell(field[0], field[1], field[4], held, poly, k, t, out)
-    load, area, worst = (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA], 0.0, 0.0
-    for c in range(1, F_SA):
-        area += row[c] + row[F_SA + c]
-    for c in range(10):
-        unit = 1.0 if c == SHADE else area
-        if c in (F_SS, F_SA):
-            unit = load
-        worst = max(worst, abs(out[c] - row[c]) / unit)
-    return worst
-
-
-@scalar
-def _leaves_table(own, lifts, i):
-    """Whether asperities on the lifted ground of row i are beyond their table."""
-    return lifts[i] < 0 and i * own[STEP] + lifts[i] <= 1e-9
-
-
-@scalar
-def _error_of(field, k, low, high, rows):
-    """What the rows of a window miss in cell k; infinite where asperities leave their table."""
-    keep_apart()
-    own, lifts, misses, error = field[0], rows[1], rows[3], 0.0
-    for i in range(low, high + 1):
-        if _leaves_table(own, lifts, i):
-            return math.inf
-        error += SAFE * misses[i] * FADES ** max(k - i, i - k - 1)
-    return error
-
-
-@scalar
-def _begin(field, held, care, target, h, rows, work, out):
-    """The row from which to come down, evaluations, and whether there is one.
-
-    All the way down from particles that carry little of the target or, of samples, of what is
-    carried at h; at h itself else from the highest row that decides what a spline is there.
+    Fate, separation [σ], rounds, the slope of ln F over a step of the table, and the error; the
+    columns into ``row``.
     """
     keep_apart()
-    own, load, least = field[0], target, 0
-    count = int(own[ROWS])
-    work[4][0] = 0.0
-    if not target > 0:
-        k = math.floor((h - own[LOWEST]) / own[STEP])
-        least = min(k + 1 + int(care[MANY]), count - 1)
-        if not 0 <= k < count - 1 or care[SHARES] != 1:
-            return least, 0, 0 <= k < count - 1
-        load = _plain_load(field, held, k, rows, work, out)
-        if not load < math.inf:
-            return least, 1, True
-    k, rounds = _first_row(field, held, care[NEGLIGIBLE] * load, count - 1, rows, work, out)
-    if k > LONG:
-        near, n = _first_row(field, held, CLOSE * load, k, rows, work, out)
-        k, rounds = min(k, near + ABOVE), rounds + n
-    return max(k, least), rounds, True
-
-
-@scalar
-def _settle_cell(field, held, splines, care, k, target, h, rows, work, poly, row, lasts):
-    """Find the part of a cell, from cell k on, at which the target is carried, or h is.
-
-    Fate, rounds, the cell, the part, the slope of ln F over the cell, and the window of rows; the
-    last rows in which particles of each seat carry anything into ``lasts``.
-    """
-    keep_apart()
-    own, seats, skin, columns = field[0], field[1], field[4], rows[2]
-    count, rounds, t, slope, low, high = int(own[ROWS]), 0, -1.0, 0.0, 0, 0
-    many, least = int(care[MANY]), int(care[LEAST])
-    for _ in range(3):
-        if not 0 <= k < count - 1:
-            break
-        low, high = max(k - many, 0), min(k + 1 + many, count - 1)
-        n, low = _finish_rows(field, care, k, low, high, rows, work)
-        if n < 0:
-            break
+    own, seats, skin, columns = field[0], field[1], field[4], work[7]
+    state, guess, again = work[6][4], work[6][5], work[6][6]
+    x, slope, rounds, begin = (h - own[LOWEST]) / own[STEP] - k, 0.0, 0, own[LOWEST]
+    if target > 0:
+        if k + 1 >= len(rows[3]) or not rows[3][k + 1]:
+            return UNSOLVED, h, 0, slope, math.inf
+        x, slope = _expect_root(k, target, rows)
+        if not slope < 0:
+            return NOT_MONOTONE, h, 0, slope, math.inf
+    expected = _guess_at(x, k, rows, guess)
+    lift = expected
+    for n in range(UNKNOWNS):
+        state[n] = guess[n]
+    last_f = last_x = 0.0
+    for tried in range(STEPS):
+        first, at = target > 0 and tried == 0, begin + (k + x) * own[STEP]
+        accuracy = max(NEARLY, care[OF_ROOT]) if first else care[OF_ROOT]
+        lift, miss, n = _solve_at(field, at, state, lift, accuracy, not first, work)
+        if n < 0 or abs(lift - expected) > LEAP * own[STEP] or _leaves_table(own, at, lift):
+            return UNSOLVED, at, rounds, slope, math.inf
         rounds += n
-        for i in range(low, k - least):
-            if _leaves_table(own, rows[1], i):
-                low = i + 1
-        for s in range(len(seats)):
-            lasts[s] = low - 1
-            while lasts[s] < high and columns[lasts[s] + 1, s, 0] > TINIEST * own[SIGMA] ** 2:
-                lasts[s] += 1
-        if not _lay_cell(splines, k, low, high, lasts, rows, poly):
-            break
-        if target > 0:
-            t, slope = _root_in(own, seats, skin, held, poly, k, target, row)
+        if first:
+            beta, shade = state[0] * own[UNIT], state[BETA]
+            load = _load_of(own, skin, held, at, lift, beta, shade, row)
         else:
-            t = (h - own[LOWEST]) / own[STEP] - k
-            if not _read_cell(own, seats, skin, held, poly, k, t, row) >= 0:
-                break
-        if 0 <= t <= 1:
-            fate = OK if target <= 0 or slope < 0 else NOT_MONOTONE
-            return fate, rounds, k, t, slope, low, high
-        k += -1 if t < 0 else 1
-    return UNSOLVED, rounds, k, t, slope, low, high
+            load = _add_columns(own, seats, skin, held, at + lift, columns, row)
+        if not load > 0:
+            return UNSOLVED, at, rounds, slope, math.inf
+        if not target > 0:
+            return OK, at, rounds, slope, SAFE * miss
+        f = math.log(load / target)
+        if not first and abs(f) <= care[BALANCE]:
+            return OK, at, rounds, slope, SAFE * miss + abs(f)
+        if tried > 0 and abs(f - last_f) > BENT * care[BALANCE]:
+            slope = (f - last_f) / (x - last_x)
+        if not slope < 0:
+            return NOT_MONOTONE, at, rounds, slope, math.inf
+        last_f, last_x = f, x
+        x -= f / slope
+        if not -OUTSIDE <= x <= 1 + OUTSIDE:
+            break
+        # what rows say of the step from one separation to the next
+        shifted = _guess_at(x, k, rows, again)
+        lift, expected = lift + shifted - expected, shifted
+        for n in range(UNKNOWNS):
+            state[n] += again[n] - guess[n]
+            guess[n] = again[n]
+    return UNSOLVED, h, rounds, slope, math.inf
 
 
 @scalar
-def _ground_state(field, held, splines, care, target, h, rows, work, poly, lasts, row, out):
+def _ground_state(field, held, care, target, h, rows, work, row):
     """Separation [σ], rounds, fate and error of one state; its columns into ``row``."""
     keep_apart()
     own = field[0]
     if own[ROWS] > len(rows[0]):
         return h, 0, TOO_LONG, math.inf
-    k, rounds, good = _begin(field, held, care, target, h, rows, work, out)
+    work[4][0] = 0.0
+    k, rounds, good = _begin(field, held, care, target, h, work, row)
     if not good:
         return h, rounds, UNSOLVED, math.inf
-    k, n, fate = _come_down(field, held, k, target, h, rows, work, out)
+    k, n, fate = _come_down(field, held, k, target, h, rows, work, row)
     rounds += n
     if fate != OK:
         return h, rounds, fate, 0.0 if fate == TOO_MUCH else math.inf
-    fate, n, k, t, slope, low, high = _settle_cell(
-        field, held, splines, care, k, target, h, rows, work, poly, row, lasts
-    )
+    fate, at, n, slope, error = _settle(field, held, care, k, target, h, rows, work, row)
     rounds += n
     if fate != OK:
         return h, rounds, fate, math.inf
-    if target > 0:
-        h = own[LOWEST] + (k + t) * own[STEP]
-    error = own[LEFT] + care[OF_TABLES] + _error_of(field, k, low, high, rows)
-    error += _left_out(field, held, splines, k, t, low, high, lasts, rows, poly, row, out)
-    if low > max(k - int(care[MANY]), 0):
-        error += UNKNOWN * FADES ** (k - low + 1)
+    error += own[LEFT] + care[OF_TABLES]
     if slope < 0:
-        error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(h)))
-    return h, rounds, OK if error <= care[WORST] else NOT_RESOLVED, error
+        error = max(error, error * own[STEP] / -slope / max(1.0, FAR * abs(at)))
+    return at if target > 0 else h, rounds, OK if error <= care[WORST] else NOT_RESOLVED, error
 
 
 @scalar
@@ -685,7 +544,7 @@ def _is_ground_alike(i, skins, tables, grounds, seats, which, basis):
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, alone, which,
-                   basis, splines, rules, care, target, h, count, fate, error, rows):  # fmt: skip
+                   basis, rules, care, target, h, count, fate, error, rows):  # fmt: skip
     """Solve states by their own numbers: skins (N, 1, ...), sections of sizes ``parts`` (N, S, ...)
     and their sides (N, 2S, ...), tables of surfaces (N, M, ...), grounds (N, ...) and seats (N, P,
     ...).
@@ -708,16 +567,15 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, alone, 
     cells, floor = np.zeros((most, MOST_CELLS, A_CELL)), np.zeros((most, COLUMNS))
     counts, darker = np.zeros(most, np.int64), np.zeros(most, np.bool_)
     surface, held = np.zeros((HEIGHTS_OF_TABLE, TERMS, OF_SURFACE)), np.zeros((2, 2 * OF_SURFACE))
-    kernels, out = np.empty(series.shape[2]), np.zeros(10)
-    poly, lasts = np.zeros((most + 1, TERMS, COLUMNS)), np.zeros(most, np.int64)
+    kernels = np.empty(series.shape[2])
     lines = (
-        np.zeros((length, UNKNOWNS)), np.zeros(length), np.zeros((length + 1, most, COLUMNS)),
-        np.zeros(length), np.zeros(length, np.int64),
+        np.zeros((length, UNKNOWNS)), np.zeros(length), np.zeros(length),
+        np.zeros(length, np.bool_),
     )  # fmt: skip
     work = (
         np.zeros((6, max(OF_SURFACE, TAUS))), np.zeros((OF_NODES, PLACES)),
         np.zeros((OF_PLACE, MOST_PLACES)), np.zeros((2, KEPT, UNKNOWNS)), np.zeros(1),
-        np.zeros((3, KEPT + 1, UNKNOWNS)), np.zeros((4, UNKNOWNS)),
+        np.zeros((3, KEPT + 1, UNKNOWNS)), np.zeros((7, UNKNOWNS)), np.zeros((most, COLUMNS)),
     )  # fmt: skip
     for i in range(len(target)):
         worst, laid, same = _lay_seats(
@@ -733,7 +591,7 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, alone, 
         if not (same and care[SHARES] == 1 and fate[i - 1] == OK and _is_ground_alike(
             i, skins, tables, grounds, seats, which, basis
         )):  # fmt: skip
-            lines[4][:] = NONE
+            lines[3][:] = False
             lay_surface(skins[i], tables[i], surface)
             for m in range(series.shape[2]):
                 kernels[m] = alone[-1 - which[i], m] if which[i] < 0 else 0.0
@@ -744,6 +602,6 @@ def solve_grounded(skins, parts, bodies, tables, grounds, seats, series, alone, 
         own[LEFT] += worst
         field = own, seats[i], darker, kernels, skins[i], surface, cells, counts, floor
         h[i], count[i], fate[i], error[i] = _ground_state(
-            field, held, splines, care, target[i], h[i], lines, work, poly, lasts, rows[i], out
+            field, held, care, target[i], h[i], lines, work, rows[i]
         )
         own[LEFT] = left_before

@@ -184,13 +184,13 @@ def solve_states(
 
         solve_own(*own, rules(breaks, samples), numbers.inside, numbers.coating, *found)
         return
-    from .grounded import EXACT, ROUGH, SPLINES, solve_grounded
+    from .grounded import EXACT, ROUGH, solve_grounded
 
     known = ground.displacements
     solve_grounded(
         *(own[0], ground.parts[here], own[2], ground.tables[here]),
         *(ground.numbers[here], ground.seats[here]),
         *(known.series, known.alone, known.which[here], known.basis[here]),
-        *(SPLINES, rules(), ROUGH if samples else EXACT),
+        *(rules(), ROUGH if samples else EXACT),
         *found,
     )
