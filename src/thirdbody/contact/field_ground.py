@@ -80,7 +80,7 @@ TERMS = 16
 """Of k_n over τ."""
 FEWEST, HALVINGS = 12, 10
 """Separations that a table must keep, and halvings of one of its steps to where it ends."""
-DEGREE, LEFT_OUT, LEFT_OUT_ROUGHLY, DEEPEST, ON_ROW, AT_ONCE = 9, 1e-10, 1e-7, 7, 1e-12, 32
+DEGREE, LEFT_OUT, LEFT_OUT_ROUGHLY, DEEPEST, ON_ROW, AT_ONCE = 9, 3e-11, 1e-7, 7, 1e-12, 32
 """Of series between two separations of the table: degree, what they leave out of u/σ, w, ln load
 and areas over it, that of one of many samples, halvings, how near a row [σ] is the row, and steps
 of the table that are looked into together."""

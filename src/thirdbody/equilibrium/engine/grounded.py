@@ -87,7 +87,7 @@ OF_ROOT, BALANCE, WORST, SHARES, OF_CELLS, NEGLIGIBLE, OF_TABLES = range(7)
 whether states of one contact side by side share their rows, what cells over the gap may leave out,
 the part of the load from where on rows are solved, and the error of NumPy's tables or of far
 integrals that are not exact."""
-EXACT = np.array([1e-13, 4e-12, 1e-9, 0, SETTLED, 1e-8, 2e-10])
+EXACT = np.array([1e-13, 4e-12, 1e-9, 0, SETTLED, 1e-8, 6e-11])
 ROUGH = np.array([1e-10, 1e-9, 1e-6, 1, 1e-7, 1e-4, 3e-7])
 """Care for a state, and for one of many samples."""
 AFTERWARDS = 30.0
