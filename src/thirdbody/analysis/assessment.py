@@ -23,7 +23,7 @@ from ..equilibrium.words import (
     not_met,
     two_bodies,
 )
-from ..quantities.notebook import Card, Row, Shown
+from ..quantities.notebook import Card, Row
 from ..quantities.record import VERSION, Entry, Record
 from ..quantities.say import join_words, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
@@ -93,7 +93,7 @@ SENTENCES: Entry = (
 
 # -------------------------------------------------------------------------- the page
 @dataclass(frozen=True, kw_only=True)
-class Assessment(Shown, Record):
+class Assessment(Record):
     """What an engineer wants to know of a contact under its operating load.
 
     Attributes

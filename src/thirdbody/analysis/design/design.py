@@ -26,7 +26,7 @@ from ...errors import Note, ThirdBodyError
 from ...numerics.sampling import Span
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
-from ...quantities.notebook import Card, Row, Shown
+from ...quantities.notebook import Card, Row
 from ...quantities.notebook import words_of as value_in_words
 from ...quantities.progress import reporting
 from ...quantities.record import Column, Record
@@ -68,7 +68,7 @@ class Values(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Best(Shown, Record):
+class Best(Record):
     """The answer of `design`.
 
     Attributes

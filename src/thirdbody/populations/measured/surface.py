@@ -623,6 +623,6 @@ class Topography(NamesArguments):
             "skewness": self.skewness,
             "kurtosis": self.kurtosis,
             "curve": {name: column.tolist() for name, column in curve.columns.items()},
-            "units": {name: unit for name, (unit, _) in COLUMNS.items()},
+            "units": {name: column.unit for name, column in COLUMNS.items()},
             "warnings": list(self.warnings),
         }
