@@ -88,6 +88,21 @@ class Variable(NamedTuple):
     values: ArrayLike
     labels: Mapping[str, object] = MappingProxyType({})
 
+    @property
+    def array(self) -> NDArray[np.generic]:
+        """The values as an array."""
+        return np.asarray(self.values)
+
+    @property
+    def unit(self) -> str:
+        """SI, "" where nothing is said."""
+        return str(self.labels.get("units", ""))
+
+    @property
+    def meaning(self) -> str:
+        """In words."""
+        return str(self.labels.get("long_name", ""))
+
 
 def column(
     symbol: str, unit: str, meaning: str, *, default: object = MISSING, repr: bool = True
@@ -313,18 +328,15 @@ class TableRecord(Record):
         dims = [dim for variable in every.values() for dim in variable.dims]
         dim = self.along if self.along in dims else dims[0]
         shown = {name: one for name, one in every.items() if one.dims in ((), (dim,))}
-        cells = {
-            name: _cells(np.atleast_1d(values), str(labels.get("units", "")))
-            for name, (_, values, labels) in shown.items()
-        }
+        cells = {name: _cells(np.atleast_1d(one.array), one.unit) for name, one in shown.items()}
         width = max(map(len, cells.values()))
         rows = [
             Row(
-                str(labels.get("symbol") or name),
+                str(one.labels.get("symbol") or name),
                 cells[name] + [""] * (width - len(cells[name])),
-                str(labels.get("long_name", "")),
+                one.meaning,
             )
-            for name, (_, _, labels) in shown.items()
+            for name, one in shown.items()
         ]
         count = next(np.size(one.values) for one in shown.values() if one.dims)
         places = f"{count} values of {dim}"

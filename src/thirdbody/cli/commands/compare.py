@@ -113,7 +113,7 @@ def command(options: Options) -> None:
     if options.out is not None:
         from ...views.comparison import save
 
-        written = save(comparison.dataset(), options.out, at=index, force=options.force)
+        written = save(comparison.to_dataset(), options.out, at=index, force=options.force)
     files.write(
         *comparison.flat(),
         sheets=partial(_sheets, study, comparison, index),
