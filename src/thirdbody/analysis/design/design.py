@@ -328,16 +328,17 @@ def _answer(task: Task) -> Best:
         for name in task.variables
     }
     columns |= {
-        name: _of_points([point.materials[name].name for point in rows]) for name in task.materials
+        name: _of_points([point.materials[name].name for point in rows], long_name="material")
+        for name in task.materials
     }
     columns |= {
         objective.label: _of_points(objective.sign * costs[:, i], **_about_objective(objective))
         for i, objective in enumerate(task.objectives)
     }
     columns |= {
-        "feasible": _of_points(ok),
-        "front": _of_points(on_front),
-        "reason": _of_points([point.reason for point in rows]),
+        "feasible": _of_points(ok, long_name="whether every limit holds"),
+        "front": _of_points(on_front, long_name="whether no other beats it in every objective"),
+        "reason": _of_points([point.reason for point in rows], long_name="why it is not feasible"),
     }
     ends = {name: variable.place(best.numbers[name]) for name, variable in task.variables.items()}
     at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
