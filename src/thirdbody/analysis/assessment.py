@@ -161,7 +161,7 @@ class Assessment(PageRecord):
 
     def variables(self) -> dict[str, Variable]:
         """What each input does: alone to the spread, by its slope, and at both of its ends."""
-        part = Column("", "1", f"part of the spread of {self.decisive} that it makes alone")
+        share = Column("", "1", f"part of the spread of {self.decisive} that it makes alone")
         slope = Column("", "1", f"relative change of {self.decisive} over that of the input")
         slopes = [self.elasticity.get(label, math.nan) for label in self.matter]
         dims = self.along, *self.in_columns
@@ -174,7 +174,7 @@ class Assessment(PageRecord):
             for of, by_input in self.tornado.items()
         }
         return {
-            "matter": Variable(dims[:1], list(self.matter.values()), part.labels),
+            "matter": Variable(dims[:1], list(self.matter.values()), share.labels),
             "elasticity": Variable(dims[:1], slopes, slope.labels),
             **ends,
         }
