@@ -368,6 +368,25 @@ def test_command_prints_one_table(tmp_path):
     assert f"{table.A_t_difference.values[1, 0]:+.1f} %" in line
 
 
+def test_command_keeps_the_area_after_persson_apart_from_the_laws():
+    """The range is that of laws of asperities; Persson's area stands against the elastic law."""
+    answer = run(CLEAN).stdout.split("─")[0]
+    areas = tb.compare(load_study(CLEAN).contact, pressure=3e6).A_t.squeeze()
+    of_laws = areas.drop_sel(law="persson")
+    ends = [of_laws.law.values[place].item() for place in (of_laws.argmin(), of_laws.argmax())]
+    shown = [*ends, "persson", "gw"]
+    assert re.findall(r"([\d.]+) %\s\(([a-z]+)\)", answer) == [
+        (number(100 * areas.sel(law=law).item(), 3), law) for law in shown
+    ]
+    assert "persson" not in run(CLEAN, "--laws", "gw").stdout
+
+
+def test_command_shows_a_load_that_no_law_carries():
+    result = run(CLEAN, "--laws", "gw", "--at", "end", "--set", "load.F_star=[1e-5, 10.0]")
+    assert result.exit_code == 0
+    assert rows_of(result.stdout)[1:] == ["zmc", "gw"]
+
+
 @pytest.mark.parametrize(("place", "load"), [("start", "0.0005"), ("end", "0.24")])
 def test_command_shows_the_load_asked_for(place, load):
     result = run(DUSTY, "--laws", "gw", "--at", place, "--set", "load.F_star=[2.4e-4, 5e-7, 1e-5]")

@@ -1,17 +1,39 @@
 """Results as records: their columns say what they are, and every form holds the same numbers."""
 
+import importlib
+import inspect
 import json
-from dataclasses import dataclass, fields
+import pkgutil
+from dataclasses import dataclass, fields, is_dataclass
+from html import escape
+from importlib import resources
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 import thirdbody as tb
+import thirdbody.study
+from thirdbody.analysis.compare import comparison_of
 from thirdbody.explicit.ensemble import surface_of
-from thirdbody.quantities.record import VERSION, Record, StateRecord, declared_columns, with_names
+from thirdbody.papers import ghaednia2013
+from thirdbody.quantities.record import (
+    VERSION,
+    Record,
+    StateRecord,
+    TableRecord,
+    declared_columns,
+    with_names,
+)
+from thirdbody.quantities.value import Value
 from thirdbody.results import Status
 from thirdbody.study import check, run_film, run_study
+from thirdbody.study.analyses import assess_study
+from thirdbody.study.life_assessment import assess_life
+from thirdbody.study.run_connector import load_connector, run_connector
+from thirdbody.study.run_life import ReportsResult, load_life, run_life
+from thirdbody.study.run_life_design import design_life
+from thirdbody.study.run_plate import load_plate, run_plate
 
 STEEL = tb.materials["S45C"]
 CONTACT = tb.Contact(
@@ -330,6 +352,156 @@ RESULTS = {
 }
 
 
+TOPOGRAPHY = tb.surfaces.from_topography("example")
+SIZES = tb.sizes.MeasuredSizes(
+    sizes=tb.distributions.Histogram(edges=(1e-6, 2e-6, 4e-6, 8e-6), counts=(3, 14, 9)),
+    weighting="number",
+)
+IN_FILM = tb.systems.oil_particles.FilmParticles.from_iso4406(
+    "18/16/13", surfaces=CONTACT.surfaces, material=STEEL, film=0.5e-6, entry=1.0
+)
+VAGUE = ["life.uncertainty.ingress={ median = 1, gsd = 2 }"]
+
+
+def template(kind):
+    """A study that `thirdbody new` writes."""
+    return resources.files("thirdbody").joinpath(f"data/studies/{kind}.toml")
+
+
+RESULTS |= {
+    "Curve": (TOPOGRAPHY.curve, "cutoff"),
+    "Summits": (lambda: TOPOGRAPHY.summits, "summit"),
+    "LocalInteraction": (
+        lambda: tb.systems.interaction.local_interaction(CONTACT, d=[2e-7, 3e-7]),
+        "state",
+    ),
+    "MeanInteraction": (
+        lambda: tb.systems.interaction.mean_interaction(
+            CONTACT, nominal_area=1e-6, pressure=[1e6, 5e6]
+        ),
+        "state",
+    ),
+    "MultiscaleState": (lambda: ghaednia2013.model("fractal").solve([1e6, 2e6]), "state"),
+    "Comparison": (
+        lambda: comparison_of(CONTACT, F_star=[1e-5, 1e-4], laws=["ceb", "persson"]),
+        "law",
+    ),
+    "Best": (
+        lambda: tb.design(
+            DUSTY,
+            vary={"particles.areal_density": (1e9, 1e10), "particles.material": [STEEL]},
+            objective=tb.objectives.Objective(of="A_t", aim="smallest"),
+            pressure=LOADS,
+            points=4,
+        ),
+        "point",
+    ),
+    "Assessment": (
+        lambda: tb.assess(DUSTY, vary={"roughness.sigma": (9e-8, 1.1e-7)}, pressure=5e6),
+        "input",
+    ),
+    "Assessments": (
+        lambda: assess_study(check(STUDY | {"load": {"F_star": [1e-5, 1e-4]}})),
+        "load",
+    ),
+    "ConnectorResult": (lambda: run_connector(load_connector(template("connector"))), "force"),
+    "PlateResult": (lambda: run_plate(load_plate(template("wafer-chuck"))), "grain"),
+    "LifeResult": (lambda: run_life(load_life(template("oil-circuit"))), "time"),
+    "DryResult": (lambda: run_life(load_life(template("dry-contact"))), "time"),
+    "LifeDesign": (
+        lambda: design_life(load_life(template("oil-circuit"), ['life.design.code="16/14/11"'])),
+        "name",
+    ),
+    "LifeAssessment": (lambda: assess_life(load_life(template("oil-circuit"), VAGUE)), "input"),
+    "ReportsResult": (
+        lambda: ReportsResult(
+            asked=load_life(template("oil-circuit")), reports=RESULTS["OilReports"][0]()
+        ),
+        "size",
+    ),
+}
+HEADINGS = {
+    "Assessment": "Mode at the operating load",
+    "Assessments": "Mode at each load",
+    "Best": "Best values",
+}
+"""What notebooks show above results that are pages."""
+OF_TESTS = {
+    # above
+    *("Equilibrium", "ExplicitState", "MixedFilm", "PopulationShare"),
+    *("ContactTable", "Propagation", "Sensitivity", "Transitions"),
+    # in test_coupled.py and test_contact_histories.py
+    *("Coupled", "CoupledState", "ContactHistory", "DryHistory"),
+    # abstract: others are made from them
+    *("AskedResult", "QuestionResult"),
+}
+"""Tables whose forms have a test of their own."""
+NUMBERS = {
+    "Critical": lambda: tb.transitions(DUSTY).F_cr1,
+    "TurningPoint": lambda: tb.transitions(DUSTY).F_tpca,
+    "TableError": lambda: tb.table(CONTACT, tolerance=1e-2).error,
+    "Fit": lambda: SIZES.fits()[0],
+    "FilmDents": IN_FILM.dents,
+    "SeverityIndex": IN_FILM.severity_index,
+}
+"""Results of numbers alone, which are no table."""
+TUPLES = {
+    *("BearingSize", "Branch", "Bump", "Column", "Concentration", "Convergence", "FractalLoad"),
+    *("Hertz", "HertzPoint", "Jump", "Squeezed", "SummitSum"),
+}
+"""A few numbers that are unpacked, and read by name; none that is a table joins them."""
+ROOMS = ("analysis", "equilibrium", "explicit", "populations", "study", "systems")
+
+
+def kinds_under(base):
+    """Every class of results under one, by its name."""
+    for kind in base.__subclasses__():
+        if is_dataclass(kind) and kind.__module__.startswith("thirdbody."):
+            yield kind
+        yield from kinds_under(kind)
+
+
+def public_classes():
+    """Every class that a module of the library, or one of its systems, lists for users."""
+    modules = [tb, *(getattr(tb, name) for name in tb.__all__), tb.oil, thirdbody.study]
+    modules += [getattr(tb.systems, name) for name in tb.systems.__all__]
+    for module in filter(inspect.ismodule, modules):
+        for name in getattr(module, "__all__", ()):
+            if inspect.isclass(value := getattr(module, name)):
+                yield value
+
+
+def test_every_result_has_the_forms_of_its_kind():
+    """A result that is a table has all four, and stands in a test that reads them."""
+    for room in ROOMS:
+        package = importlib.import_module(f"thirdbody.{room}")
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            importlib.import_module(module.name)
+    tables = {kind.__name__ for kind in kinds_under(TableRecord) if kind.__name__[0] != "_"}
+    assert tables == {*RESULTS, *OF_TESTS}
+    public = {kind for kind in public_classes() if is_dataclass(kind) or hasattr(kind, "_fields")}
+    tuples = {kind.__name__ for kind in public if hasattr(kind, "_fields")}
+    assert tuples == TUPLES
+    records = {kind.__name__ for kind in public if issubclass(kind, Record)}
+    # what is given, and maps, whose heights stay out of plain data
+    assert records - tables - {*NUMBERS} == {"Uncertain", "Topography"}
+    rest = {kind.__name__ for kind in public if not issubclass(kind, Record | Value)}
+    assert rest - tuples == {"Solved", "Study"}  # which are no plain results
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize("name", NUMBERS)
+def test_results_of_numbers_alone_have_two_forms(name):
+    found = NUMBERS[name]()
+    assert type(found).__name__ == name
+    plain, page = found.to_dict(), found._repr_html_()
+    assert json.loads(json.dumps(plain, allow_nan=False)) == plain
+    assert list(plain) == [item.name for item in fields(found)]
+    assert name in page
+    for about in declared_columns(type(found)).values():
+        assert escape(about.meaning) in page
+
+
 @pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 @pytest.mark.parametrize("name", RESULTS)
 def test_other_results_in_every_form(name):
@@ -337,7 +509,7 @@ def test_other_results_in_every_form(name):
     found = make()
     assert type(found).__name__ == name
     data, table = found.to_dataset(title="a title"), found.to_dataframe()
-    assert data.title == "a title"
+    assert data.attrs["title"] == "a title"
     assert found.to_dict()
     assert table.index.names[0] == along
     for column, values in data.data_vars.items():
@@ -348,7 +520,7 @@ def test_other_results_in_every_form(name):
         if column in declared_columns(type(found)):
             value = getattr(found, column)
             np.testing.assert_array_equal(values, np.nan if value is None else value)
-    assert f"{name}, " in found._repr_html_()
+    assert HEADINGS.get(name, f"{name}, ") in found._repr_html_()
 
 
 def test_a_history_has_a_column_for_each_class_and_material():

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from abc import abstractmethod
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -23,8 +24,8 @@ from ..equilibrium.words import (
     not_met,
     two_bodies,
 )
-from ..quantities.notebook import Card, Row, Shown
-from ..quantities.record import VERSION, Entry, Record
+from ..quantities.notebook import Card, Row
+from ..quantities.record import VERSION, Column, Entry, Record, TableRecord, Variable
 from ..quantities.say import join_words, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
 from .inputs import declared_quantity, words_of
@@ -91,10 +92,27 @@ SENTENCES: Entry = (
 )
 
 
+class PageRecord(TableRecord):
+    """A result that is a page of sections, in a notebook too."""
+
+    @abstractmethod
+    def sections(self) -> list[Section]:
+        """The page from top to bottom."""
+
+    def _cards(self) -> Iterator[Card]:
+        """The page for notebooks: a table for each part."""
+        for title, head, lines, sentences, _ in self.sections():
+            rows = [Row(cells[0], cells[1:]) for cells in (head, *lines) if cells]
+            yield Card(title, rows, sentences)
+
+
 # -------------------------------------------------------------------------- the page
 @dataclass(frozen=True, kw_only=True)
-class Assessment(Shown, Record):
+class Assessment(PageRecord):
     """What an engineer wants to know of a contact under its operating load.
+
+    As labelled data and as a table it is what each input does, a row for each: ``matter``,
+    ``elasticity``, and the outputs of ``tornado``. Its bands are those of ``propagation``.
 
     Attributes
     ----------
@@ -127,6 +145,8 @@ class Assessment(Shown, Record):
         *("matter", "tornado", "elasticity", "changes", "stops", "exact", SENTENCES, "notes"),
         ("citations", lambda page: cite(page.propagation.contact).splitlines()),
     )
+    along = "input"
+    in_columns = ("end",)
     title: str
     propagation: Propagation
     mode: str
@@ -139,11 +159,38 @@ class Assessment(Shown, Record):
     notes: tuple[str, ...]
     stops: tuple[Stop, ...] = ()
 
-    def _cards(self) -> Iterator[Card]:
-        """The page for notebooks: a table for each part."""
-        for title, head, lines, sentences, _ in self.sections():
-            rows = [Row(cells[0], cells[1:]) for cells in (head, *lines) if cells]
-            yield Card(title, rows, sentences)
+    def variables(self) -> dict[str, Variable]:
+        """What each input does: alone to the spread, by its slope, and at both of its ends."""
+        share = Column("", "1", f"part of the spread of {self.decisive} that it makes alone")
+        slope = Column("", "1", f"relative change of {self.decisive} over that of the input")
+        slopes = [self.elasticity.get(label, math.nan) for label in self.matter]
+        dims = self.along, *self.in_columns
+        ends = {
+            of: Variable(
+                dims,
+                np.array([by_input[label] for label in self.matter]).reshape(-1, 2),
+                about_result(of).labels,
+            )
+            for of, by_input in self.tornado.items()
+        }
+        return {
+            "matter": Variable(dims[:1], list(self.matter.values()), share.labels),
+            "elasticity": Variable(dims[:1], slopes, slope.labels),
+            **ends,
+        }
+
+    def coordinates(self) -> dict[str, Variable]:
+        """Names of the inputs, what they are, and the probabilities of their ends."""
+        dims = (self.along,)
+        return {
+            self.along: Variable(dims, list(self.matter)),
+            "meaning": Variable(dims, [self._words(label) for label in self.matter]),
+            "end": Variable(("end",), [BAND[0], BAND[-1]]),
+        }
+
+    def attributes(self) -> Mapping[str, object]:
+        """Those of the bands, and the output by which inputs are ranked."""
+        return {**self.propagation.attributes(), "decisive": self.decisive, "mode": self.mode}
 
     # ------------------------------------------------------------------ words and tables
     def headline(self) -> str:

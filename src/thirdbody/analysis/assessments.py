@@ -9,7 +9,7 @@ from typing import Any
 
 from ..contact.citations import cite
 from ..equilibrium.words import load_of, mode_path
-from ..quantities.record import VERSION, Record
+from ..quantities.record import VERSION, Column, Variable
 from ..quantities.say import number, percent, plural, value_of
 from ..quantities.tables import WIDER
 from .assessment import (
@@ -17,19 +17,26 @@ from .assessment import (
     RARE,
     SENTENCES,
     Assessment,
+    PageRecord,
     Section,
     _nominal,
     terminal_page,
     unit_of,
 )
 from .inputs import words_of
+from .uncertainty.propagation import about_result
 
 __all__ = ["Assessments"]
 
+NUMBERS = ("pressure", "F_star", "A_t", "particle_load_share", "F/F_cr1", "F/F_cr2")
+"""Columns of a result of several loads, beside those of the mode."""
+
 
 @dataclass(frozen=True, kw_only=True)
-class Assessments(Record):
+class Assessments(PageRecord):
     """What an engineer wants to know of a contact under each of several loads.
+
+    As labelled data and as a table it has a row for each load.
 
     Attributes
     ----------
@@ -50,6 +57,7 @@ class Assessments(Record):
         *("title", VERSION, "asked", ("loads", "_each_load"), "unsolved", SENTENCES, "notes"),
         ("citations", lambda result: cite(result.pages[0].propagation.contact).splitlines()),
     )
+    along = "load"
     title: str
     pages: tuple[Assessment, ...]
     asked: int
@@ -63,6 +71,25 @@ class Assessments(Record):
         for page, d in zip(pages, self.separations, strict=False):
             page["separation"] = d
         return pages
+
+    def variables(self) -> dict[str, Variable]:
+        """Load, mode, and how sure it is; shares, and how far the load is from critical ones."""
+        columns: dict[str, tuple[Column, list[float] | list[str]]] = {
+            name: (about_result(name), self._nominal(name)) for name in NUMBERS
+        }
+        sure = [page.propagation.mode_probability.get(page.mode, math.nan) for page in self.pages]
+        columns["mode"] = about_result("mode"), [page.mode for page in self.pages]
+        columns["mode_probability"] = Column("", "1", "probability of this mode"), sure
+        if self.separations:
+            columns["separation"] = about_result("d"), list(self.separations)
+        return {
+            name: Variable((self.along,), values, about.labels)
+            for name, (about, values) in columns.items()
+        }
+
+    def _nominal(self, name: str) -> list[float]:
+        """A number of each page with the contact's own inputs; NaN where there is none."""
+        return [page.propagation.nominal.get(name, math.nan) for page in self.pages]
 
     # ------------------------------------------------------------------ words and tables
     @cached_property

@@ -35,7 +35,7 @@ from ..quantities.arguments import is_empty
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
 from ..quantities.nearest import guess
-from ..quantities.record import VERSION, Column, Record
+from ..quantities.record import VERSION, Column, TableRecord, Variable
 from ..quantities.say import percent
 
 if TYPE_CHECKING:
@@ -150,11 +150,11 @@ def compare(
     >>> table.A_t_difference.sel(law="ceb").values.round(0).tolist()
     [29.0, 35.0]
     """
-    return comparison_of(contact, pressure=pressure, F_star=F_star, laws=laws).dataset()
+    return comparison_of(contact, pressure=pressure, F_star=F_star, laws=laws).to_dataset()
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
-class Comparison(Record):
+class Comparison(TableRecord):
     """What `compare` finds, in plain columns: loading xarray takes longer than comparing."""
 
     in_dict = (
@@ -165,6 +165,7 @@ class Comparison(Record):
         ("notes", lambda one: [note_data(warning) for warning in one.warnings]),
         ("citations", lambda one: one.attrs["citations"].splitlines()),
     )
+    along = "law"
     load: str
     """Which load is given, ``F_star`` [1] or ``pressure`` [Pa]."""
     loads: dict[str, Array]
@@ -190,24 +191,24 @@ class Comparison(Record):
         units = {name: _about(name)["units"] for name in columns}
         return flat(list(self.laws), columns, self.notes), {"law": "", **units, "note": ""}
 
-    def dataset(self) -> xarray.Dataset:
-        """The same, labelled."""
-        import xarray as xr
+    def variables(self) -> dict[str, Variable]:
+        """What each law says under each load."""
+        dims = (self.along, self.load)
+        return {name: Variable(dims, column, _about(name)) for name, column in self.columns.items()}
 
-        load = self.load
-        coords: dict[str, object] = {
-            "law": ("law", list(self.laws), {"long_name": "asperity law"}),
-            load: (load, self.loads[load], _about(load)),
-            "title": ("law", list(self.laws.values())),
-            "options": ("law", self.options),
-            "note": ("law", self.notes),
+    def coordinates(self) -> dict[str, Variable]:
+        """The laws, and what is said of each; both loads."""
+        of_laws = {"title": list(self.laws.values()), "options": self.options, "note": self.notes}
+        names = Variable((self.along,), list(self.laws), {"long_name": "asperity law"})
+        return {
+            self.along: names,
+            **{name: Variable((self.load,), x, _about(name)) for name, x in self.loads.items()},
+            **{name: Variable((self.along,), words) for name, words in of_laws.items()},
         }
-        coords |= {name: (load, values, _about(name)) for name, values in self.loads.items()}
-        return xr.Dataset(
-            {name: (("law", load), column, _about(name)) for name, column in self.columns.items()},
-            coords=coords,
-            attrs=self.attrs,
-        )
+
+    def attributes(self) -> dict[str, Any]:
+        """Own law, hardness, inputs, version, citations, warnings."""
+        return self.attrs
 
 
 def comparison_of(

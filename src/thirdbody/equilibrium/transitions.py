@@ -15,7 +15,7 @@ from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from ..quantities.notebook import Card, Row, words_of
-from ..quantities.record import Column, Record, TableRecord, Variable
+from ..quantities.record import Record, TableRecord, Variable, column, declared_columns
 from ..version import __version__
 from .columns import COLUMNS
 from .load_scan import load_scan
@@ -46,8 +46,8 @@ class Critical(Record):
     {'value': 7.15e-06, 'status': 'found'}
     """
 
-    value: float | None
-    status: str
+    value: float | None = column("F*", "1", "load where something changes")
+    status: str = column("", "", "found, or why there is no load")
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,10 +114,10 @@ class Transitions(TableRecord):
         """Load and status of each; NaN where there is no load."""
         loads = self.entries().values()
         values = [np.nan if load.value is None else load.value for load in loads]
-        status = Column("", "", "found, or why there is no load")
+        about = declared_columns(Critical)["status"].labels
         return {
             "F_star": Variable(("transition",), values, COLUMNS["F_star"].labels),
-            "status": Variable(("transition",), [load.status for load in loads], status.labels),
+            "status": Variable(("transition",), [load.status for load in loads], about),
         }
 
     def coordinates(self) -> dict[str, Variable]:

@@ -34,9 +34,8 @@ from ..populations.measured.synthetic import from_moments
 from ..populations.measured.topography import Topography
 from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
-from ..quantities.plain_data import plain_data
 from ..quantities.progress import Stages, count_states, watch_states
-from ..quantities.record import TableRecord, Variable
+from ..quantities.record import VERSION, TableRecord, Variable, with_names
 from ..quantities.run_files import read_record, sealed_text
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connect_client, need_version, share_parts
@@ -110,6 +109,11 @@ class Ensemble(TableRecord):
         Where the numbers are bounds, or the maps too coarse or too small, a sentence each.
     """
 
+    in_dict = (
+        *(VERSION, ("inputs", "contact"), "surfaces", "left_out", ("seats", with_names("seats"))),
+        *(("table", lambda one: _arrays(one.table)), ("at_h", lambda one: _arrays(one.at_h))),
+        *(("summary", "sentence"), "warnings"),
+    )
     contact: Contact = field(repr=False)
     model: Contact = field(repr=False)
     """The statistical counterpart: the contact with the measured seat."""
@@ -134,20 +138,6 @@ class Ensemble(TableRecord):
     def sentence(self) -> str:
         """What the numbers say, in words."""
         return _in_words(self)
-
-    def to_dict(self) -> dict[str, object]:
-        """Everything as plain data in SI."""
-        return {
-            "version": __version__,
-            "inputs": self.contact.to_dict(),
-            "surfaces": self.surfaces,
-            "left_out": self.left_out,
-            "seats": self.seats._asdict(),
-            "table": _columns_as_lists(self.table),
-            "at_h": _columns_as_lists(self.at_h),
-            "summary": self.sentence,
-            "warnings": list(self.warnings),
-        }
 
 
 def as_variable(values: xarray.DataArray) -> Variable:
@@ -674,8 +664,8 @@ def _file(folder: Path, i: int) -> Path:
 
 
 # -------------------------------------------------------------------------- what is told
-def _columns_as_lists(data: xarray.Dataset) -> dict[str, list[float | None]]:
-    return {str(name): plain_data(data[name].values) for name in (*data.coords, *data.data_vars)}
+def _arrays(data: xarray.Dataset) -> dict[str, np.ndarray]:
+    return {str(name): data[name].values for name in (*data.coords, *data.data_vars)}
 
 
 WHY = {

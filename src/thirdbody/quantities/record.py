@@ -69,6 +69,9 @@ class Column(NamedTuple):
         return {**self.labels}
 
 
+NOTHING_SAID = Column("", "", "")
+
+
 def flags_of(words: Sequence[str]) -> dict[str, object]:
     """Attributes of a variable of codes 0, 1, 2 ... that say what each means (CF conventions).
 
@@ -85,10 +88,28 @@ class Variable(NamedTuple):
     values: ArrayLike
     labels: Mapping[str, object] = MappingProxyType({})
 
+    @property
+    def array(self) -> NDArray[np.generic]:
+        """The values as an array."""
+        return np.asarray(self.values)
 
-def column(symbol: str, unit: str, meaning: str, *, default: object = MISSING) -> Any:
+    @property
+    def unit(self) -> str:
+        """SI, "" where nothing is said."""
+        return str(self.labels.get("units", ""))
+
+    @property
+    def meaning(self) -> str:
+        """In words."""
+        return str(self.labels.get("long_name", ""))
+
+
+def column(
+    symbol: str, unit: str, meaning: str, *, default: object = MISSING, repr: bool = True
+) -> Any:
     """A field of a result that is a column."""
-    return field(default=default, metadata={"column": Column(symbol, unit, meaning)})
+    about = {"column": Column(symbol, unit, meaning)}
+    return field(default=default, repr=repr, metadata=about)
 
 
 def declared_columns(kind: type) -> Mapping[str, Column]:
@@ -97,8 +118,8 @@ def declared_columns(kind: type) -> Mapping[str, Column]:
     return {name: column for name, column in every.items() if column is not None}
 
 
-class Record:
-    """A result: a frozen dataclass that is handed out as plain data.
+class Record(Shown):
+    """A result: a frozen dataclass that is handed out as plain data, and shown in a notebook.
 
     >>> from dataclasses import dataclass
     >>> @dataclass(frozen=True)
@@ -122,6 +143,16 @@ class Record:
         names = (item.name for item in fields(self))  # type: ignore[arg-type]
         kept = (name for name in names if name not in self.not_in_dict)
         return _plain_entries(self, self.in_dict or tuple(kept))
+
+    def _cards(self) -> Iterator[Card]:
+        """A table for notebooks: a row for each number or word that `to_dict` hands out."""
+        columns = declared_columns(type(self))
+        rows = [
+            Row(about.symbol or name, _words_of_plain(value, about.unit), about.meaning)
+            for name, value in self.to_dict().items()
+            for about in (columns.get(name, NOTHING_SAID),)
+        ]
+        yield Card(type(self).__name__, rows, getattr(self, "warnings", ()))
 
 
 def _plain_entries(record: Record, entries: tuple[Entry, ...]) -> dict[str, object]:
@@ -178,7 +209,7 @@ class MappedRecord(Record, Mapping[str, Any]):
         return len(self._data)
 
 
-class TableRecord(Shown, Record):
+class TableRecord(Record):
     """A result that is handed out as labelled data and as a table too.
 
     They hold what a subclass declares with `column`, or what its `variables` are.
@@ -294,20 +325,18 @@ class TableRecord(Shown, Record):
     def _cards(self) -> Iterator[Card]:
         """A table for notebooks: a row for each column, the first and the last places."""
         every = {**self.coordinates(), **self.variables()}
-        dim = next(variable.dims[0] for variable in every.values() if variable.dims)
+        dims = [dim for variable in every.values() for dim in variable.dims]
+        dim = self.along if self.along in dims else dims[0]
         shown = {name: one for name, one in every.items() if one.dims in ((), (dim,))}
-        cells = {
-            name: _cells(np.atleast_1d(values), str(labels.get("units", "")))
-            for name, (_, values, labels) in shown.items()
-        }
+        cells = {name: _cells(np.atleast_1d(one.array), one.unit) for name, one in shown.items()}
         width = max(map(len, cells.values()))
         rows = [
             Row(
-                str(labels.get("symbol") or name),
+                str(one.labels.get("symbol") or name),
                 cells[name] + [""] * (width - len(cells[name])),
-                str(labels.get("long_name", "")),
+                one.meaning,
             )
-            for name, (_, _, labels) in shown.items()
+            for name, one in shown.items()
         ]
         count = next(np.size(one.values) for one in shown.values() if one.dims)
         places = f"{count} values of {dim}"
@@ -337,11 +366,14 @@ class StateRecord(TableRecord):
         return columns[name]
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Every column as a 1-D array, those of the outputs behind, and `more_columns` last."""
+        """Every column as a 1-D array, those of the outputs behind, and `more_columns` last.
+
+        One that a result does not have, which is None, is left out.
+        """
         stored = {name: getattr(self, name) for name in declared_columns(type(self))}
         every = stored | dict(getattr(self, "outputs", {}))
         every |= {name: getattr(self, name) for name in self.more_columns}
-        return {name: np.atleast_1d(values) for name, values in every.items()}
+        return {name: np.ravel(v) for name, v in every.items() if v is not None}
 
     def variables(self) -> Mapping[str, Variable]:
         """The columns, along ``state``."""
@@ -349,6 +381,16 @@ class StateRecord(TableRecord):
             name: Variable(("state",), values, self.about(name).attributes)
             for name, values in self.columns().items()
         }
+
+
+def _words_of_plain(value: object, unit: str) -> list[str]:
+    """Plain data in words: each of few, else how many there are."""
+    if not isinstance(value, (dict, list)):
+        return [words_of(value, unit)]
+    inner = list(value.values() if isinstance(value, dict) else value)
+    if len(inner) <= MOST_SHOWN and not any(isinstance(item, (dict, list)) for item in inner):
+        return [words_of(item, unit) for item in inner]
+    return [f"{len(inner)} values"]
 
 
 def _cells(values: NDArray[Any], unit: str) -> list[str]:

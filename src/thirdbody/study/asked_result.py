@@ -7,8 +7,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
+import numpy as np
+
 from ..quantities.plain_data import plain_data
-from ..quantities.record import VERSION, Entry, MappedRecord, declared_columns
+from ..quantities.record import (
+    VERSION,
+    Column,
+    Entry,
+    MappedRecord,
+    TableRecord,
+    Variable,
+    declared_columns,
+)
+from ..version import __version__
 from .described import Described
 from .what_ifs import WhatIf
 
@@ -47,8 +58,10 @@ def answer_entries(inputs: tuple[Entry, ...], *numbers: Entry) -> tuple[Entry, .
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class QuestionResult(MappedRecord):
+class QuestionResult(MappedRecord, TableRecord):
     """Results of a study that asks one question; indexed, the plain data of `to_dict`.
+
+    As labelled data and as a table they are the columns of `table`, along the first of them.
 
     Attributes
     ----------
@@ -85,6 +98,38 @@ class QuestionResult(MappedRecord):
     @abstractmethod
     def meanings(self) -> Mapping[str, str]:
         """Meanings of the columns."""
+
+    def variables(self) -> dict[str, Variable]:
+        """Every column but the first."""
+        return dict(self._columns()[1:])
+
+    def coordinates(self) -> dict[str, Variable]:
+        """The first column."""
+        return dict(self._columns()[:1])
+
+    def _columns(self) -> list[tuple[str, Variable]]:
+        """Every column by its name."""
+        columns, units = self.table()
+        along, declared = next(iter(columns)), declared_columns(type(self))
+        about = {
+            name: declared.get(name) or Column("", units[name], self.meanings[name])
+            for name in columns
+        }
+        return [
+            (name, Variable((along,), _with_nan(values), about[name].labels))
+            for name, values in columns.items()
+        ]
+
+    def attributes(self) -> Mapping[str, object]:
+        """Version, warnings and citations."""
+        said = {"warnings": self.warnings, "citations": self.citations}
+        return {"version": __version__} | {name: "\n".join(lines) for name, lines in said.items()}
+
+
+def _with_nan(values: list[object]) -> np.ndarray:
+    """A column with NaN, or no word, where there is nothing."""
+    nothing = "" if any(isinstance(value, str) for value in values) else np.nan
+    return np.array([nothing if value is None else value for value in values])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -26,6 +26,7 @@ from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..populations.shape import Sphere
+from ..quantities.record import Column, StateRecord, column
 from ..quantities.say import value_of
 from ..quantities.value import Value, quantity
 from .sinusoids import Convergence, Sinusoid, Stack, jackson_streator
@@ -351,7 +352,7 @@ class ParticleFilm:
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class MultiscaleState:
+class MultiscaleState(StateRecord):
     """Equilibrium of `GhaedniaMultiscale`: floats for one pressure, arrays for several.
 
     Areas are per nominal area [1]. Made by `GhaedniaMultiscale.solve`.
@@ -364,20 +365,14 @@ class MultiscaleState:
     (True, 1.0)
     """
 
-    pressure: Array
-    """Nominal pressure [Pa]"""
-    A_0: Array
-    """Real area without particles, on which the particles work"""
-    local_pressure: Array
-    """p/A_0 [Pa]"""
-    gap: Array
-    """Gap g between the asperities [m]; 0 where they touch"""
-    A_particles: Array
-    """Area of the particles on surface 1"""
-    A_asperities: Array
-    """Area of the asperities, zero while g > 0"""
-    particle_load_share: Array
-    """Load of the particles over the total load [1]"""
+    more_columns = {"A_real": Column("A", "1", "real area: particles and asperities")}
+    pressure: Array = column("p", "Pa", "nominal pressure")
+    A_0: Array = column("A_0", "1", "real area without particles, on which the particles work")
+    local_pressure: Array = column("p/A_0", "Pa", "pressure on that area")
+    gap: Array = column("g", "m", "gap between the asperities, 0 where they touch")
+    A_particles: Array = column("A_p", "1", "area of the particles on surface 1")
+    A_asperities: Array = column("A_a", "1", "area of the asperities, 0 while g > 0")
+    particle_load_share: Array = column("F_p/F", "1", "load share of the particles")
     warnings: tuple[str, ...]
 
     @property

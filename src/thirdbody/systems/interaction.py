@@ -23,6 +23,7 @@ load of any specimen with many asperities. This correction does change the area 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -40,6 +41,7 @@ from ..numerics.quadrature import panel_rule, subdivide
 from ..numerics.roots import halley_root
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
+from ..quantities.record import StateRecord, Variable, column
 from ..quantities.say import value_of
 
 if TYPE_CHECKING:
@@ -76,7 +78,7 @@ DISC_MEAN = 16 / (3 * math.pi**1.5)
 
 # ------------------------------------------------------------------------------ mean
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class MeanInteraction:
+class MeanInteraction(StateRecord):
     """A contact whose summit plane sinks under its own nominal pressure.
 
     Made by `mean_interaction`, where the source stands.
@@ -106,13 +108,27 @@ class MeanInteraction:
     True
     """
 
+    in_dict = (("", "state"), ("", "columns"), "nominal_area", "kappa")
     state: Equilibrium
-    d_0: Number
-    U: Number
-    stiffness: Number
-    summit_stiffness: Number
+    d_0: Number = column("d_0", "m", "separation from the undeformed plane, d − U")
+    U: Number = column("U", "m", "sinking of the summit plane")
+    stiffness: Number = column("−dp/dd_0", "Pa/m", "stiffness with the displacement")
+    summit_stiffness: Number = column("−dp/dd", "Pa/m", "stiffness without the displacement")
     nominal_area: float
     kappa: float
+
+    def variables(self) -> dict[str, Variable]:
+        """The columns of the state, and these."""
+        return {**self.state.variables(), **StateRecord.variables(self)}
+
+    def coordinates(self) -> Mapping[str, Variable]:
+        """Those of the state."""
+        return self.state.coordinates()
+
+    def attributes(self) -> dict[str, object]:
+        """Those of the state, the nominal area and its shape factor."""
+        numbers = {"nominal_area": self.nominal_area, "kappa": self.kappa}
+        return {**self.state.attributes(), **numbers}
 
 
 @takes_units
@@ -237,7 +253,7 @@ def _check_sum(contact: Contact) -> None:
 
 # ------------------------------------------------------------------------------ local
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class LocalInteraction:
+class LocalInteraction(StateRecord):
     """Asperities whose own load is taken out of the mean displacement.
 
     Made by `local_interaction`, where the source stands.
@@ -268,15 +284,15 @@ class LocalInteraction:
     """
 
     contact: Contact = field(repr=False)
-    d: Number
-    d_0: Number | None
-    pressure: Number
-    F_star: Number
-    pressure_alone: Number
-    A_t: Number
-    A_e: Number
-    A_ep: Number
-    A_p: Number
+    d: Number = column("d", "m", "separation from the deformed mean plane of summits")
+    d_0: Number | None = column("d_0", "m", "separation from the undeformed plane")
+    pressure: Number = column("p", "Pa", "nominal pressure")
+    F_star: Number = column("F*", "1", "F/(A_n E*)")
+    pressure_alone: Number = column("p", "Pa", "nominal pressure without interaction at this d")
+    A_t: Number = column("A_t*", "1", "real contact area")
+    A_e: Number = column("A_e*", "1", "real area in elastic contact")
+    A_ep: Number = column("A_ep*", "1", "real area in elastoplastic contact")
+    A_p: Number = column("A_p*", "1", "real area in plastic contact")
 
 
 class _SelfLoaded:

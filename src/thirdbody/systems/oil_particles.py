@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -36,6 +36,7 @@ from ..populations.materials import Material, MaterialPair
 from ..populations.measured.cleanliness import Level, suspension_of_iso4406
 from ..populations.strength import WeibullStrength
 from ..quantities.arguments import need_one
+from ..quantities.record import Record, column
 from ..quantities.say import number, percent, value_of
 from ..quantities.units import to_si
 from ..quantities.value import Value, choice, quantity
@@ -59,10 +60,12 @@ NODES = 16
 
 
 # ------------------------------------------------------------------------------ in a film
-class FilmDents(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmDents(Record):
     """Dents in one surface per overrolling, made by `FilmParticles.dents`.
 
     Depths are upper bounds: the film does not give way under a particle.
+    Without dents their number and volume are 0, the rest NaN.
 
     Examples
     --------
@@ -76,25 +79,23 @@ class FilmDents(NamedTuple):
     '1.0 µm deep and 20.6 µm wide at p95'
     """
 
-    number: float
-    """Dents per area [1/m²]."""
-    depth: float
-    """Mean depth [m]."""
-    diameter: float
-    """Mean diameter [m]."""
-    area: float
-    """Mean area πD²/4 [m²]."""
-    volume: float
-    """Dented volume per area [m]."""
-    depth_p95: float
-    """Depth that 5 % of the dents exceed [m]."""
-    diameter_p95: float
-    """Diameter that 5 % of the dents exceed [m]."""
-    embedded: float
-    """Share of the dents of particles that sit deeper than half their radius, and may stay [1]."""
+    number: float = column("", "1/m^2", "dents per area", default=0.0)
+    depth: float = column("", "m", "mean depth", default=math.nan)
+    diameter: float = column("D", "m", "mean diameter", default=math.nan)
+    area: float = column("πD²/4", "m^2", "mean area", default=math.nan)
+    volume: float = column("", "m", "dented volume per area", default=0.0)
+    depth_p95: float = column("", "m", "depth that 5 % of the dents exceed", default=math.nan)
+    diameter_p95: float = column("", "m", "diameter that 5 % of the dents exceed", default=math.nan)
+    embedded: float = column(
+        "",
+        "1",
+        "share of the dents of particles that sit deeper than half their radius, and may stay",
+        default=math.nan,
+    )
 
 
-class SeverityIndex(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeverityIndex(Record):
     r"""Damaged volume per area and overrolling, with its parts. Not a life.
 
     .. math:: I = \varepsilon h \int n\,\varphi_a\,(V_1+V_2+f_{ab}\,s\,A_g)\,dx
@@ -113,20 +114,15 @@ class SeverityIndex(NamedTuple):
     ('1.1e-13', 0.0, 1.0)
     """
 
-    total: float
-    """Sum of the four parts below [m]."""
-    dents_1: float
-    """Volume of the dents in surface 1 per area [m]."""
-    dents_2: float
-    """The same in surface 2 [m]."""
-    grooves_1: float
-    """Volume taken out of grooves in surface 1 per area [m]."""
-    grooves_2: float
-    """The same in surface 2 [m]."""
-    severity: float
-    """Mean severity S of the particles that touch both surfaces [1]."""
-    above: float
-    """Share of those above the threshold S* from rolling to grooving [1]."""
+    total: float = column("I", "m", "sum of the four parts below", default=0.0)
+    dents_1: float = column("", "m", "volume of the dents in surface 1 per area", default=0.0)
+    dents_2: float = column("", "m", "the same in surface 2", default=0.0)
+    grooves_1: float = column("", "m", "volume of grooves in surface 1 per area", default=0.0)
+    grooves_2: float = column("", "m", "the same in surface 2", default=0.0)
+    severity: float = column("S", "1", "mean severity of what touches both surfaces", default=0.0)
+    above: float = column(
+        "", "1", "share above the threshold from rolling to grooving", default=0.0
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -497,7 +493,7 @@ class FilmParticles(Value):
         lowest = self._first(side - 1)
         count = self._number_above(lowest) if math.isfinite(lowest) else 0.0
         if count == 0:
-            return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
+            return FilmDents()
         x, w = self._nodes()
         spots = self._spots(x[None, :], w[None, :])
         dent = self._dent(spots, side - 1)
@@ -519,7 +515,7 @@ class FilmParticles(Value):
         x, w = self._nodes()
         count = float(w.sum())
         if count == 0:
-            return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
+            return FilmDents()
         wide = self._marks(x, side)
         held = float(w @ (wide < flattened_diameter(x, gap=self.film)) / count)
         if held > 0:
@@ -597,10 +593,9 @@ class FilmParticles(Value):
         per overrolling the index then rises with h, per volume of oil that passes (index over h)
         it falls, and so does the number of dents once ``smallest`` lies below the film.
         """
-        nothing = SeverityIndex(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         x, w = self._nodes()
         if len(x) == 0 or float(w.sum()) * self.columns_of_oil == 0:
-            return nothing
+            return SeverityIndex()
         spots = self._spots(x[None, :], w[None, :])
         per_area = self.columns_of_oil
         volumes, grooves = [], []

@@ -14,7 +14,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,10 +26,10 @@ from ...errors import Note, ThirdBodyError
 from ...numerics.sampling import Span
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
-from ...quantities.notebook import Card, Row, Shown
+from ...quantities.notebook import Card, Row
 from ...quantities.notebook import words_of as value_in_words
 from ...quantities.progress import reporting
-from ...quantities.record import Column, Record
+from ...quantities.record import Column, TableRecord, Variable
 from ..inputs import declared_quantity, words_of
 from ..sensitivity import sensitivity
 from .front import front, hypervolume
@@ -60,16 +60,9 @@ AT_END = 1e-3
 """Part of a range that counts as its end."""
 
 
-class Values(NamedTuple):
-    """Values of a table, and unit and words of what they are."""
-
-    values: NDArray[Any]
-    about: dict[str, str]
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Best(Shown, Record):
-    """The answer of `design`.
+class Best(TableRecord):
+    """The answer of `design`; as labelled data and as a table it is ``points``.
 
     Attributes
     ----------
@@ -85,7 +78,7 @@ class Best(Shown, Record):
         Why the point that came nearest is not feasible; empty where one is.
     load, loads : str, array (L,)
         Which load is given, and its values.
-    of_states, of_points : dict of Column
+    of_states, of_points : dict of Variable
         The columns of ``states`` and ``points``, which are made of them when asked for.
     states : xarray.Dataset
         Every metric against the load at the best point, nominal.
@@ -136,6 +129,7 @@ class Best(Shown, Record):
         ("states", (("", lambda best: _values(best.of_states)), ("", lambda b: {b.load: b.loads}))),
         *(("points", lambda best: _values(best.of_points)), "warnings"),
     )
+    along = "point"
     values: dict[str, Any]
     contact: Contact
     objectives: dict[str, float]
@@ -143,8 +137,8 @@ class Best(Shown, Record):
     reason: str
     load: str
     loads: Array = field(repr=False)
-    of_states: dict[str, Values] = field(repr=False)
-    of_points: dict[str, Values] = field(repr=False)
+    of_states: dict[str, Variable] = field(repr=False)
+    of_points: dict[str, Variable] = field(repr=False)
     active: tuple[str, ...]
     tolerance: dict[str, tuple[float, float]]
     plateau: dict[str, tuple[float, float]]
@@ -158,35 +152,34 @@ class Best(Shown, Record):
         rows = []
         for name, value in {**self.values, **self.objectives}.items():
             column = self.of_points[name]
-            rows.append(Row(name, [_in_words(value, column)], column.about.get("long_name", "")))
+            rows.append(Row(name, [_in_words(value, column)], column.meaning))
         notes = (self.reason,) if self.reason else ()
         yield Card("Best values, and objectives there", rows, (*notes, *self.warnings))
+
+    def variables(self) -> dict[str, Variable]:
+        """Every point tried."""
+        return self.of_points
 
     @cached_property
     def states(self) -> xarray.Dataset:
         """Every metric against the load."""
-        return _dataset(self.of_states, self.load, {self.load: self.loads})
+        import xarray  # takes longer to load than most designs to find
+
+        return xarray.Dataset(self.of_states, coords={self.load: self.loads})
 
     @cached_property
     def points(self) -> xarray.Dataset:
         """Every point tried."""
-        return _dataset(self.of_points, "point", {})
+        return self.to_dataset()
 
 
-def _in_words(value: object, column: Values) -> str:
+def _in_words(value: object, column: Variable) -> str:
     """A value of a variable or objective: a number with its unit, or the name of a material."""
-    return value_in_words(getattr(value, "name", value), column.about.get("units", ""))
+    return value_in_words(getattr(value, "name", value), column.unit)
 
 
-def _values(table: dict[str, Values]) -> dict[str, Array]:
+def _values(table: dict[str, Variable]) -> dict[str, ArrayLike]:
     return {name: column.values for name, column in table.items()}
-
-
-def _dataset(table: dict[str, Values], dim: str, coords: dict[str, Array]) -> xarray.Dataset:
-    import xarray  # takes longer to load than most designs to find
-
-    columns = {name: (dim, column.values, column.about) for name, column in table.items()}
-    return xarray.Dataset(columns, coords=coords)
 
 
 # -------------------------------------------------------------------------- the search
@@ -331,21 +324,21 @@ def _answer(task: Task) -> Best:
         volume = hypervolume(costs[ok], costs[ok].max(axis=0))
     signs = {objective.label: objective.sign for objective in task.objectives}
     columns = {
-        name: Values(np.array([point.numbers[name] for point in rows]), _about_variable(task, name))
+        name: _of_points([point.numbers[name] for point in rows], **_about_variable(task, name))
         for name in task.variables
     }
     columns |= {
-        name: Values(np.array([point.materials[name].name for point in rows]), {})
+        name: _of_points([point.materials[name].name for point in rows], long_name="material")
         for name in task.materials
     }
     columns |= {
-        objective.label: Values(objective.sign * costs[:, i], _about_objective(objective))
+        objective.label: _of_points(objective.sign * costs[:, i], **_about_objective(objective))
         for i, objective in enumerate(task.objectives)
     }
     columns |= {
-        "feasible": Values(ok, {}),
-        "front": Values(on_front, {}),
-        "reason": Values(np.array([point.reason for point in rows]), {}),
+        "feasible": _of_points(ok, long_name="whether every limit holds"),
+        "front": _of_points(on_front, long_name="whether no other beats it in every objective"),
+        "reason": _of_points([point.reason for point in rows], long_name="why it is not feasible"),
     }
     ends = {name: variable.place(best.numbers[name]) for name, variable in task.variables.items()}
     at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
@@ -381,6 +374,10 @@ def _answer(task: Task) -> Best:
     )
 
 
+def _of_points(values: ArrayLike, **labels: str) -> Variable:
+    return Variable(("point",), np.asarray(values), labels)
+
+
 def _about_variable(task: Task, name: str) -> dict[str, str]:
     """Unit and words of what is searched."""
     words = words_of(task.contact, name)
@@ -406,14 +403,14 @@ APART = ("coverage", "buried_share", "refused")
 """What `Task.metrics` holds beside the metrics that were asked for."""
 
 
-def _states(task: Task, best: Point) -> dict[str, Values]:
+def _states(task: Task, best: Point) -> dict[str, Variable]:
     """Metrics against the load, nominal."""
     metrics = task.metrics([best.numbers], best.materials, samples=False)
-    columns: dict[str, Values] = {}
+    columns: dict[str, Variable] = {}
     first = (name for name in metrics if name not in APART)
     for name in (*first, "buried_share"):
         column = METRICS.get(name) or about(name)
-        columns[name] = Values(metrics[name].reshape(-1), column.labels)
+        columns[name] = Variable((task.load,), metrics[name].reshape(-1), column.labels)
     return columns
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -27,6 +28,8 @@ from ..show import ALL, terminal
 from ..streams import STDOUT, TableFiles, tell_written, warn, warn_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -113,7 +116,7 @@ def command(options: Options) -> None:
     if options.out is not None:
         from ...views.comparison import save
 
-        written = save(comparison.dataset(), options.out, at=index, force=options.force)
+        written = save(comparison.to_dataset(), options.out, at=index, force=options.force)
     files.write(
         *comparison.flat(),
         sheets=partial(_sheets, study, comparison, index),
@@ -188,10 +191,15 @@ def _at_load(comparison: Comparison, index: int) -> str:
 
 
 def _answer(comparison: Comparison, index: int) -> list[str]:
-    """Between what the laws say of the area, and of who carries."""
+    """Between what the laws say of the area, and of who carries; Persson's area beside them."""
+    from ...analysis.compare import Persson
+
     columns = {name: column[:, index] for name, column in comparison.columns.items()}
-    solved = [i for i, status in enumerate(columns["status"]) if status == "ok"]
     laws = list(comparison.laws)
+    of_laws = [i for i, law in enumerate(laws) if law != Persson.name]
+    solved = [i for i in of_laws if columns["status"][i] == "ok"]
+    if not solved:
+        return []
     study_law = laws.index(comparison.attrs["own_law"])
 
     def ends(name: str) -> tuple[int, int]:
@@ -210,9 +218,21 @@ def _answer(comparison: Comparison, index: int) -> list[str]:
         away = [signed_number(columns["A_t_difference"][i], 1, "%") for i in (low, high)]
         out += f", {' to '.join(away)} about {laws[study_law]}"
     if "particle_load_share" not in columns:
-        return [f"{out}."]
+        return [f"{out}.", *_elastic_areas(dict(zip(laws, columns["A_t"], strict=True)))]
     shares = [percent(columns["particle_load_share"][i]) for i in ends("particle_load_share")]
     return [f"{out}.", f"Particles carry {' to '.join(dict.fromkeys(shares))} of the load."]
+
+
+def _elastic_areas(areas: Mapping[str, float]) -> list[str]:
+    """Persson's area, and that of the law with which to compare it: both know no yielding."""
+    from ...analysis.compare import Persson
+
+    if Persson.name not in areas:
+        return []
+    said = f"Without asperities and without yielding it is {percent(areas[Persson.name])} (persson)"
+    if math.isfinite(elastic := areas.get("gw", math.nan)):
+        said += f": to be held against {percent(elastic)} (gw), which is elastic too"
+    return [f"{said}."]
 
 
 def _show_comparison(title: str, comparison: Comparison, index: int) -> None:

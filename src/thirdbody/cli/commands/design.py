@@ -65,8 +65,8 @@ def command(options: Options) -> None:
     with nullcontext() if bar else heartbeat("design"):
         best = design_study(study, progress=bar)
     warn_of(best.warnings)
-    columns = {name: column.values.tolist() for name, column in best.of_points.items()}
-    units = {name: column.about.get("units", "") for name, column in best.of_points.items()}
+    columns = {name: column.array.tolist() for name, column in best.of_points.items()}
+    units = {name: column.unit for name, column in best.of_points.items()}
     files.write(
         columns,
         units,
@@ -126,9 +126,7 @@ def _sheets(
         said.chosen_rows(),
         [f"limits in force: {said.limits('; '.join(best.active)) or 'none'}"],
         states=(columns, units),
-        meanings={
-            name: column.about.get("long_name", "") for name, column in best.of_points.items()
-        },
+        meanings={name: column.meaning for name, column in best.of_points.items()},
         inputs=inputs_of({"": best.contact}, bodies_of(best.contact)),
         warnings=best.warnings,
         citations=cite(best.contact).splitlines(),
@@ -144,7 +142,7 @@ def _page(study: Study, best: Best) -> None:
     said = _Words(study, best)
     for sentence in said.answer():
         out.print(sentence)
-    front = best.of_points["front"].values
+    front = best.of_points["front"].array.tolist()
     several = len(best.objectives) > 1
     out.print("\none of the best" if several else "\nbest")
     heads, rows = said.chosen_rows()
@@ -170,14 +168,14 @@ def _page(study: Study, best: Best) -> None:
             table.add_row(column, *map(number, slopes.values()))
         out.print(table)
     if several:
-        out.print(f"{front.sum()} of {len(front)} points are beaten by none in every objective")
+        out.print(f"{sum(front)} of {len(front)} points are beaten by none in every objective")
         every, first = best.of_points, next(iter(best.objectives))
         on_front = [i for i, on in enumerate(front) if on]
-        chosen = sorted(on_front, key=lambda i: every[first].values[i])
+        chosen = sorted(on_front, key=lambda i: every[first].array[i].item())
         names = [*map(said.name, best.values), *map(said.objective, best.objectives)]
         table = Table(names, right=True, wrap=True)
         for i in some(len(chosen)):
-            one = {name: points.values[chosen[i]].item() for name, points in every.items()}
+            one = {name: points.array[chosen[i]].item() for name, points in every.items()}
             cells = [said.amount(name, one[name]) for name in best.values]
             cells += [said.metric(name, one[name]) for name in best.objectives]
             table.add_row(*cells)
@@ -254,8 +252,8 @@ class _Words:
     def about(self, of: str) -> tuple[str, str]:
         """Unit and meaning of a number of the states."""
         if of in self.best.of_states:
-            about = self.best.of_states[of].about
-            return about["units"], about["long_name"]
+            about = self.best.of_states[of]
+            return about.unit, about.meaning
         return "1", of
 
     def objective(self, label: str) -> str:
@@ -283,7 +281,7 @@ class _Words:
 
 def _against_load(out: Console, best: Best, said: _Words) -> None:
     """Numbers against the loads."""
-    units = {name: column.about["units"] for name, column in best.of_states.items()}
+    units = {name: column.unit for name, column in best.of_states.items()}
     legend = {
         name: said.about(name)[1] + (", no unit" if unit == "1" else "")
         for name, unit in units.items()
@@ -294,7 +292,7 @@ def _against_load(out: Console, best: Best, said: _Words) -> None:
     count = len(best.loads)
     for i in some(count):
         columns = best.of_states.items()
-        cells = (value_of(column.values[i].item(), units[name]) for name, column in columns)
+        cells = (value_of(column.array[i].item(), units[name]) for name, column in columns)
         table.add_row(value_of(float(best.loads[i]), unit), *cells)
     out.print(table)
     if count > MOST_ROWS:

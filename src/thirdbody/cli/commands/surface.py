@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue
-from ...quantities.plain_data import plain_data
 from ...quantities.say import number, signed_number, value_of
 from ...quantities.tables import Table
 from ..options import Force, JsonFile, ParquetFile, XlsxFile, argument, metres, not_a_folder, option
@@ -97,10 +96,10 @@ def command(options: Options) -> None:
     result = topography.to_dict()
     warn_of(topography.warnings)
     files.write(
-        plain_data(result["curve"]),
+        result["curve"],
         result["units"],
         sheets=partial(_sheets, topography, result),
-        data=lambda: plain_data(result),
+        data=lambda: result,
     )
     written = files.paths + (
         []
@@ -116,15 +115,13 @@ def _sheets(topography: Topography, result: dict[str, Any]) -> list[Sheet]:
     from ...views.question_sheets import question_sheets
 
     sentence = _in_one_sentence(topography, result["cutoff"]["used"])
-    read = [
-        ("what was read", "", line, "", "file", "") for line in _what_was_read(topography, result)
-    ]
+    read = [("what was read", "", line, "", "file", "") for line in _what_was_read(topography)]
     return question_sheets(
         topography.source,
         [sentence],
         None,
         [],
-        states=(plain_data(result["curve"]), result["units"]),
+        states=(result["curve"], result["units"]),
         meanings=MEANS,
         inputs=read,
         warnings=topography.warnings,
@@ -161,7 +158,7 @@ def _write_surface(
     from ...views.figure_files import save_figure
     from ...views.plot.topography import surface as draw
 
-    text = json.dumps(plain_data(result), indent=1, allow_nan=False) + "\n"
+    text = json.dumps(result, indent=1, allow_nan=False) + "\n"
     if not force:
         refuse_replaced(folder, {"surface.json": text, "surface.png": None, "surface.svg": None})
     make_folder(folder)
@@ -180,15 +177,15 @@ def _show_surface(topography: Topography, result: dict[str, Any]) -> None:
     console = terminal()
     console.print(_in_one_sentence(topography, result["cutoff"]["used"]))
     console.print()
-    for line in _what_was_read(topography, result):
+    for line in _what_was_read(topography):
         console.print(line)
     console.print()
     console.print(_answer(topography, result["cutoff"]["used"]))
-    console.print(_course(topography, plain_data(result["curve"])))
+    console.print(_course(topography, result["curve"]))
     console.print(
-        f"skewness {number(result['skewness'], 3)}, kurtosis {number(result['kurtosis'], 3)}, "
+        f"skewness {number(topography.skewness, 3)}, kurtosis {number(topography.kurtosis, 3)}, "
         "mean square slopes "
-        f"{number(result['anisotropy'])} : 1 along and across"
+        f"{number(topography.anisotropy)} : 1 along and across"
     )
 
 
@@ -209,22 +206,20 @@ def _in_one_sentence(topography: Topography, cutoff: float) -> str:
     )
 
 
-def _what_was_read(topography: Topography, result: dict[str, Any]) -> list[str]:
+def _what_was_read(topography: Topography) -> list[str]:
     """Points, moments as sampled, the limit of the instrument and the cut-off recommended."""
-    points = " x ".join(map(str, result["points"]))
-    sides = " x ".join(value_of(side, "m") for side in result["size"])
+    points = " x ".join(map(str, topography.heights.shape))
+    sides = " x ".join(value_of(side, "m") for side in topography.size)
     kind = "map" if topography.dim == 2 else "profile"
-    sampled, used = result["as_sampled"], result["cutoff"]
-    limit = (
-        "" if used["instrument_limit"] is None else value_of(used["instrument_limit"], "m") + ", "
-    )
+    recommended, reason = topography.recommended
+    limit = "" if topography.limit is None else value_of(topography.limit, "m") + ", "
     return [
         f"{topography.source}: {kind} of {points} points, {sides}",
-        f"as sampled: RMS height {value_of(sampled['rms_height'], 'm')}, RMS "
-        f"{'gradient' if topography.dim == 2 else 'slope'} {number(sampled['rms_slope'])}, RMS "
-        f"curvature {value_of(sampled['rms_curvature'], '1/m')}",
-        f"limit of the instrument: {limit}{used['instrument_limit_reason']}",
-        f"recommended cut-off: {value_of(used['recommended'], 'm')}: {used['reason']}",
+        f"as sampled: RMS height {value_of(topography.rms_height, 'm')}, RMS "
+        f"{'gradient' if topography.dim == 2 else 'slope'} {number(topography.rms_slope)}, RMS "
+        f"curvature {value_of(topography.rms_curvature, '1/m')}",
+        f"limit of the instrument: {limit}{topography.limit_reason}",
+        f"recommended cut-off: {value_of(recommended, 'm')}: {reason}",
     ]
 
 

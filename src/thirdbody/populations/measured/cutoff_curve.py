@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...quantities.arguments import names_arguments
+from ...quantities.record import Column, TableRecord, Variable
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -16,35 +17,40 @@ if TYPE_CHECKING:
 
 __all__ = ["COLUMNS", "Curve"]
 
-COLUMNS: dict[str, tuple[str, str]] = {
-    "cutoff": ("m", "cut-off wavelength, of which the Gaussian filter passes one half"),
-    "m0": ("m^2", "mean square height"),
-    "m2": ("1", "mean square slope of profiles, by differences"),
-    "m4": ("1/m^2", "mean square second derivative of profiles, by differences"),
-    "sigma": ("m", "RMS height"),
-    "rms_gradient": ("1", "RMS of the gradient"),
-    "alpha": ("1", "Nayak's bandwidth"),
-    "R": ("m", "mean asperity radius (Nayak, McCool)"),
-    "eta": ("1/m^2", "asperity density (Nayak, McCool)"),
-    "sigma_s": ("m", "standard deviation of asperity heights (Nayak, McCool)"),
-    "y_s": ("m", "mean asperity height above the mean plane (Nayak, McCool)"),
-    "m0_spectrum": ("m^2", "mean square height, by the power spectrum"),
-    "m2_spectrum": ("1", "mean square slope of profiles, by the power spectrum"),
-    "m4_spectrum": ("1/m^2", "mean square second derivative, by the power spectrum"),
-    "summits": ("", "summits counted"),
-    "eta_counted": ("1/m^2", "density of summits counted"),
-    "R_counted": ("m", "one over the mean curvature of summits counted"),
-    "sigma_s_counted": ("m", "standard deviation of heights of summits counted"),
-    "y_s_counted": ("m", "mean height of summits counted above the mean plane"),
-    "skewness": ("1", "skewness of the surface heights"),
-    "kurtosis": ("1", "kurtosis of the surface heights, 3 for a Gaussian"),
+COLUMNS: dict[str, Column] = {
+    name: Column(symbol, unit, meaning)
+    for name, symbol, unit, meaning in (
+        ("cutoff", "λ_c", "m", "cut-off wavelength, of which the Gaussian filter passes one half"),
+        ("m0", "m_0", "m^2", "mean square height"),
+        ("m2", "m_2", "1", "mean square slope of profiles, by differences"),
+        ("m4", "m_4", "1/m^2", "mean square second derivative of profiles, by differences"),
+        ("sigma", "σ", "m", "RMS height"),
+        ("rms_gradient", "g", "1", "RMS of the gradient"),
+        ("alpha", "α", "1", "Nayak's bandwidth"),
+        ("R", "R", "m", "mean asperity radius (Nayak, McCool)"),
+        ("eta", "η", "1/m^2", "asperity density (Nayak, McCool)"),
+        ("sigma_s", "σ_s", "m", "standard deviation of asperity heights (Nayak, McCool)"),
+        ("y_s", "y_s", "m", "mean asperity height above the mean plane (Nayak, McCool)"),
+        ("m0_spectrum", "m_0", "m^2", "mean square height, by the power spectrum"),
+        ("m2_spectrum", "m_2", "1", "mean square slope of profiles, by the power spectrum"),
+        ("m4_spectrum", "m_4", "1/m^2", "mean square second derivative, by the power spectrum"),
+        ("summits", "N", "", "summits counted"),
+        ("eta_counted", "η", "1/m^2", "density of summits counted"),
+        ("R_counted", "R", "m", "one over the mean curvature of summits counted"),
+        ("sigma_s_counted", "σ_s", "m", "standard deviation of heights of summits counted"),
+        ("y_s_counted", "y_s", "m", "mean height of summits counted above the mean plane"),
+        ("skewness", "", "1", "skewness of the surface heights"),
+        ("kurtosis", "", "1", "kurtosis of the surface heights, 3 for a Gaussian"),
+    )
 }
-"""Columns of a `Curve`: unit and meaning."""
+"""Columns of a `Curve`: symbol, unit and meaning."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Curve:
+class Curve(TableRecord):
     """Moments and asperities of one surface against the cut-off.
+
+    As labelled data and as a table they lie along ``cutoff``.
 
     Parameters
     ----------
@@ -60,7 +66,21 @@ class Curve:
     True
     """
 
+    in_dict = (("", "columns"),)
+    along = "cutoff"
     columns: dict[str, Array]
+
+    def variables(self) -> dict[str, Variable]:
+        """Every column but the cut-off."""
+        return {
+            name: Variable((self.along,), values, COLUMNS[name].labels)
+            for name, values in self.columns.items()
+            if name != self.along
+        }
+
+    def coordinates(self) -> dict[str, Variable]:
+        """The cut-offs."""
+        return {self.along: Variable((self.along,), self[self.along], COLUMNS[self.along].labels)}
 
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]

@@ -26,6 +26,7 @@ from ...numerics.quadrature import gauss_legendre
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.csv_cells import numbered_cells
+from ...quantities.record import Record, column
 from ...quantities.units import MICRONS, not_among, say, to_si
 from ...quantities.value import Value, choice
 from ..distributions import (
@@ -272,7 +273,7 @@ class MeasuredSizes(Value):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Fit:
+class Fit(Record):
     """A distribution fitted to measured sizes, and how well it fits.
 
     Parameters
@@ -301,13 +302,13 @@ class Fit:
     ('log-normal', 0.012, '1.41 µm by number')
     """
 
-    kind: str
+    kind: str = column("", "", "word of the fit")
     distribution: Distribution
-    weighting: str
-    smallest: float
-    r_squared: float
-    rms: float
-    worst: float
+    weighting: str = column("", "", "what the data count")
+    smallest: float = column("x", "m", "smallest edge of the data above zero")
+    r_squared: float = column("R²", "1", "coefficient of determination over the edges")
+    rms: float = column("", "1", "root mean square of |Q − Q_j|")
+    worst: float = column("", "1", "largest |Q − Q_j|")
 
     @takes_units
     def by_number(self, smallest: float | None = None) -> Distribution:

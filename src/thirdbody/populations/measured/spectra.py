@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...errors import InvalidValue, Mistake
+from ...quantities.record import Column, TableRecord, Variable, column
 from ...quantities.say import value_of
 from ...quantities.value import Value, quantity
 from ..heights import GaussianHeights, Heights, HistogramHeights
@@ -40,6 +41,12 @@ __all__ = [
 
 FEW_SUMMITS = 30
 """Summits that a distribution of heights takes."""
+PRINCIPAL = Column("κ", "1/m", "principal curvature 1/R″, 1/R′")
+DENSITIES = {
+    2: Column("η", "1/m^2", "summits per area"),
+    1: Column("η", "1/m", "peaks per length"),
+}
+"""Of summits on a map, and on a profile."""
 SIGMA_OF_CUTOFF = math.sqrt(math.log(2) / 2) / math.pi
 """Standard deviation of the Gaussian filter over its cut-off, which it passes by one half."""
 
@@ -166,7 +173,7 @@ class SpectralMoments(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Summits:
+class Summits(TableRecord):
     """The summits counted on a map: points above their eight neighbours.
 
     On a profile they are peaks, points above their two neighbours, and `density` is per length.
@@ -195,12 +202,27 @@ class Summits:
     True
     """
 
-    heights: Array = field(repr=False)
-    curvatures: Array = field(repr=False)
+    along = "summit"
+    in_columns = ("principal_curvature",)
+    heights: Array = column("z", "m", "height above the mean plane", repr=False)
+    curvatures: Array = column("κ", "1/m", "mean curvature", repr=False)
     principal: Array = field(repr=False)
     density: float
-    dim: int
-    cutoff: float
+    dim: int = column("", "", "2 for a map, 1 for a profile")
+    cutoff: float = column("λ_c", "m", "cut-off at which they were counted, 0 as sampled")
+
+    def variables(self) -> dict[str, Variable]:
+        """Heights and curvatures along the summits, and the numbers of all."""
+        dims = self.along, *self.in_columns
+        return {
+            **super().variables(),
+            "principal": Variable(dims, self.principal, PRINCIPAL.labels),
+            "density": Variable((), self.density, DENSITIES[self.dim].labels),
+        }
+
+    def coordinates(self) -> dict[str, Variable]:
+        """Which of the two principal curvatures."""
+        return {name: Variable((name,), ["larger", "smaller"]) for name in self.in_columns}
 
     @property
     def count(self) -> int:

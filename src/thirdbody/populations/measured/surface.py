@@ -12,13 +12,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
 from ...errors import InvalidValue, Mistake, Note, Problem
 from ...quantities.arguments import NamesArguments, need_one
 from ...quantities.carried import takes_units
+from ...quantities.record import Entry, Record
 from ...quantities.say import percent, signed_number, value_of
 from ..ellipticity import Ellipticity
 from ..heights import Heights
@@ -59,8 +60,16 @@ PER_OCTAVE = 0.1
 """Relative change of an answer, when the cut-off doubles, above which there is a warning."""
 
 
+ASPERITIES: tuple[Entry, ...] = (
+    *((name, f"moments.{name}") for name in ("sigma", "R", "eta", "alpha", "sigma_s", "y_s")),
+    ("eta_R_sigma", lambda face: face.moments.eta * face.moments.R * face.moments.sigma),
+)
+SUMMITS = tuple((name, f"summits.{name}") for name in ("count", "density", "R", "sigma_s", "y_s"))
+"""What plain data say of asperities by the moments, and of the summits counted."""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Topography(NamesArguments):
+class Topography(NamesArguments, Record):
     """Heights on a regular grid, form removed, as `from_topography` reads them.
 
     Cut-offs are those of a Gaussian filter that passes one half of a wave of that length
@@ -98,6 +107,27 @@ class Topography(NamesArguments):
     '59.5 nm, R 3.27 µm'
     """
 
+    in_dict = (
+        *("source", ("points", "heights.shape"), "spacing", "size", "periodic", "missing"),
+        ("as_sampled", ("rms_height", "rms_slope", "rms_curvature")),
+        (
+            "cutoff",
+            (
+                ("used", "cutoff"),
+                ("recommended", lambda face: face.recommended[0]),
+                ("reason", lambda face: face.recommended[1]),
+                ("instrument_limit", "limit"),
+                ("instrument_limit_reason", "limit_reason"),
+            ),
+        ),
+        "moments",
+        ("moments_spectrum", lambda face: face.moments_at(method="spectrum")),
+        ("asperities", ASPERITIES),
+        ("summits", SUMMITS),
+        *("anisotropy", "skewness", "kurtosis", "curve"),
+        ("units", lambda face: {name: column.unit for name, column in COLUMNS.items()}),
+        "warnings",
+    )
     heights: Array = field(repr=False)
     spacing: tuple[float, ...]
     source: str
@@ -585,44 +615,3 @@ class Topography(NamesArguments):
             f"{count} summits on the map at a cut-off {self._cutoff_said()}: their mean numbers "
             f"are uncertain by some {error}; a larger map, or several, make them surer"
         ]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything but the heights, as plain data in SI."""
-        summits = self.summits
-        moments = self.moments
-        spectrum = self.moments_at(method="spectrum")
-        names = ("sigma", "R", "eta", "alpha", "sigma_s", "y_s")
-        rough: dict[str, object] = {name: getattr(moments, name) for name in names}
-        counted: dict[str, object] = {"count": summits.count, "density": summits.density}
-        counted |= {"R": summits.R, "sigma_s": summits.sigma_s, "y_s": summits.y_s}
-        curve = self.curve()
-        return {
-            "source": self.source,
-            "points": list(self.heights.shape),
-            "spacing": list(self.spacing),
-            "size": list(self.size),
-            "periodic": self.periodic,
-            "missing": self.missing,
-            "as_sampled": {
-                "rms_height": self.rms_height,
-                "rms_slope": self.rms_slope,
-                "rms_curvature": self.rms_curvature,
-            },
-            "cutoff": {
-                "used": self.cutoff,
-                "recommended": self.recommended[0],
-                "reason": self.recommended[1],
-                "instrument_limit": self.limit,
-                "instrument_limit_reason": self.limit_reason,
-            },
-            "moments": moments.to_dict(),
-            "moments_spectrum": spectrum.to_dict(),
-            "asperities": rough | {"eta_R_sigma": moments.eta * moments.R * moments.sigma},
-            "summits": counted,
-            "anisotropy": self.anisotropy,
-            "skewness": self.skewness,
-            "kurtosis": self.kurtosis,
-            "curve": {name: column.tolist() for name, column in curve.columns.items()},
-            "units": {name: unit for name, (unit, _) in COLUMNS.items()},
-            "warnings": list(self.warnings),
-        }
