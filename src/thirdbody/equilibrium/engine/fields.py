@@ -97,10 +97,10 @@ F_SS, A_E, F_SA, A_SA, A_SA2, SHADE = 0, 1, 4, 5, 8, 9
 
 # ------------------------------------------------------------------ what became of a state
 OK, TOO_MUCH, TOO_LITTLE, UNSOLVED = range(4)
-NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES, NO_TABLE = range(10, 16)
+TOO_DEEP = 5
+NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_TABLE = range(10, 15)
 """For another engine: the load may rise, the error is not small enough, too many nodes, particles
-that are squeezed by more than their size, ground that gives way as no series says, bandwidths
-that no table holds."""
+that are squeezed by more than their size, bandwidths that no table holds."""
 FAR = 0.1
 """Errors of a separation are over σ, or over so much of itself where that is more."""
 

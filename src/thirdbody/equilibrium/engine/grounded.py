@@ -28,6 +28,7 @@ from .fields import (
     SHADOW,
     SIDE,
     SQUEEZED,
+    TOO_DEEP,
     TOO_LONG,
     TOO_MUCH,
     UNSOLVED,
@@ -404,8 +405,10 @@ def _settle(field, held, care, k, target, h, rows, work, row):
         first, at = target > 0 and tried == 0, begin + (k + x) * own[STEP]
         accuracy = max(NEARLY, care[OF_ROOT]) if first else care[OF_ROOT]
         lift, miss, n = _solve_at(field, at, state, lift, accuracy, not first, work)
-        if n < 0 or abs(lift - expected) > LEAP * own[STEP] or _leaves_table(own, at, lift):
+        if n < 0 or abs(lift - expected) > LEAP * own[STEP]:
             return UNSOLVED, at, rounds, slope, math.inf
+        if _leaves_table(own, at, lift):
+            return UNSOLVED if target > 0 else TOO_DEEP, at, rounds, slope, math.inf
         rounds += n
         if first:
             beta, shade = state[0] * own[UNIT], state[BETA]

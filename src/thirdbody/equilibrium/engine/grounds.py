@@ -15,7 +15,13 @@ from ...contact.field_ground import TERMS, rows_between
 from ...contact.particle_averages import NORMAL_REACH, WIDEST
 from ...errors import NotCompiled
 from ...laws.field.programme import MOMENTS
-from ...laws.field.spectrum import integrals_of_powers, rolled_off
+from ...laws.field.spectrum import (
+    FARTHEST,
+    NEAR_NODES,
+    integrals_of_powers,
+    near_nodes,
+    rolled_off,
+)
 from ...laws.field.table import ALPHAS, COLUMNS, rows_of, separations
 from ...numerics.chebyshev import chebyshev_transform
 from ...numerics.quadrature import gauss_legendre
@@ -42,10 +48,10 @@ BANDWIDTHS, WAVES = (2.8, 3.3, 4.4, 6.2, 8.4), 16
 where their panels do, and jump."""
 OF_STATE = (MOMENTS + 1) * (1 + 2 * TERMS)
 """k_n of particles, and series of two more in τ."""
+NOTHING_FELT = 2 * FARTHEST
+"""Distance from which on neither particles nor asperities feel each other, but as a whole."""
 FELT = 0.5
 """Of what series leave out in ground over σ: loads are some hundredths of E*g, at most tenths."""
-FARTHEST, FELT_NODES = 40.0, 40
-"""Distance up to which so many nodes do."""
 ROUGH_BANDWIDTHS, ROUGH_WAVES = (2.5, 2.8, 3.3, 4.4, 8.4, 15.0, 30.0), 8
 ROUGH_AT_ONCE = 64
 """Of samples that are solved roughly: cells over the bandwidth, nodes of series there, and states
@@ -115,14 +121,12 @@ class Displacements:
         Of states whose bandwidth has integrals of its own.
     tails : array (N,)
         What the series leave out, at most.
-    known : array (N,)
-        Whether a state has series: those without are no states of the kernel.
     """
 
-    def __init__(self, known: NDArray[np.bool_], terms: int):
-        self.series, self.basis = np.zeros((1, terms, OF_STATE)), np.zeros((len(known), terms))
-        self.which, self.alone = np.zeros(len(known), np.int64), np.zeros((1, OF_STATE))
-        self.known, self.tails = known, np.zeros(len(known))
+    def __init__(self, count: int, terms: int):
+        self.series, self.basis = np.zeros((1, terms, OF_STATE)), np.zeros((count, terms))
+        self.which, self.alone = np.zeros(count, np.int64), np.zeros((1, OF_STATE))
+        self.tails = np.zeros(count)
 
     def fill(
         self, states: Index, keys: list[tuple[float, int, int]], which: Index, basis: Array
@@ -151,18 +155,11 @@ class Displacements:
 def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
     """Of states with bandwidths α, or one, and distances over √(m0/m2) (N,)."""
     every = np.broadcast_to(np.asarray(alpha, float), len(apart))
-    if varies and is_rough():
-        together, finest = np.zeros(len(apart), bool), _nearby_waves(every).q[:, -1]
-    else:
-        together = (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1]) if varies else every > 0
-        finest = np.full(len(apart), rolled_off(BANDWIDTHS[-1] if varies else alpha).q.max())
-        for i in np.flatnonzero(~together):
-            finest[i] = rolled_off(float(every[i])).q.max()
-    known = apart * finest <= FARTHEST
-    if not known.any():
-        raise NotCompiled(SHORT)
-    out = Displacements(known, WAVES * NODES if varies else NODES)
-    few, many = np.flatnonzero(known & ~together), np.flatnonzero(known & together)
+    together = (apart < NOTHING_FELT) & ~(varies and is_rough())
+    if varies:
+        together &= (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1])
+    out = Displacements(len(apart), WAVES * NODES if varies else NODES)
+    few, many = np.flatnonzero(~together), np.flatnonzero(together)
     out.fill_alone(few, every[few], apart[few])
     if not len(many):
         return out
@@ -277,17 +274,34 @@ def _numbers(alpha: float, apart: float) -> Array:
 
 
 def _rows_of(waves: Waves, apart: Array) -> Array:
-    """k_n of particles, and series in τ of the others, of states: (N, 429)."""
+    """k_n of particles, and series in τ of the others, of states: (N, 429).
+
+    Each with as many nodes as its distance asks.
+    """
+    out = np.empty((len(apart), OF_STATE))
+    nodes = near_nodes(np.minimum(apart, FARTHEST) * waves.q[:, -1])
+    nodes[apart >= NOTHING_FELT] = 0
+    for count in np.unique(nodes).tolist():
+        some = np.flatnonzero(nodes == count)
+        for few in np.array_split(some, 1 + len(some) * count // (ROUGH_AT_ONCE * NEAR_NODES)):
+            out[few] = _rows_by_nodes(Waves(*(v[few] for v in waves)), apart[few], count)
+    return out
+
+
+def _rows_by_nodes(waves: Waves, apart: Array, nodes: int) -> Array:
+    """The same, with so many nodes; without any, where nothing is left of what others press."""
     _, transform = chebyshev_transform(TERMS)
     tau = _filters()[:, None]
     rest = 1 - tau
     first, second = (np.sum(waves.weight * waves.q**j, axis=1)[:, None, None] for j in (1, 2))
     norm = np.sqrt(rest * rest + 2 * rest * tau * first + tau * tau * second)
-    plain, _, weight = _near_correlations(waves, apart)
-    near = integrals_of_powers(plain, weight, MOMENTS)
-    plain, once, weight = _near_correlations(waves, 0.5 * apart)
-    mixed = (rest * plain[:, None] + tau * once[:, None]) / norm
-    other = integrals_of_powers(mixed, weight[:, None], MOMENTS)
+    near, other = waves.particles.copy(), waves.others.copy()
+    if nodes:
+        plain, _, weight = _near_correlations(waves, apart, nodes)
+        near = integrals_of_powers(plain, weight, MOMENTS)
+        plain, once, weight = _near_correlations(waves, 0.5 * apart, nodes)
+        mixed = (rest * plain[:, None] + tau * once[:, None]) / norm
+        other = integrals_of_powers(mixed, weight[:, None], MOMENTS)
     near[:, 0], other[:, :, 0] = apart, 0.5 * apart[:, None]
     rows = transform @ (waves.others - other), transform @ waves.others
     count = len(apart)
@@ -301,10 +315,10 @@ def _filters() -> Array:
     return 0.5 * (1 + x)
 
 
-def _near_correlations(waves: Waves, r: Array) -> tuple[Array, Array, Array]:
+def _near_correlations(waves: Waves, r: Array, nodes: int) -> tuple[Array, Array, Array]:
     """∫C J_0 and ∫C q J_0 at the nodes of an integral up to r (N,), and their weights: (N, R)."""
-    at, weight = gauss_legendre(FELT_NODES)
-    r = 0.5 * r[:, None]
+    at, weight = gauss_legendre(nodes)
+    r = 0.5 * np.minimum(r, FARTHEST)[:, None]
     bessel = j0((r * (1 + at))[:, :, None] * waves.q[:, None])
     plain = np.einsum("nrq,nq->nr", bessel, waves.weight)
     once = np.einsum("nrq,nq->nr", bessel, waves.weight * waves.q)

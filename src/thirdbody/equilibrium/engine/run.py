@@ -31,9 +31,8 @@ AT_ONCE = 256
 NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
 SQUEEZED = "particles are squeezed by more than their size on a field of heights"
-NO_SERIES = "the ground of such large particles on a field of heights is not known"
 NO_TABLE = "its bandwidth is outside the table of the law field"
-DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_SERIES, NO_TABLE)
+DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG, SQUEEZED, NO_TABLE)
 """Why a state is for the NumPy engine to judge."""
 CODES = {
     f.UNSOLVED: NOT_BALANCED,
@@ -42,7 +41,6 @@ CODES = {
     f.NOT_RESOLVED: NOT_RESOLVED,
     f.TOO_LONG: TOO_LONG,
     f.SQUEEZED: SQUEEZED,
-    f.NO_SERIES: NO_SERIES,
     f.NO_TABLE: NO_TABLE,
 }
 
@@ -51,6 +49,8 @@ AGAIN = f.NOT_RESOLVED, f.NOT_MONOTONE, f.UNSOLVED
 """What may become of samples that are solved roughly, for which more care may find a state."""
 CLEARLY = 0.999
 """Part of a load that is carried at most where it is too much for sure."""
+LIFTED = 0.02
+"""How far particles that are few may pull the ground of asperities below its separations [σ]."""
 ROUGH = 1e-6
 """Estimated error that does for one of many samples."""
 
@@ -102,7 +102,7 @@ def own_columns(
 
 
 def lowest_separations(contact: Contact, arrays: Mapping[str, Array], count: int) -> Array:
-    """Separations d [m] below which the models of asperities of contacts (N,) end.
+    """Separations d [m] below which the models of asperities of contacts (N,) end, or little above.
 
     Raises
     ------
@@ -110,7 +110,8 @@ def lowest_separations(contact: Contact, arrays: Mapping[str, Array], count: int
         Models that the kernel does not know.
     """
     numbers = Numbers(contact, arrays, count)
-    return np.asarray(numbers.origin + numbers.skins[:, 0, f.SIGMA_S] * numbers.deepest)
+    deepest = numbers.deepest + (LIFTED if numbers.ground is not None else 0.0)
+    return np.asarray(numbers.origin + numbers.skins[:, 0, f.SIGMA_S] * deepest)
 
 
 def solve(
@@ -123,8 +124,6 @@ def solve(
     goal = np.array(np.broadcast_to(0.0 if target is None else target, count), dtype=float)
     evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
-    if numbers.ground is not None:
-        fate[~numbers.ground.displacements.known] = f.NO_SERIES
     samples = is_rough()  # threads do not see that
 
     def solve_from(start: int) -> None:

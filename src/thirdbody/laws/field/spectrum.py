@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.special import j0
@@ -38,6 +38,8 @@ WIGNER = 3.900
 """Of 1/r on a square lattice in a neutralising background."""
 STRAIGHT = 4.0
 """|t| beyond which heights that are not Gaussian are taken for straight."""
+NEAR_NODES = 40
+"""Nodes, and waves up to the end in units of 1/q, up to which so many do."""
 FARTHEST = 80.0
 """Distance at which ρ is cut: what lies beyond is 1e-5 of k_2 and nothing of k_1."""
 
@@ -151,9 +153,10 @@ class Spectrum:
 
         n = 0 stands for −r, the part of the nominal area from which others are kept.
         """
-        at, weight = gauss_legendre(40)
-        near = 0.5 * r * (1 + at)
-        weight = 0.5 * r * weight
+        at, weight = gauss_legendre(int(near_nodes(r * self.q.max())))
+        half = 0.5 * min(r, self.farthest)  # beyond, there is nothing to leave out
+        near = half * (1 + at)
+        weight = half * weight
         plain, once, _ = self.correlations(near)
         plain_integrals = integrals_of_powers(
             self._at_nodes[0], self._weights, count
@@ -174,6 +177,11 @@ class Spectrum:
         a = 1 - tau
         norm = a * a + 2 * a * tau * self.mean(1) + tau * tau * self.mean(2)
         return np.asarray((a * plain + tau * once) / np.sqrt(norm))
+
+
+def near_nodes(phase: Array | float) -> Any:
+    """How many nodes integrals of J_0(qr) up to r need, for the largest qr."""
+    return NEAR_NODES * 2 ** np.ceil(np.log2(np.maximum(phase / NEAR_NODES, 1.0))).astype(int)
 
 
 def integrals_of_powers(rho: Array, weight: Array, count: int) -> Array:
