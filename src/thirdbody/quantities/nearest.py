@@ -70,8 +70,8 @@ def nearest_word(word: str, options: Iterable[str], *, cutoff: float = 0.6) -> s
 def _words(text: str) -> list[str]:
     """The words of a name or of a meaning, without its unit and an example."""
     plain = re.sub(r"\[.*?\]", " ", text.partition(", e.g.")[0]).replace("'", "").replace("’", "")
-    found = re.findall(r"[^\W\d_]{3,}", plain.casefold())
-    return [word for word in found if word not in SMALL_WORDS]
+    every = re.findall(r"[^\W\d_]{3,}", plain.casefold())
+    return [word for word in every if word not in SMALL_WORDS]
 
 
 def _likeness(word: str, other: str) -> float:

@@ -105,12 +105,12 @@ def draw(panel: Panel, subtitle: str = "") -> Figure:
     figure.text(0.02, 1 - 0.35 / high, as_mathtext(subtitle), va="center", **small)
     figure.text(0.02, 0.07 / high, panel.note, va="bottom", linespacing=1.25, **small)
     _legend(figure, panel, styles)
-    if not _drawn(panel):
+    if not _lines_to_see(panel):
         grid[0].text(0.5, 0.5, "none in this reading", transform=grid[0].transAxes, ha="center")
     return figure
 
 
-def _drawn(panel: Panel) -> list[Line]:
+def _lines_to_see(panel: Panel) -> list[Line]:
     """The lines of which anything can be seen."""
     return [line for line in panel.lines if any(np.isfinite(y).any() for y in line.ys)]
 
@@ -203,7 +203,7 @@ def _key(label: str, **style: Any) -> Artist:
 
 def _key_of_sizes(panel: Panel, styles: Styles) -> list[Artist]:
     keys = []
-    for value in sorted({line.by for line in _drawn(panel)}):
+    for value in sorted({line.by for line in _lines_to_see(panel)}):
         colour, marker = styles[value]
         if value == 0:
             keys.append(_key("no particles", color=colour, linewidth=4.5))
@@ -215,7 +215,7 @@ def _key_of_sizes(panel: Panel, styles: Styles) -> list[Artist]:
 
 def _key_of_widths(panel: Panel) -> list[Artist]:
     """The sizes of thin and of wide lines, where both are drawn."""
-    sizes = {line.thin: line.x_a for line in _drawn(panel)}
+    sizes = {line.thin: line.x_a for line in _lines_to_see(panel)}
     if len(sizes) < 2:
         return []
     return [
@@ -225,13 +225,13 @@ def _key_of_widths(panel: Panel) -> list[Artist]:
 
 
 def _key_of_materials(panel: Panel) -> list[Artist]:
-    drawn = {line.material for line in _drawn(panel)}
+    materials = {line.material for line in _lines_to_see(panel)}
     style: dict[str, object] = dict(color="black", linewidth=1.4, marker="o", markersize=4.5)
     keys = {
         SILICA: _key("SiO$_2$ (dust)", linestyle="-", markerfacecolor="black", **style),
         STEEL: _key("S45C (wear debris)", linestyle=(0, (4, 2)), markerfacecolor="white", **style),
     }
-    return [key for material, key in keys.items() if material in drawn]
+    return [key for material, key in keys.items() if material in materials]
 
 
 def _key_of_quotes(panel: Panel, styles: Styles) -> list[Artist]:
@@ -254,8 +254,8 @@ def _key_of_quotes(panel: Panel, styles: Styles) -> list[Artist]:
             cross: dict[str, object] = dict(
                 linestyle="none", marker="+" if mark.dashed else "x", markersize=7, mew=1.6
             )
-            values = [each.y for each in marks if each.y is not None]
-            numbers = ", ".join(_power(y) if panel.ylog else f"{y:g}" for y in values)
+            quoted = [point.y for point in marks if point.y is not None]
+            numbers = ", ".join(_power(y) if panel.ylog else f"{y:g}" for y in quoted)
             keys.append(_key(f"{label}: {numbers}", color=colour, **cross))
         else:
             if looks[mark.by, mark.dashed] > 1 and isinstance(mark.x, float):

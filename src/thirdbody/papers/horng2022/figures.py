@@ -195,10 +195,10 @@ def _nowhere(lines: Sequence[Line]) -> str:
             empty.setdefault(line.x_a, []).append(line.material.replace("2", "₂"))
     if not empty:
         return ""
-    each = (
+    sizes = (
         f"{x_a:g} nm" + f" {names[0]}" * (len(names) < len(BOTH)) for x_a, names in empty.items()
     )
-    return f"\nNone at all for {', '.join(each)}."
+    return f"\nNone at all for {', '.join(sizes)}."
 
 
 def _critical(
