@@ -329,10 +329,14 @@ class _Work:
             except NotCompiled:
                 return
             seconds = min(seconds, (time.monotonic() - start) / few)
-        if not alone:  # so few are solved by one thread
-            seconds /= threads()
         states = count * len(held) + CRITICAL_COST * self.critical
         items = [(states, seconds, "states")]
+        if not alone:  # so few are solved by one thread, and what decides is sought so, too
+            changed = self.ends + self.ways
+            items = [
+                (states, seconds / threads(), "states"),
+                (changed, CRITICAL_COST * seconds, "changes of one input"),
+            ]
         if outputs and not alone:
             dearer = _seconds_of_outputs(contact, load, held[0], points)
             items.append((outputs, dearer, "states with outputs"))
@@ -379,8 +383,8 @@ SLOPES, HALVED = 8, 2
 """Contacts of the derivatives with one input, and of the mean search for a change of mode."""
 ALONE, TOGETHER, CRITICAL_COST, EVALUATED = 2, 24, 6, 20
 """States of costly contacts by which those of all are priced; states with outputs, so many that
-they are solved as many are; what the critical loads of a sample take, in states, and at how many
-they are found, most of one contact side by side."""
+they are solved as many are; what the critical loads of a sample, or of a change, take, in states,
+and at how many they are found, most of one contact side by side."""
 EACH_COSTLY = 10
 """As EACH, where each contact takes tables of its own."""
 
