@@ -335,7 +335,7 @@ class _Work:
             changed = self.ends + self.ways
             items = [
                 (states, seconds / threads(), "states"),
-                (changed, CRITICAL_COST * seconds, "changes of one input"),
+                (changed, CHANGE_COST * seconds, "changes of one input"),
             ]
         if outputs and not alone:
             dearer = _seconds_of_outputs(contact, load, held[0], points)
@@ -383,8 +383,10 @@ SLOPES, HALVED = 8, 2
 """Contacts of the derivatives with one input, and of the mean search for a change of mode."""
 ALONE, TOGETHER, CRITICAL_COST, EVALUATED = 2, 24, 6, 20
 """States of costly contacts by which those of all are priced; states with outputs, so many that
-they are solved as many are; what the critical loads of a sample, or of a change, take, in states,
-and at how many they are found, most of one contact side by side."""
+they are solved as many are; what the critical loads of a sample take, in states, and at how many
+they are found, most of one contact side by side."""
+CHANGE_COST = 10
+"""States that a change of one input takes, few at a time: 1 to 30 where it was measured."""
 EACH_COSTLY = 10
 """As EACH, where each contact takes tables of its own."""
 
