@@ -704,7 +704,7 @@ def test_threads_share_the_states_that_are_promised_and_no_changes(many, monkeyp
     assert solved == [few, few]  # by the first the engine may be loaded
     assert states == (256 + 6 * 256, pytest.approx(1 / few / many), "states")
     assert changes[0] > 0
-    assert changes[1:] == (pytest.approx(10 / few), "changes of one input")
+    assert changes[1] == pytest.approx(10 / few)
 
 
 @pytest.mark.skipif(not available(), reason="where numba is installed")
@@ -756,7 +756,6 @@ def test_what_outputs_cost_is_in_the_cost_that_is_told_first(monkeypatch):
     assess(contact, vary=load_alone, F_star=1e-5, samples=64, progress=Told("assess"))
     states, changes, with_outputs = told[0]
     assert states[::2] == (64 + 6 * 64, "states")
-    assert changes[2] == "changes of one input"
     assert with_outputs[0] == 64
     assert with_outputs[1] > states[1] > 0
 
