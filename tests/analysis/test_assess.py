@@ -754,7 +754,7 @@ def test_what_outputs_cost_is_in_the_cost_that_is_told_first(monkeypatch):
     load_alone = {"surfaces.first.H": (4e9, 6e9)}
     contact = DUSTY.replace(outputs=(tb.outputs.Friction(tau_ss=5e8, tau_sa=5e8),))
     assess(contact, vary=load_alone, F_star=1e-5, samples=64, progress=Told("assess"))
-    states, changes, with_outputs = told[0]
+    states, _, with_outputs = told[0]
     assert states[::2] == (64 + 6 * 64, "states")
     assert with_outputs[0] == 64
     assert with_outputs[1] > states[1] > 0
