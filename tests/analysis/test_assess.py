@@ -1,6 +1,7 @@
 """The page for an engineer: its numbers, its sentences, its bytes."""
 
 import html
+import itertools
 import json
 import math
 import os
@@ -674,6 +675,73 @@ def test_the_cost_of_the_samples_is_told_before_them_and_how_far_they_are(monkey
     assert parts[0] < 0.2 < 0.9 < parts[-1]
 
 
+class Enough(Exception):
+    """What a test asks of the beginning of a long work, which ends here."""
+
+
+@pytest.mark.skipif(not available(), reason="where numba is installed")
+@pytest.mark.parametrize("many", [1, 4])
+def test_threads_share_the_states_that_are_promised_and_no_changes(many, monkeypatch):
+    """A clock that goes on by a second whenever it is read: a state takes a second over LEAST."""
+    module = "thirdbody.analysis.assess"
+    ticks = itertools.count()
+
+    class Told(progress.Stages):
+        def cost(self, *items):
+            raise Enough(items)
+
+    told = Told("assess")
+    solved = []
+    monkeypatch.setattr(f"{module}.threads", lambda: many)
+    monkeypatch.setattr(f"{module}.columns_at", lambda *args, **named: solved.append(args[-1]))
+    monkeypatch.setattr(f"{module}.time.monotonic", lambda: float(next(ticks)))
+    with pytest.raises(Enough) as heard:
+        assess(
+            DUSTY, vary={"roughness.sigma": (8e-8, 1.2e-7)}, F_star=1e-5, samples=256, progress=told
+        )
+    ((states, changes),) = heard.value.args
+    few = solved[-1]
+    assert solved == [few, few]  # by the first the engine may be loaded
+    assert states == (256 + 6 * 256, pytest.approx(1 / few / many), "states")
+    assert changes[0] > 0
+    assert changes[1] == pytest.approx(10 / few)
+
+
+@pytest.mark.skipif(not available(), reason="where numba is installed")
+@pytest.mark.parametrize(
+    ("changed", "of_samples", "of_changes"),
+    [
+        ({}, False, True),
+        ({"asperity_law": tb.asperity.Field()}, False, False),
+        (
+            {"particles.strength": tb.grains.WeibullStrength(sigma_0=1e8, x_0=3e-7, m=3.0)},
+            True,
+            True,
+        ),
+    ],
+    ids=["few states", "one field of heights", "tables of their own"],
+)
+def test_contacts_are_announced_where_they_are_bound_one_by_one(changed, of_samples, of_changes):
+    class Told(progress.Stages):
+        def expect(self, contacts):
+            raise Enough(contacts)
+
+    vary = {"roughness.sigma": (8e-8, 1.2e-7)}
+    expected = {}
+    for count in (64, 128):
+        with pytest.raises(Enough) as heard:
+            assess(
+                DUSTY.replace(**changed),
+                vary=vary,
+                F_star=1e-5,
+                samples=count,
+                progress=Told("assess"),
+            )
+        (expected[count],) = heard.value.args
+    assert expected[128] - expected[64] == (64 if of_samples else 0)
+    assert (expected[64] - (64 if of_samples else 0) > 0) == of_changes
+
+
 @pytest.mark.skipif(not available(), reason="where numba is installed")
 def test_what_outputs_cost_is_in_the_cost_that_is_told_first(monkeypatch):
     monkeypatch.setattr(progress, "LONG", 0.0)
@@ -686,7 +754,7 @@ def test_what_outputs_cost_is_in_the_cost_that_is_told_first(monkeypatch):
     load_alone = {"surfaces.first.H": (4e9, 6e9)}
     contact = DUSTY.replace(outputs=(tb.outputs.Friction(tau_ss=5e8, tau_sa=5e8),))
     assess(contact, vary=load_alone, F_star=1e-5, samples=64, progress=Told("assess"))
-    (states, with_outputs) = told[0]
+    states, _, with_outputs = told[0]
     assert states[::2] == (64 + 6 * 64, "states")
     assert with_outputs[0] == 64
     assert with_outputs[1] > states[1] > 0

@@ -17,7 +17,13 @@ import thirdbody as tb
 from thirdbody.cli.commands import COMMANDS
 from thirdbody.cli.options import parameters_of
 from thirdbody.cli.own_files import need_places
-from thirdbody.quantities.files import need_folders, refuse_clashes, whole, write_text
+from thirdbody.quantities.files import (
+    hindrance_of_folder,
+    need_folders,
+    refuse_clashes,
+    whole,
+    write_text,
+)
 from thirdbody.study import run_film
 from thirdbody.study.analyses import design_study
 from thirdbody.study.dirty_oil import dirty_oil
@@ -398,6 +404,13 @@ def test_a_folder_that_cannot_be_made_is_told_before_the_work(tmp_path, words):
     done = run(*words, "--out", tmp_path / "file" / "o")
     assert done.exit_code == 2
     assert done.stderr.count("error:") == 1
+
+
+def test_a_folder_is_taken_whatever_lies_in_it(tmp_path):
+    (tmp_path / "a").mkdir()
+    before = contents(tmp_path)
+    assert hindrance_of_folder(tmp_path) == hindrance_of_folder(tmp_path / "new") == ""
+    assert contents(tmp_path) == before
 
 
 # ---------------------------------------------------------------- drafts

@@ -330,3 +330,45 @@ def test_panels_of_every_reading_can_be_drawn(name):
 
     for reading in ("literal", "series-plane"):
         draw(PANELS[name](Curves(READINGS[reading]))).canvas.draw()
+
+
+@pytest.mark.parametrize("name", ["5", "9a", "9b", "12a"])
+@pytest.mark.parametrize("reading", ["published", "series-plane"])
+def test_the_legend_names_what_is_drawn_and_nothing_else(name, reading):
+    from thirdbody.papers.horng2022.drawing import draw
+
+    panel = PANELS[name](Curves(READINGS[reading]))
+    figure = draw(panel)
+    (legend,) = figure.legends
+    held = [text.get_text() for text in legend.get_texts()]
+    seen = {line.by for line in panel.lines if np.isfinite(line.ys[0]).any()} - {0}
+    every = {line.by for line in panel.lines} - {0}
+    assert {by for by in every if f"{by:g}" in held} == seen
+    # points of the paper: their numbers are in the legend, and none lies in the picture
+    assert not figure.axes[0].texts or not seen or panel.name == "5"
+    for mark in panel.marks:
+        if mark.y is not None:
+            (label,) = [text for text in held if text.startswith(f"{mark.label}: ")]
+            mantissa = f"{mark.y:.2e}".split("e")[0] if panel.ylog else f"{mark.y:g}"
+            assert f"{float(mantissa):g}" in label
+
+
+@pytest.mark.parametrize("name", ["3a", "3b", "5", "6b", "9a", "9b", "10c", "12a"])
+def test_what_the_paper_quotes_is_told_apart_in_the_legend(name):
+    """By its form, its colour, or its number."""
+    from matplotlib.lines import Line2D
+
+    from thirdbody.papers.horng2022.drawing import draw
+
+    (legend,) = draw(PANELS[name](Curves(READINGS["series-plane"]))).legends
+    labels = [text.get_text() for text in legend.get_texts()]
+    looks = {}
+    for handle, label in list(zip(legend.legend_handles, labels, strict=True))[
+        labels.index("quoted in the paper") + 1 :
+    ]:
+        if isinstance(handle, Line2D):
+            look = handle.get_marker(), handle.get_linestyle(), handle.get_color()
+            looks.setdefault(look, []).append(label)
+    for alike in looks.values():
+        assert len(alike) == 1 or all(r"\times10" in label for label in alike)
+    assert all(len(alike) == 1 for look, alike in looks.items() if look[0] in {"x", "+"})

@@ -58,6 +58,8 @@ def test_sensitivity_names_its_own_argument():
         ("sigma", "roughness.sigma"),
         ("particles.mean", "particles.diameter.mean"),
         ("surfaces.first.conductivity", "surfaces.first.thermal_conductivity"),
+        ("surfaces.first.hardnes", "surfaces.first.H"),
+        ("roughness.rms", "roughness.sigma"),
         ("particles.0.mean", "particles.diameter.mean"),
         ("surfaces.first", None),
     ],
@@ -68,6 +70,77 @@ def test_the_input_that_was_meant(name, meant):
     except tb.errors.InvalidValue as error:
         hint = error.problems[0].hint
         assert hint == ("" if meant is None else f"did you mean {meant!r}?")
+
+
+BY_MEANING = {
+    "first": {
+        "hardnes": "H",
+        "hardness": "H",
+        "youngs_modulus": "E",
+        "modulus": "E",
+        "poison": "nu",
+        "poissons_ratio": "nu",
+        "toughness": "K_c",
+        "conductivity": "thermal_conductivity",
+        "heat": "specific_heat",
+        "mass_density": "density",
+        "colour": None,
+    },
+    "roughness": {
+        "roughness": "sigma",
+        "rms_roughnes": "sigma",
+        "radius": "R",
+        "tip_radius": "R",
+        "asperity_density": "eta",
+        "bandwidth": "alpha",
+    },
+    "particles": {"density": "areal_density", "number_density": "areal_density"},
+}
+"""Names that somebody may write who does not know the symbol, and what is meant."""
+MADE_BY_HAND = {
+    "first": (tb.Material, dict(E=205e9, nu=0.29, H=5e9)),
+    "roughness": (tb.Roughness, dict(sigma=1e-7, R=2e-6)),
+    "particles": (
+        tb.Particles,
+        dict(
+            material=tb.materials["SiO2"],
+            areal_density=1e11,
+            diameter=tb.Monodisperse(mean=3e-7),
+        ),
+    ),
+}
+IN_A_FILE = {
+    "first": 'E = "205 GPa"\nnu = 0.29\nH = "5 GPa"',
+    "roughness": 'sigma = "100 nm"\nR = "2 um"',
+    "particles": 'material = "SiO2"\ndistribution = "monodisperse"\nmean = "300 nm"\n'
+    'areal_density = "1e11 / m^2"',
+}
+
+
+@pytest.mark.parametrize(
+    ("table", "name", "meant"),
+    [(table, *pair) for table, pairs in BY_MEANING.items() for pair in pairs.items()],
+)
+def test_a_symbol_is_known_by_what_it_means(table, name, meant, tmp_path):
+    kind, values = MADE_BY_HAND[table]
+    with pytest.raises(tb.errors.InvalidValue) as told:
+        kind(**values, **{name: 1.0})
+    assert [problem.meant for problem in told.value.problems] == [meant]
+    if meant in values:  # instead of it: nothing is missing, too
+        with pytest.raises(tb.errors.InvalidValue) as told:
+            kind(**{key: values[key] for key in values if key != meant}, **{name: 1.0})
+        assert [problem.meant for problem in told.value.problems] == [meant]
+    path = "surfaces.first" if table == "first" else table
+    text = 'surfaces.second = "S45C"\n[load]\npressure = "5 MPa"\n'
+    for head, lines in IN_A_FILE.items():
+        text += f"[{'surfaces.first' if head == 'first' else head}]\n{lines}\n"
+        text += f"{name} = 1.0\n" * (head == table)
+    file = tmp_path / "study.toml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(tb.errors.InvalidValue) as told:
+        tb.load_study(file)
+    (problem,) = told.value.problems
+    assert (problem.path, problem.meant) == (f"{path}.{name}", meant)
 
 
 def test_a_mistake_keeps_its_parts():

@@ -324,7 +324,9 @@ def test_wrong_dimension_of_a_load(problems):
 @pytest.mark.parametrize("value", ["0", "-0.5", '"-100 nm"', '"0 nm"'])
 def test_negative_and_zero_lengths(problems, value):
     found = problems(('sigma = "100 nm"', f"sigma = {value}"))
-    likely = "minus sign" if "-" in value else "it is the RMS of equivalent surface heights"
+    likely = (
+        "minus sign" if "-" in value else "it is the RMS roughness of equivalent surface heights"
+    )
     only(found, f"roughness.sigma = {value} must be > 0 [m]", likely)
 
 

@@ -329,10 +329,14 @@ class _Work:
             except NotCompiled:
                 return
             seconds = min(seconds, (time.monotonic() - start) / few)
-        if not alone:  # so few are solved by one thread
-            seconds /= threads()
         states = count * len(held) + CRITICAL_COST * self.critical
         items = [(states, seconds, "states")]
+        if not alone:  # so few are solved by one thread, and what decides is sought so, too
+            changed = self.ends + self.ways
+            items = [
+                (states, seconds / threads(), "states"),
+                (changed, CHANGE_COST * seconds, "changes of one input"),
+            ]
         if outputs and not alone:
             dearer = _seconds_of_outputs(contact, load, held[0], points)
             items.append((outputs, dearer, "states with outputs"))
@@ -381,6 +385,8 @@ ALONE, TOGETHER, CRITICAL_COST, EVALUATED = 2, 24, 6, 20
 """States of costly contacts by which those of all are priced; states with outputs, so many that
 they are solved as many are; what the critical loads of a sample take, in states, and at how many
 they are found, most of one contact side by side."""
+CHANGE_COST = 10
+"""States that a change of one input takes, few at a time: 1 to 30 where it was measured."""
 EACH_COSTLY = 10
 """As EACH, where each contact takes tables of its own."""
 

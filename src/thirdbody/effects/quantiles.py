@@ -63,8 +63,8 @@ FEW_NODES, NODES = 6, 14
 """Of a panel, where a value is looked for, and where it is found."""
 NEAR = 3e-5
 """How near few nodes come, as `TOLERANCE`."""
-AT_ONCE = 400_000
-"""Nodes that are summed together."""
+AT_ONCE = 100_000
+"""Nodes that are summed together, few enough for the caches."""
 
 
 class Values(NamedTuple):

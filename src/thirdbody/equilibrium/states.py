@@ -20,7 +20,7 @@ from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
 from ..quantities.progress import report_solved, watch_states, weigh_states
 from ..quantities.slips import warn_of_slip
-from ..quantities.value import paths_of
+from ..quantities.value import Value, meanings_of, paths_of
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
 from .crowding import is_crowded
@@ -240,9 +240,18 @@ def unknown_inputs(
             paths = known or list(paths_of(contact))
             above = name.rpartition(".")[0]
             beside = [path for path in paths if path.rpartition(".")[0] == above]
-            meant = near_path(name, paths)
+            meant = near_path(name, paths, _meanings_beside(contact, above))
             hint = guess("", beside or paths, meant=meant, show=repr, otherwise="the inputs are ")
             yield Problem(place, "is not an input", hint=hint, code=Mistake.UNKNOWN)
+
+
+def _meanings_beside(contact: Contact, path: str) -> dict[str, str]:
+    """What the fields of the value at a path are, where there is one."""
+    try:
+        owner = contact.value_at(path)
+    except InvalidValue:
+        return {}
+    return meanings_of(owner, f"{path}.") if path and isinstance(owner, Value) else {}
 
 
 def _columns(

@@ -197,6 +197,7 @@ NUMBERS = {
 }
 """The quantities of a material, as entries of the library spell them."""
 
+_MEANINGS = {name: about["meaning"] for name, about in NUMBERS.items()}
 _NEEDED = ("E", "nu", "H", "source")
 _WORDS = ("about", "kind", "source", "doi", "standing", "measured")
 
@@ -426,7 +427,8 @@ def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, 
             problems.append(
                 Problem(
                     "",
-                    f"{where}.{key} is not a known key; {guess(key, allowed_keys)}",
+                    f"{where}.{key} is not a known key; "
+                    + guess(key, allowed_keys, meanings=_MEANINGS),
                     code=Mistake.UNKNOWN,
                 )
             )

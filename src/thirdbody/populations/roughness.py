@@ -65,7 +65,11 @@ class Roughness(Value):
     """
 
     sigma: float = quantity(
-        "σ", "m", "RMS of equivalent surface heights", gt=0, hint="nm are 100e-9 or '100 nm'"
+        "σ",
+        "m",
+        "RMS roughness of equivalent surface heights",
+        gt=0,
+        hint="nm are 100e-9 or '100 nm'",
     )
     R: float = quantity("R", "m", "mean asperity radius", gt=0, hint="µm are 2.8e-6 or '2.8 um'")
     alpha: float = quantity("α", "1", "Nayak bandwidth", default=5.0, gt=1.5)

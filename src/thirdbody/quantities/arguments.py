@@ -321,6 +321,7 @@ def misfits(
                     name,
                     names,
                     meant=SPOKEN[name] if SPOKEN.get(name) in names else None,
+                    meanings={name: _declared_meaning(function, name) for name in names},
                     otherwise="it takes ",
                 ),
                 code=Mistake.UNKNOWN,
@@ -393,18 +394,25 @@ def _missing(
 
 def _meaning(function: Callable[..., object], name: str) -> str:
     """What an argument is: as its quantity declares it, else as the docstring says."""
-    field = getattr(function, "__dataclass_fields__", {}).get(name)
-    metadata = getattr(field, "metadata", {})
-    if about := metadata.get("quantity"):
-        return f": {words_of_quantity(name, about)}"
-    if about := metadata.get("choice") or metadata.get("several"):
-        return f": {about['meaning']}" + (f" [{about['unit']}]" if "unit" in about else "")
+    if declared := _declared_meaning(function, name):
+        return f": {declared}"
     entries = entries_of(inspect.getdoc(function) or "").items()
     kind, words = next((entry for names, entry in entries if name in names.split(", ")), ("", ""))
     about = re.split(r"[.:;](?:\s|$)", words.replace("`", ""), maxsplit=1)[0] or kind
     if len(about) > LONGEST_MEANING:
         about = about.partition(", ")[0]
     return f": {about}" if about else ""
+
+
+def _declared_meaning(function: Callable[..., object], name: str) -> str:
+    """What a field of a class declares an argument to be; "" where it does not."""
+    field = getattr(function, "__dataclass_fields__", {}).get(name)
+    metadata = getattr(field, "metadata", {})
+    if about := metadata.get("quantity"):
+        return words_of_quantity(name, about)
+    if about := metadata.get("choice") or metadata.get("several"):
+        return f"{about['meaning']}" + (f" [{about['unit']}]" if "unit" in about else "")
+    return ""
 
 
 def words_of_quantity(name: str, about: Mapping[str, object]) -> str:

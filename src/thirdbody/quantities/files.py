@@ -376,7 +376,7 @@ def hindrance_of_folder(folder: str | os.PathLike[str]) -> str:
         place = place.parent
     if not place.is_dir():
         return f"{place} is a file; give the name of a folder"
-    return hindrance(place / "a")
+    return hindrance(_draft(place / "a"))  # a name that nothing there has
 
 
 def write_text(path: str | os.PathLike[str], text: str, *, tidy: bool = True) -> None:

@@ -38,6 +38,7 @@ __all__ = [
     "choice",
     "count_field",
     "items_of",
+    "meanings_of",
     "paths_of",
     "quantity",
     "sequences",
@@ -495,10 +496,21 @@ def _taker(member: object) -> object:
 
 
 def _no_field(value: Value, name: str, names: Iterable[str]) -> Problem:
-    hint = guess(name, sorted(names), show=repr, otherwise="it has ")
+    meanings = meanings_of(value)
+    hint = guess(name, sorted(names), meanings=meanings, show=repr, otherwise="it has ")
     return Problem(
         "", f"has no field {name!r}", hint=hint, owner=type(value).__name__, code=Mistake.UNKNOWN
     )
+
+
+def meanings_of(value: Value, prefix: str = "") -> dict[str, str]:
+    """What the class of a value declares its numbers and words to be, by their dotted names."""
+    return {
+        f"{prefix}{name}": about["meaning"]
+        for name, *declared in _declarations(type(value))  # type: ignore[arg-type]
+        for about in declared
+        if about
+    }
 
 
 def paths_of(value: Value, prefix: str = "") -> Iterator[str]:

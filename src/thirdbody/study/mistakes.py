@@ -115,10 +115,7 @@ class Known:
             return not_known(
                 hint=Guess(f"there are several {several}: did you mean {meant}?", meant)
             ), None
-        if meant is None and len(key) > 2:
-            word = key.lower().replace("_", " ")
-            meanings = {name: about.partition(", e.g.")[0] for name, about in keys_here.items()}
-            meant = next((name for name, text in meanings.items() if word in text.lower()), None)
+        meant = nearest_option(key, keys_here, keys_here)
         if meant is None and homes:
             return not_known(" here", f"it belongs to {_heading(homes[0])}"), None
         return not_known(hint=guess(key, keys_here, meant=meant)), meant

@@ -97,7 +97,8 @@ def field_of_input(
     if table == "particles" and "particles" not in whole:
         rule = f": there is no [particles] table, so {name} is no input"
         raise InvalidValue(Problem(where, rule, code=Mistake.BEYOND))
-    meant = near_path(name, numbers)
+    meanings = {path: about["meaning"] for path, (_, about) in numbers.items()}
+    meant = near_path(name, numbers, meanings)
     hint = guess("", listed, meant=meant, otherwise="it has ")
     raise InvalidValue(
         Problem(where, f": {name} is not a number of this study", hint=hint, code=Mistake.UNKNOWN)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ..populations.distributions import Distribution
 from ..populations.heights import Heights
@@ -38,8 +38,10 @@ ALSO_CALLED = {
 """Other words for distributions, to suggest the right one."""
 
 
-def nearest_option(word: str, options: Iterable[str]) -> str | None:
-    """The option that was probably meant."""
+def nearest_option(
+    word: str, options: Iterable[str], meanings: Mapping[str, str] = nearest.NO_MEANINGS
+) -> str | None:
+    """The option that was probably meant, by its spelling or by what it is said to be."""
     options = list(options)
     meant = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in options)
-    return nearest.nearest_word(next(meant, word), options)
+    return nearest.nearest_name(next(meant, word), options, meanings)

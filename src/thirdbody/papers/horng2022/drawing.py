@@ -2,12 +2,14 @@
 
 Colour and marker tell the particle size (the roughness in Figs. 5 and 11), filled markers on a
 full line are silica, open markers on a dashed line steel debris, and the broad grey line is the
-contact without particles. Numbers that the paper quotes stand beside dotted lines and crosses.
+contact without particles. Loads that the paper quotes are lines with their number above the axes;
+points are crosses, upright for steel debris, with their number in the legend.
 """
 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["as_mathtext", "draw"]
+
+THIN, WIDE = 0.7, 1.4
+"""Widths of lines, in points."""
 
 Styles = dict[float, tuple[str, str]]
 """Colour and marker by the size or roughness in nm."""
@@ -55,7 +60,7 @@ def _styles() -> dict[str, Styles]:
 def draw(panel: Panel, subtitle: str = "") -> Figure:
     """The panel as a matplotlib figure, without any global state."""
     from matplotlib.figure import Figure
-    from matplotlib.ticker import PercentFormatter
+    from matplotlib.ticker import MaxNLocator, PercentFormatter
 
     count = len(panel.ylabels)
     figure = Figure(figsize=(7.2, 4.6 if count == 1 else 5.9))
@@ -75,6 +80,10 @@ def draw(panel: Panel, subtitle: str = "") -> Figure:
             ax.set_xscale("log")
         if panel.ylog:
             ax.set_yscale("log")
+        else:
+            ax.yaxis.set_major_locator(MaxNLocator(steps=[1, 2, 5, 10]))
+        if not panel.xlog:
+            ax.xaxis.set_major_locator(MaxNLocator(steps=[1, 2, 5, 10]))
         for i, line in enumerate(panel.lines):
             _draw_line(ax, line, ordinate, styles, i, few=len(line.x) < 40)
         if panel.percent:
@@ -96,9 +105,14 @@ def draw(panel: Panel, subtitle: str = "") -> Figure:
     figure.text(0.02, 1 - 0.35 / high, as_mathtext(subtitle), va="center", **small)
     figure.text(0.02, 0.07 / high, panel.note, va="bottom", linespacing=1.25, **small)
     _legend(figure, panel, styles)
-    if all(np.isnan(y).all() for line in panel.lines for y in line.ys):
+    if not _lines_to_see(panel):
         grid[0].text(0.5, 0.5, "none in this reading", transform=grid[0].transAxes, ha="center")
     return figure
+
+
+def _lines_to_see(panel: Panel) -> list[Line]:
+    """The lines of which anything can be seen."""
+    return [line for line in panel.lines if any(np.isfinite(y).any() for y in line.ys)]
 
 
 def _draw_line(ax: Axes, line: Line, ordinate: int, styles: Styles, i: int, few: bool) -> None:
@@ -114,10 +128,10 @@ def _draw_line(ax: Axes, line: Line, ordinate: int, styles: Styles, i: int, few:
         line.ys[ordinate],
         color=colour,
         linestyle=(0, (4, 2)) if steel else "-",
-        linewidth=1.4,
-        marker=marker if line.marked else "",
+        linewidth=THIN if line.thin else WIDE,
+        marker=marker,
         markevery=1 if few else (start, step),
-        markersize=(6.5 if marker == "*" else 4.5) * (0.8 if few else 1),
+        markersize=(6.5 if marker == "*" else 4.5) * (0.8 if few or line.thin else 1),
         markerfacecolor="white" if steel else colour,
         markeredgewidth=0.9,
         zorder=3,
@@ -125,9 +139,6 @@ def _draw_line(ax: Axes, line: Line, ordinate: int, styles: Styles, i: int, few:
 
 
 def _draw_quoted(ax: Axes, panel: Panel, styles: Styles, numbers: bool) -> None:
-    from matplotlib.patheffects import withStroke
-
-    halo = [withStroke(linewidth=2.5, foreground="white")]
     if panel.band:
         x, low, high, _ = panel.band
         ax.fill_between(x, low, high, color=_styles()["size"][1000][0], alpha=0.18, linewidth=0)
@@ -139,18 +150,9 @@ def _draw_quoted(ax: Axes, panel: Panel, styles: Styles, numbers: bool) -> None:
             ax.axvspan(*mark.x, color=colour, alpha=0.13, linewidth=0, zorder=0.5)
             continue
         if mark.y is not None:
-            ax.plot(mark.x, mark.y, marker="x", color="black", markersize=9, zorder=5, mew=2.6)
-            ax.plot(mark.x, mark.y, marker="x", color=colour, markersize=8, zorder=5.1, mew=1.4)
-            ax.annotate(
-                _power(mark.y) if panel.ylog else f"{mark.y:g}",
-                (mark.x, mark.y),
-                xytext=(7, -3) if mark.left else (7, 3),
-                textcoords="offset points",
-                va="top" if mark.left else "bottom",
-                fontsize=8,
-                path_effects=halo,
-                zorder=6,
-            )
+            cross = "+" if mark.dashed else "x"
+            ax.plot(mark.x, mark.y, marker=cross, color="black", markersize=9, zorder=5, mew=3)
+            ax.plot(mark.x, mark.y, marker=cross, color=colour, markersize=7.6, zorder=5.1, mew=1.5)
             continue
         ax.axvline(mark.x, color=colour, linestyle="--" if mark.dashed else ":", linewidth=1.3)
         if numbers:
@@ -168,13 +170,15 @@ def _draw_quoted(ax: Axes, panel: Panel, styles: Styles, numbers: bool) -> None:
 
 
 def _legend(figure: Figure, panel: Panel, styles: Styles) -> None:
-    groups = {
-        ("$x_a$" if panel.by == "size" else r"$\sigma$") + " [nm]": _key_of_sizes(panel, styles),
-        "particles": _key_of_materials(panel),
-        "quoted in the paper": _key_of_quotes(panel, styles),
-    }
+    size, roughness = "$x_a$ [nm]", r"$\sigma$ [nm]"
+    groups = [
+        (size if panel.by == "size" else roughness, _key_of_sizes(panel, styles)),
+        (size, _key_of_widths(panel)),
+        ("particles", _key_of_materials(panel)),
+        ("quoted in the paper", _key_of_quotes(panel, styles)),
+    ]
     handles: list[Artist] = []
-    for header, keys in groups.items():
+    for header, keys in groups:
         if keys:
             handles += [_key(header, linestyle="none"), *keys]
     legend = figure.legend(
@@ -187,7 +191,7 @@ def _legend(figure: Figure, panel: Panel, styles: Styles) -> None:
         labelspacing=0.45,
     )
     for text in legend.get_texts():
-        if text.get_text() in groups:
+        if text.get_text() in [header for header, _ in groups]:
             text.set_fontweight("bold")
 
 
@@ -199,7 +203,7 @@ def _key(label: str, **style: Any) -> Artist:
 
 def _key_of_sizes(panel: Panel, styles: Styles) -> list[Artist]:
     keys = []
-    for value in sorted({line.by for line in panel.lines}):
+    for value in sorted({line.by for line in _lines_to_see(panel)}):
         colour, marker = styles[value]
         if value == 0:
             keys.append(_key("no particles", color=colour, linewidth=4.5))
@@ -209,34 +213,53 @@ def _key_of_sizes(panel: Panel, styles: Styles) -> list[Artist]:
     return keys
 
 
+def _key_of_widths(panel: Panel) -> list[Artist]:
+    """The sizes of thin and of wide lines, where both are drawn."""
+    sizes = {line.thin: line.x_a for line in _lines_to_see(panel)}
+    if len(sizes) < 2:
+        return []
+    return [
+        _key(f"{sizes[thin]:g}", color="black", linewidth=THIN if thin else WIDE)
+        for thin in (True, False)
+    ]
+
+
 def _key_of_materials(panel: Panel) -> list[Artist]:
-    drawn = {line.material for line in panel.lines}
+    materials = {line.material for line in _lines_to_see(panel)}
     style: dict[str, object] = dict(color="black", linewidth=1.4, marker="o", markersize=4.5)
     keys = {
         SILICA: _key("SiO$_2$ (dust)", linestyle="-", markerfacecolor="black", **style),
         STEEL: _key("S45C (wear debris)", linestyle=(0, (4, 2)), markerfacecolor="white", **style),
     }
-    return [key for material, key in keys.items() if material in drawn]
+    return [key for material, key in keys.items() if material in materials]
 
 
 def _key_of_quotes(panel: Panel, styles: Styles) -> list[Artist]:
-    """The band, each sort of mark once, and the levels."""
+    """The band, each sort of mark once with the numbers of points, and the levels."""
     from matplotlib.patches import Patch
 
     keys: list[Artist] = []
     if panel.band:
         keys.append(Patch(facecolor=_styles()["size"][1000][0], alpha=0.25, label=panel.band[3]))
-    first: dict[str, Mark] = {}
+    alike: dict[str, list[Mark]] = {}
     for mark in panel.marks:
-        first.setdefault(mark.label, mark)
-    for label, mark in first.items():
+        alike.setdefault(mark.label, []).append(mark)
+    looks = Counter((mark.by, mark.dashed) for mark in panel.marks if mark.y is None)
+    for label, marks in alike.items():
+        mark = marks[0]
         colour = "0.25" if mark.by is None else styles[mark.by][0]
         if isinstance(mark.x, tuple):
             keys.append(Patch(facecolor=colour, alpha=0.2, label=label))
         elif mark.y is not None:
-            cross: dict[str, object] = dict(linestyle="none", marker="x", markersize=7, mew=1.6)
-            keys.append(_key(label, color=colour, **cross))
+            cross: dict[str, object] = dict(
+                linestyle="none", marker="+" if mark.dashed else "x", markersize=7, mew=1.6
+            )
+            quoted = [point.y for point in marks if point.y is not None]
+            numbers = ", ".join(_power(y) if panel.ylog else f"{y:g}" for y in quoted)
+            keys.append(_key(f"{label}: {numbers}", color=colour, **cross))
         else:
+            if looks[mark.by, mark.dashed] > 1 and isinstance(mark.x, float):
+                label += f": {_power(mark.x)}"
             dash = "--" if mark.dashed else ":"
             keys.append(_key(label, color=colour, linestyle=dash, linewidth=1.3))
     for _, label in panel.levels:

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 BOTH = (SILICA, STEEL)
 ROUGHNESSES = (50, 100, 300, 500)
 SEPARATION_LOAD = 1e-5
-"""Load of Fig. 11, which the paper does not state."""
+"""Load of Fig. 11, which the paper does not state; its note says it."""
 
 LOAD = r"load $F_t^* = F_t/(A_n E_{ss})$ [1]"
 AREA = r"real area $A_t^* = A_t/A_n$ [1]"
@@ -41,7 +41,7 @@ class Line:
     ys: tuple[Array, ...]
     by: float
     """The size or roughness that colour and marker tell."""
-    marked: bool = True
+    thin: bool = False
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,9 @@ class Mark:
     y: float | None = None
     by: float | None = None
     dashed: bool = False
+    """A dashed line, or an upright cross: steel debris, or the second of two."""
     left: bool = False
-    """Write the number towards the left of the line, or below the point."""
+    """Write the number towards the left of the line."""
 
 
 @dataclass(frozen=True)
@@ -158,14 +159,14 @@ def _area_100(name: str, curves: Curves) -> Panel:
 
 def _two_sizes(name: str, curves: Curves) -> Panel:
     lines = [
-        replace(line, by=sigma, marked=x_a == 1000)
+        replace(line, by=sigma, thin=x_a == 25)
         for sigma in ROUGHNESSES
         for x_a in (25, 1000)
         for line in _over_load(curves, sigma, (x_a,), lambda c: c.A_t)
     ]
     return Panel(
         name,
-        "real contact area at 25 nm (no markers) and 1000 nm (markers)",
+        "real contact area at 25 nm and 1000 nm",
         ("F_star", "A_t"),
         LOAD,
         (AREA,),
@@ -184,6 +185,20 @@ TPCA_500 = Mark("turning point, 300 nm", 3.0e-6, by=300)
 
 CRITICAL_SIZES = (100, 300, 500, 1000)
 CRITICAL_ROUGHNESSES = (50, 75, 100, 150, 200, 300, 400, 500)
+
+
+def _nowhere(lines: Sequence[Line]) -> str:
+    """A line that names the particles of which no point is drawn; "" where each has one."""
+    empty: dict[float, list[str]] = {}
+    for line in lines:
+        if np.isnan(line.ys[0]).all():
+            empty.setdefault(line.x_a, []).append(line.material.replace("2", "₂"))
+    if not empty:
+        return ""
+    sizes = (
+        f"{x_a:g} nm" + f" {names[0]}" * (len(names) < len(BOTH)) for x_a, names in empty.items()
+    )
+    return f"\nNone at all for {', '.join(sizes)}."
 
 
 def _critical(
@@ -215,7 +230,7 @@ def _critical(
         xlim=(25, 525),
         ylim=(4e-7, 5e-4),
         marks=marks,
-        note="No point: no such load between 4.8e-7 and 4e-4.",
+        note=f"No point: no such load between 4.8 × 10⁻⁷ and 4 × 10⁻⁴.{_nowhere(lines)}",
     )
 
 
@@ -248,7 +263,7 @@ def _separation(starred: bool, name: str, curves: Curves) -> Panel:
             x = np.array(SEPARATION_SIZES, dtype=float)
             lines.append(Line(material, sigma, np.nan, x, (y,), by=sigma))
     label = r"separation $d^* = d/\sigma$ [1]" if starred else "separation $d$ [nm]"
-    note = f"At F* = {SEPARATION_LOAD:g}; the paper does not state the load."
+    note = "At F* = 10⁻⁵; the paper does not state the load."
     if starred:
         note += " The paper reads d*(SiO₂)/d*(S45C) ≈ 2.5 at 1000 nm."
     return Panel(
@@ -347,7 +362,7 @@ _MAKERS: dict[str, Maker] = {
         [
             Mark("SiO$_2$ 300 nm", 100, 7.5e-6, by=300),
             Mark("S45C 300 nm", 100, 2.0e-6, by=300, dashed=True),
-            Mark("SiO$_2$ 1000 nm", 100, 1.5e-4, by=1000, left=True),
+            Mark("SiO$_2$ 1000 nm", 100, 1.5e-4, by=1000),
         ],
     ),
     "9b": partial(
@@ -357,7 +372,7 @@ _MAKERS: dict[str, Maker] = {
         "second",
         [
             Mark("SiO$_2$ 300 nm", 100, 5.1e-5, by=300),
-            Mark("S45C 300 nm", 100, 4.0e-5, by=300, dashed=True, left=True),
+            Mark("S45C 300 nm", 100, 4.0e-5, by=300, dashed=True),
         ],
     ),
     "10a": _regime("e", "elastic", ylim=(-0.01, 0.25), levels=[(0.2, "upper limit 20 %")]),
@@ -375,7 +390,7 @@ _MAKERS: dict[str, Maker] = {
         marks=[
             Mark("SiO$_2$ 500 nm", 5e-7, 9.15, by=500),
             Mark("SiO$_2$ 500 nm", 7e-6, 8.52, by=500),
-            Mark("SiO$_2$ 500 nm", 3e-5, 2.62, by=500, left=True),
+            Mark("SiO$_2$ 500 nm", 3e-5, 2.62, by=500),
         ],
         note="The paper does not state σ; 100 nm is taken. It reads d* up to 5.8 (1000 nm) and 2 "
         "times (500 nm)\nthat of bare surfaces; 9.15 follows from 8.52 and −6.89 %.",
