@@ -710,10 +710,12 @@ def _departures(
         for name, moved in drawn.moved_numbers([values]).items():
             vary.setdefault(name, np.full(ends[-1], nominal[name]))[piece] = moved
     loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
+    # samples of such contacts have the compiled engine at work already
+    fewest = 1 if fewest_of(one.contact) < FEWEST else None
 
     def solve_some(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
         some = {name: values[which] for name, values in vary.items()}
-        return columns_at(one.contact, one.load, loads[which], some, len(which))
+        return columns_at(one.contact, one.load, loads[which], some, len(which), fewest=fewest)
 
     states, refused = columns_tried(solve_some, int(ends[-1]))
     out, stops = {}, {}

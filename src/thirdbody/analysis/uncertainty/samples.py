@@ -179,15 +179,16 @@ def columns_at(
     count: int,
     *,
     outputs: bool = False,
+    fewest: int | None = None,
 ) -> Arrays:
     """States at a load, or each at its own, bare unless outputs are asked; the load may be among
-    what varies."""
+    what varies. By the compiled engine from the ``fewest`` of `state_columns` on."""
     if outputs:
         vary = dict(vary)
     else:
         contact, vary = carrying(contact, vary)
     loads: dict[str, Any] = {load: vary.pop(load, np.full(count, value))}
-    return state_columns(contact, **loads, vary=vary or None)
+    return state_columns(contact, **loads, vary=vary or None, fewest=fewest)
 
 
 def columns_of_loads(
