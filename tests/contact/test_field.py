@@ -313,7 +313,7 @@ def test_debris_that_covers_the_surface_is_solved_above_that():
         found, u = ground._round(ground.h[some], state, lift)
         state += 0.1 * (found - state)
     np.testing.assert_allclose(u, ground.u[some], atol=1e-6)
-    low = solved(case, d=(ground.lowest + 1e-9) * rough.sigma - rough.y_s)
+    low = solved(case, d=(ground.h[0] + 1e-9) * rough.sigma - rough.y_s)
     assert low.shadow < 1
     with balances_not(Status.TOO_MUCH, says="h = 0.4 sigma"):
         solved(case, pressure=1e9)

@@ -78,12 +78,15 @@ between two separations, from which on it may belong to another ground; steps be
 separations that show whether it does, as differences of a kink are so many times less in them."""
 TERMS = 16
 """Of k_n over τ."""
-FEWEST, HALVINGS = 12, 10
-"""Separations that a table must keep, and halvings of one of its steps to where it ends."""
-DEGREE, LEFT_OUT, LEFT_OUT_ROUGHLY, DEEPEST, ON_ROW, AT_ONCE = 9, 3e-11, 1e-7, 7, 1e-12, 32
-"""Of series between two separations of the table: degree, what they leave out of u/σ, w, ln load
-and areas over it, that of one of many samples, halvings, how near a row [σ] is the row, and steps
-of the table that are looked into together."""
+FEWEST, PARTS = 12, (1e-3, 0.03, 0.3)
+"""Separations that a table must keep, and parts of a step of it at which its end is tried, from
+where it is expected."""
+DEGREE, LEFT_OUT, LEFT_OUT_ROUGHLY, DEEPEST, ON_ROW = 9, 3e-11, 1e-7, 9, 1e-11
+"""Of series between separations of the table: degree, what they leave out of u/σ, w, ln load and
+areas over it, that of one of many samples, halvings, and how near a row [σ] is the row."""
+SMOOTH, BLOCK, AT_ONCE = 6.0, 8, 32
+"""Separation over σ from which so many steps of the table have one series, as asperities have no
+say any more; and series that are solved together."""
 LIFT, OF_SEATS = MOMENTS + 1, MOMENTS + 2
 """Columns of these: u_n, w, then those of each seat."""
 
@@ -144,17 +147,18 @@ class Ground:
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
         self._series: dict[int, PiecewiseChebyshev | None] = {}
         self.u, self.w, self.state = self._solve_separations()
+        self._end_with_asperities()
 
     def _of_asperities(self, h: Array) -> Array:
         """k_n^zs a_n at h: (N, 13)."""
-        surface, h = self.field.surface, np.clip(h, self.h[0], FAR)
+        surface, h = self.field.surface, np.clip(h, self.field.surface.lowest, FAR)
         columns = surface.columns(h)
         ratios = np.hstack([np.ones((len(h), 1)), columns[:, FIRST:]])
         return (_series_of(columns[:, TAU]) @ self._k_zs) * ratios * surface.load(h)[:, :1]
 
     def _under_asperities(self, h: Array) -> Array:
         """k_n^as a_n′/a_0′ at h, far above as where their ground levels out: (N, 13)."""
-        surface, h = self.field.surface, level_out(np.clip(h, self.h[0], FAR))
+        surface, h = self.field.surface, level_out(np.clip(h, self.field.surface.lowest, FAR))
         columns, slopes = surface.columns(h), surface.columns(h, 1)
         load = surface.load(h)
         turned = columns[:, FIRST:] + slopes[:, FIRST:] * (load[:, 0] / load[:, 1])[:, None]
@@ -177,10 +181,10 @@ class Ground:
     def _lift(self, h: Array, beta: Array, start: Array) -> Array:
         """w where particles carry β, from one that is near: (M,)."""
         w = before = start
-        miss = np.full(len(h), np.nan)
+        miss, lowest = np.full(len(h), np.nan), self.field.surface.lowest
         for _ in range(LIFTS):
             weights = self._under_asperities(h + w)
-            lift = np.maximum(self.twice * np.sum(weights * beta, axis=1), self.h[0] - h)
+            lift = np.maximum(self.twice * np.sum(weights * beta, axis=1), lowest - h)
             last, miss = miss, lift - w
             if np.max(np.abs(miss), initial=0.0) < 1e-12:
                 return lift
@@ -291,21 +295,32 @@ class Ground:
         self.h, self.cut = self.h[first:], True
         return u[first:], w[first:, 0], kept[first:]
 
-    @cached_property
-    def lowest(self) -> float:
-        """Separation over σ from which asperities on lifted ground are within their table."""
-        outside = np.flatnonzero(self.h + self.w <= self.field.surface.lowest + ON_ROW)
+    def _end_with_asperities(self) -> None:
+        """Let the table begin where asperities on lifted ground come into their own table."""
+        lowest = self.field.surface.lowest
+        outside = np.flatnonzero(self.h + self.w <= lowest + ON_ROW)
         if not len(outside):
-            return float(self.h[0])
-        low, high = self.h[outside[-1]], self.h[min(outside[-1] + 1, len(self.h) - 1)]
-        for _ in range(HALVINGS):
-            middle = np.array([0.5 * (low + high)])
-            start = self._spline(middle)
-            w, state = start[:, LIFT : LIFT + 1].copy(), start[:, OF_SEATS:].copy()
-            failed = self._iterate_states(middle, np.zeros((1, MOMENTS + 1)), w, state)
-            inside = not len(failed) and middle + w[0] > self.field.surface.lowest + ON_ROW
-            low, high = (low, middle[0]) if inside else (middle[0], high)
-        return float(high)
+            return
+        row = int(outside[-1])
+        first, second = self.h[row + 1 : row + 3]
+        risen = self.h[row + 1 : row + 3] + self.w[row + 1 : row + 3] - lowest
+        ends = first - risen[0] * (second - first) / (risen[1] - risen[0])
+        begin = row + 1
+        for part in PARTS:
+            h = np.array([max(ends, self.h[row]) + part * (first - max(ends, self.h[row]))])
+            u, w = np.zeros((1, MOMENTS + 1)), self.w[begin : begin + 1, None].copy()
+            state = self.state[begin : begin + 1].copy()
+            if not len(self._iterate_states(h, u, w, state)) and h + w[0] > lowest + ON_ROW:
+                self.h, self.u, self.w, self.state = (
+                    np.concatenate([one, every[begin:]])
+                    for one, every in (
+                        (h, self.h), (u, self.u), (w[0], self.w), (state, self.state),
+                    )
+                )  # fmt: skip
+                return
+        self.h, self.u, self.w, self.state = (
+            every[begin:] for every in (self.h, self.u, self.w, self.state)
+        )
 
     @cached_property
     def _spline(self) -> BSpline:
@@ -335,37 +350,40 @@ class Ground:
         after = np.clip(np.searchsorted(self.h, h), 1, len(self.h) - 1)
         apart = np.minimum(np.abs(h - self.h[after]), np.abs(h - self.h[after - 1]))
         inside = (h > self.h[0]) & (h < self.h[-1]) & (apart > ON_ROW)
-        rows = np.unique(after[inside] - 1)
-        new = np.array([row for row in rows.tolist() if row not in self._series], dtype=int)
-        for beside in np.split(new, np.flatnonzero(np.diff(new) > 1) + 1):
-            for begin in range(0, len(beside), AT_ONCE):
-                self._fill_series(beside[begin : begin + AT_ONCE].tolist())
-        for series in dict.fromkeys(self._series[row] for row in rows.tolist()):
-            if series is None:
-                continue
-            here = inside & (h > series.edges[0]) & (h < series.edges[-1])
-            out[here] = series.derivatives(h[here], tuple(columns))[:, :, : out.shape[2]]
-            out[here, :, 0] -= 1.0
+        blocks = np.unique(np.searchsorted(self._ends, after[inside]) - 1)
+        new = np.array([k for k in blocks.tolist() if k not in self._series], dtype=int)
+        for beside in np.split(new, np.flatnonzero(np.diff(new) > 1) + 1) if len(new) else ():
+            for some in np.split(beside, range(AT_ONCE, len(beside), AT_ONCE)):
+                self._fill_series(some.tolist())
+        for series in dict.fromkeys(self._series[k] for k in blocks.tolist()):
+            if series is not None:
+                here = inside & (h > series.edges[0]) & (h < series.edges[-1])
+                out[here] = series.derivatives(h[here], tuple(columns))[:, :, : out.shape[2]]
+                out[here, :, 0] -= 1.0
 
-    def _fill_series(self, rows: list[int]) -> None:
-        """Lay every column with 1 added, from each of these rows to the next, side by side.
+    @cached_property
+    def _ends(self) -> NDArray[np.intp]:
+        """Rows between which columns have a series of their own: longer ones far above."""
+        last = len(self.h) - 1
+        near = min(int(np.searchsorted(self.h, SMOOTH)), last)
+        return np.unique([*range(near), *range(near, last, BLOCK), last])
 
-        None where no ground is found.
-        """
+    def _fill_series(self, blocks: list[int]) -> None:
+        """Lay every column with 1 added over blocks side by side; none where no ground is found."""
         series = None
         with suppress(NoEquilibrium):
             series = PiecewiseChebyshev(
                 self._columns_at,
-                self.h[rows[0] : rows[-1] + 2],
+                self.h[self._ends[blocks[0] : blocks[-1] + 2]],
                 degree=DEGREE,
                 tolerance=LEFT_OUT_ROUGHLY if is_rough() else LEFT_OUT,
                 max_depth=DEEPEST,
             )
-        if series is None and len(rows) > 1:
-            for row in rows:
-                self._fill_series([row])
+        if series is None and len(blocks) > 1:
+            for k in blocks:
+                self._fill_series([k])
         else:
-            self._series |= dict.fromkeys(rows, series)
+            self._series |= dict.fromkeys(blocks, series)
 
     def _columns_at(self, h: Array) -> Array:
         """Every column at separations h, solved there, with 1 added: what is small is rounding."""
@@ -521,7 +539,7 @@ class LiftedSum(FieldSum):
     def __init__(self, field: FieldSum, ground: Ground):
         self.__dict__.update(vars(field))
         self.plain, self.ground = field, ground
-        self._ends(ground.lowest)
+        self._ends(float(ground.h[0]))
         if ground.cut:
             self.ends = "below which particles press their ground down too far for the law field"
 
@@ -535,8 +553,7 @@ class LiftedSum(FieldSum):
     @property
     def rows(self) -> Array:
         """Separations d [m] of the table, from its lowest up: loads there are known."""
-        h = self.ground.h
-        rows = np.append(self.ground.lowest + ROUNDING, h[h > self.ground.lowest])
+        rows = np.append(self.ground.h[0] + ROUNDING, self.ground.h[1:])
         return self.sigma * rows - self.rough.y_s + self.centre
 
     def load(self, d: Array) -> Array:
