@@ -201,6 +201,42 @@ def test_ground_by_its_own_equation():
     assert np.all(ground.w[rows] > 0)
 
 
+@pytest.mark.parametrize("H", [0.3, 3.0])
+def test_between_rows_by_the_equations_there(H):
+    """At any separation u_n, w and the load fulfil the equations, not only at rows of the table."""
+    case = contact(0.1, density=1e10)
+    body = case.particles.material.replace(H=H * case.surfaces.first.H)
+    case = case.replace(particles=case.particles.replace(material=body))
+    bound = interface(case)
+    ground, (seat,) = bound.asperities.ground, bound.asperities.ground.seats
+    h = np.sort(np.random.default_rng(3).uniform(ground.h[0], 5.5, 40))
+    moved = ground.patch_moments(h)
+    u, w = moved[:, :-1], moved[:, -1]
+    columns, moments = seat.sums(h, u)
+    beta = seat.component.factor / bound.asperities.unit * moments
+    shade = seat.component.factor * columns[:, 5:6]
+    again = (1 - shade) * ground._of_asperities(h + w) + ground.k_pp * beta
+    assert 2 * math.sqrt(2) * again == pytest.approx(u, abs=1e-10)
+    lifted = 2 * math.sqrt(2) * np.sum(ground._under_asperities(h + w) * beta, axis=1)
+    assert lifted == pytest.approx(w, abs=1e-9)
+    d = SIGMA * h - case.roughness.y_s + bound.asperities.centre
+    (part,) = bound.populations[0].parts
+    got, most = part.columns(d) / part.factor, columns[:, :1].max()
+    felt = columns[:, 0] > 1e-9 * most
+    assert got[felt, 0] == pytest.approx(columns[felt, 0], rel=1e-9)
+    assert got[felt, 1:4].sum(axis=1) == pytest.approx(columns[felt, 1:4].sum(axis=1), rel=1e-9)
+
+
+def test_table_begins_where_asperities_come_into_theirs():
+    """Particles pull the ground of asperities down there: their own table ends a little above."""
+    bound = interface(contact(0.1, density=1e10))
+    ground, lowest = bound.asperities.ground, bound.asperities.surface.lowest
+    assert ground.w[0] < 0
+    assert 0 < ground.h[0] + ground.w[0] - lowest < 2e-3
+    d = SIGMA * (ground.h[0] - 1e-6) - bound.contact.roughness.y_s + bound.asperities.centre
+    assert np.isnan(bound.particles.load(np.array([d]))[0]).all()
+
+
 def test_units():
     """Lengths three times as large and stresses twice: the same numbers."""
     small = contact(0.1)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.contact import interface
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.compiled import batch
@@ -123,22 +124,8 @@ def test_a_load_that_is_too_much_is_told_of_the_table():
     assert {str(each) for each in found["status"]} == {FIELD_SENTENCES[Status.TOO_MUCH]}
 
 
-@pytest.mark.parametrize(
-    ("diameter", "H", "density"),
-    [
-        (None, 6e9, 0),
-        (tb.TruncatedGaussian(mean=300e-9, std=30e-9), 6e9, 1e11),
-        (tb.distributions.Monodisperse(mean=200e-9), 20e9, 3e11),
-        (tb.distributions.Mixture(parts=(tb.distributions.Monodisperse(mean=100e-9), tb.LogNormal(median=250e-9, gsd=1.2)),
-                    weights=(7, 3)), 3e9, 1e11),
-    ],
-)  # fmt: skip
-def test_many_loads_of_one_contact_hold_to_numpy(diameter, H, density):
-    dust = None
-    if diameter is not None:
-        silica = tb.materials["SiO2"]
-        dust = tb.Particles(material=silica, areal_density=density, diameter=diameter)
-    case, loads = contact(dust, H=H), np.geomspace(1e-9, 0.3, 61)
+def test_many_loads_of_one_contact_hold_to_numpy():
+    case, loads = contact(None, H=6e9), np.geomspace(1e-9, 0.3, 61)
     with mock.patch.object(batch, "FEWEST", 1):
         got = tb.solve(case, F_star=loads)
     assert got.engine == "compiled"
@@ -147,6 +134,32 @@ def test_many_loads_of_one_contact_hold_to_numpy(diameter, H, density):
     assert got.status.tolist() == want.status.tolist()
     assert 0 < np.isfinite(want.d).sum() < 61
     assert np.nanmax(errors(got.columns(), want.columns())) <= BOUND
+
+
+@pytest.mark.spread(2)
+@pytest.mark.parametrize(
+    ("diameter", "H", "density"),
+    [
+        (tb.TruncatedGaussian(mean=300e-9, std=30e-9), 6e9, 1e11),
+        (tb.distributions.Monodisperse(mean=200e-9), 20e9, 3e11),
+        (tb.distributions.Mixture(parts=(tb.distributions.Monodisperse(mean=100e-9), tb.LogNormal(median=250e-9, gsd=1.2)),
+                    weights=(7, 3)), 3e9, 1e11),
+    ],
+)  # fmt: skip
+def test_many_loads_with_particles_are_those_of_each(diameter, H, density):
+    """A ground solved for many loads says of each what it says of that alone."""
+    silica = tb.materials["SiO2"]
+    dust = tb.Particles(material=silica, areal_density=density, diameter=diameter)
+    case, loads = contact(dust, H=H), np.geomspace(1e-9, 0.3, 31)
+    with mock.patch.object(batch, "FEWEST", 1):
+        together = tb.solve(case, F_star=loads)
+    assert together.engine.startswith("numpy: the ground of particles")
+    assert 0 < np.isfinite(together.d).sum() < 31
+    for k in (5, 15, 20):
+        interface._interface.cache_clear()
+        alone = tb.solve(case, F_star=loads[[k]])
+        assert alone.d[0] == pytest.approx(together.d[k], abs=1e-11 * case.roughness.sigma)
+        assert alone.A_t[0] == pytest.approx(together.A_t[k], rel=1e-10)
 
 
 BRITTLE = tb.Particles(

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
+from scipy.integrate import quad, simpson
 from scipy.optimize import minimize_scalar
 from scipy.special import j0, ndtr
 
@@ -196,3 +196,15 @@ def test_gradient_of_a_surface():
 def test_no_table_beyond_its_bandwidths():
     with pytest.raises(InvalidValue, match="alpha = 40"):
         field_of(0.2, 40.0)
+
+
+@pytest.mark.parametrize("r", [3.0, 20.0, 60.0])
+def test_what_is_felt_from_far_away_by_many_even_steps(r):
+    """Also where the nearest part has hundreds of waves."""
+    spectrum = rolled_off(12.0)
+    powers, _ = spectrum.integrals_from(r, np.array([0.0]), 3)
+    at = np.linspace(r, spectrum.farthest, 60_001)
+    plain, _, _ = spectrum.correlations(at)
+    expected = [simpson(plain**n, x=at) for n in (2, 3)]
+    assert powers[2:] == pytest.approx(expected, abs=1e-9)
+    assert powers[0] == -r

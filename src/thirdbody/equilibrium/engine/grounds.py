@@ -155,7 +155,7 @@ class Displacements:
 def displacements_of(alpha: Any, apart: Array, varies: bool) -> Displacements:
     """Of states with bandwidths α, or one, and distances over √(m0/m2) (N,)."""
     every = np.broadcast_to(np.asarray(alpha, float), len(apart))
-    together = (apart < NOTHING_FELT) & ~(varies and is_rough())
+    together = (apart < NOTHING_FELT) & (not (varies and is_rough()))
     if varies:
         together &= (every >= BANDWIDTHS[0]) & (every <= BANDWIDTHS[-1])
     out = Displacements(len(apart), WAVES * NODES if varies else NODES)
