@@ -1,7 +1,7 @@
 """Particles on the ground of one field of heights: one separation of a state.
 
 Particles press the ground under them down, and the ground of asperities: the equations are those of
-`thirdbody.contact.field_ground`, and so are the rows of separations and the splines between them.
+`thirdbody.contact.field_ground`, and so are the rows of separations from which others begin.
 """
 
 from __future__ import annotations
