@@ -134,7 +134,7 @@ NINE = {"found", "given", "told", "own", "known", "asked", "bound", "each", "par
 FILLERS = {
     "analysis": 1,
     "app": 2,
-    "equilibrium": 243,
+    "equilibrium": 237,
     "laws": 6,
     "papers": 1,
     "populations": 1,

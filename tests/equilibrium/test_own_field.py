@@ -153,7 +153,7 @@ def test_many_loads_with_particles_are_those_of_each(diameter, H, density):
     case, loads = contact(dust, H=H), np.geomspace(1e-9, 0.3, 31)
     with mock.patch.object(batch, "FEWEST", 1):
         together = tb.solve(case, F_star=loads)
-    assert together.engine.startswith("numpy: the ground of particles")
+    assert together.engine != "compiled"
     assert 0 < np.isfinite(together.d).sum() < 31
     for k in (5, 15, 20):
         interface._interface.cache_clear()

@@ -287,13 +287,17 @@ class Ground:
 
     def _above(self, first: int, u: Array, w: Array, kept: Array) -> tuple[Array, Array, Array]:
         """The table without separations where particles, all but grown together, find no ground."""
+        self._check_rows(first)
+        self.h, self.cut = self.h[first:], True
+        return u[first:], w[first:, 0], kept[first:]
+
+    def _check_rows(self, first: int) -> None:
+        """Refuse a table that begins so high that little of it is left."""
         if len(self.h) - first < FEWEST:
             raise NoEquilibrium(
                 "no equilibrium: the ground of the particles was not found at separations up to "
                 f"{self.h[first - 1]:.3g} sigma (law field)"
             )
-        self.h, self.cut = self.h[first:], True
-        return u[first:], w[first:, 0], kept[first:]
 
     def _end_with_asperities(self) -> None:
         """Let the table begin where asperities on lifted ground come into their own table."""
@@ -301,26 +305,19 @@ class Ground:
         outside = np.flatnonzero(self.h + self.w <= lowest + ON_ROW)
         if not len(outside):
             return
-        row = int(outside[-1])
-        first, second = self.h[row + 1 : row + 3]
-        risen = self.h[row + 1 : row + 3] + self.w[row + 1 : row + 3] - lowest
-        ends = first - risen[0] * (second - first) / (risen[1] - risen[0])
-        begin = row + 1
-        for part in PARTS:
-            h = np.array([max(ends, self.h[row]) + part * (first - max(ends, self.h[row]))])
-            u, w = np.zeros((1, MOMENTS + 1)), self.w[begin : begin + 1, None].copy()
-            state = self.state[begin : begin + 1].copy()
-            if not len(self._iterate_states(h, u, w, state)) and h + w[0] > lowest + ON_ROW:
-                self.h, self.u, self.w, self.state = (
-                    np.concatenate([one, every[begin:]])
-                    for one, every in (
-                        (h, self.h), (u, self.u), (w[0], self.w), (state, self.state),
-                    )
-                )  # fmt: skip
-                return
-        self.h, self.u, self.w, self.state = (
-            every[begin:] for every in (self.h, self.u, self.w, self.state)
-        )
+        first = int(outside[-1]) + 1
+        self._check_rows(first)
+        rows = [every[first:] for every in (self.h, self.u, self.w, self.state)]
+        (low, high), (of_low, of_high) = rows[0][:2], (rows[0] + rows[2])[:2] - lowest
+        expected = max(low - of_low * (high - low) / (of_high - of_low), self.h[first - 1])
+        for share in PARTS:
+            h, u = np.array([expected + share * (low - expected)]), np.zeros((1, MOMENTS + 1))
+            w, state = rows[2][:1, None].copy(), rows[3][:1].copy()
+            failed = self._iterate_states(h, u, w, state)
+            if not len(failed) and h + w[0] > lowest + ON_ROW:
+                rows = [np.concatenate(two) for two in zip((h, u, w[0], state), rows, strict=True)]
+                break
+        self.h, self.u, self.w, self.state = rows
 
     @cached_property
     def _spline(self) -> BSpline:

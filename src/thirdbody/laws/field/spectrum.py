@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import j0
@@ -179,9 +179,10 @@ class Spectrum:
         return np.asarray((a * plain + tau * once) / np.sqrt(norm))
 
 
-def near_nodes(phase: Array | float) -> Any:
+def near_nodes(phase: Array | float) -> NDArray[np.intp]:
     """How many nodes integrals of J_0(qr) up to r need, for the largest qr."""
-    return NEAR_NODES * 2 ** np.ceil(np.log2(np.maximum(phase / NEAR_NODES, 1.0))).astype(int)
+    doublings = np.ceil(np.log2(np.maximum(np.asarray(phase) / NEAR_NODES, 1.0)))
+    return NEAR_NODES * 2 ** doublings.astype(np.intp)
 
 
 def integrals_of_powers(rho: Array, weight: Array, count: int) -> Array:
