@@ -214,6 +214,7 @@ def test_states_declare_what_they_hold():
     """No field of numbers stands beside the columns without a symbol, unit and meaning."""
     beside = {"contact", "warnings", "populations", "outputs", "engine", "status_code", "state"}
     beside |= {"seconds", "sigma", "seats", "maps", "particles", "name", "errors"}
+    beside |= {"nominal_area", "kappa"}  # of all states together, which data sets hold as such
     for kind in StateRecord.__subclasses__():
         for each in (kind, *kind.__subclasses__()):
             if hasattr(each, "__dataclass_fields__"):
