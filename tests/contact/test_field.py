@@ -201,6 +201,21 @@ def test_ground_by_its_own_equation():
     assert np.all(ground.w[rows] > 0)
 
 
+def fulfils_the_equations(bound, h, *, atol=1e-10):
+    """Check u_n and w of one population's ground at h, and give the columns of its particles."""
+    ground, (seat,) = bound.asperities.ground, bound.asperities.ground.seats
+    moved = ground.patch_moments(h)
+    u, w = moved[:, :-1], moved[:, -1]
+    columns, moments = seat.sums(h, u)
+    beta = seat.component.factor / bound.asperities.unit * moments
+    shade = seat.component.factor * columns[:, 5:6]
+    again = (1 - shade) * ground._of_asperities(h + w) + ground.k_pp * beta
+    assert ground.twice * again == pytest.approx(u, abs=atol)
+    lifted = ground.twice * np.sum(ground._under_asperities(h + w) * beta, axis=1)
+    assert lifted == pytest.approx(w, abs=10 * atol)
+    return columns
+
+
 @pytest.mark.parametrize("H", [0.3, 3.0])
 def test_between_rows_by_the_equations_there(H):
     """At any separation u_n, w and the load fulfil the equations, not only at rows of the table."""
@@ -208,17 +223,9 @@ def test_between_rows_by_the_equations_there(H):
     body = case.particles.material.replace(H=H * case.surfaces.first.H)
     case = case.replace(particles=case.particles.replace(material=body))
     bound = interface(case)
-    ground, (seat,) = bound.asperities.ground, bound.asperities.ground.seats
+    ground = bound.asperities.ground
     h = np.sort(np.random.default_rng(3).uniform(ground.h[0], 5.5, 40))
-    moved = ground.patch_moments(h)
-    u, w = moved[:, :-1], moved[:, -1]
-    columns, moments = seat.sums(h, u)
-    beta = seat.component.factor / bound.asperities.unit * moments
-    shade = seat.component.factor * columns[:, 5:6]
-    again = (1 - shade) * ground._of_asperities(h + w) + ground.k_pp * beta
-    assert 2 * math.sqrt(2) * again == pytest.approx(u, abs=1e-10)
-    lifted = 2 * math.sqrt(2) * np.sum(ground._under_asperities(h + w) * beta, axis=1)
-    assert lifted == pytest.approx(w, abs=1e-9)
+    columns = fulfils_the_equations(bound, h)
     d = SIGMA * h - case.roughness.y_s + bound.asperities.centre
     (part,) = bound.populations[0].parts
     got, most = part.columns(d) / part.factor, columns[:, :1].max()
@@ -353,6 +360,29 @@ def test_debris_that_covers_the_surface_is_solved_above_that():
     assert low.shadow < 1
     with balances_not(Status.TOO_MUCH, says="h = 0.4 sigma"):
         solved(case, pressure=1e9)
+    # also between the lowest, where plain iteration comes to other grounds; a round adds to a miss
+    fulfils_the_equations(bound, np.linspace(ground.h[0], ground.h[3], 20), atol=1e-8)
+    assert np.all(np.diff(ground.lifts(np.linspace(ground.h[0], ground.h[3], 50))[:, 0]) < 0)
+
+
+def test_a_step_without_ground_has_no_answer(monkeypatch):
+    """Where no ground is found between two separations of the table, nothing is made up."""
+    case = contact(0.1, density=2e10)
+    bound = Interface(case)
+    ground, (part,) = bound.asperities.ground, bound.populations[0].parts
+    fill = type(ground)._columns_at
+
+    def columns_at(self, h):
+        if np.any((h > ground.h[10]) & (h < ground.h[11])):
+            raise tb.NoEquilibrium("no ground here")
+        return fill(self, h)
+
+    monkeypatch.setattr(type(ground), "_columns_at", columns_at)
+    h = 0.5 * (ground.h[9:12] + ground.h[10:13])
+    d = SIGMA * h - case.roughness.y_s + bound.asperities.centre
+    assert np.isnan(bound.asperities.load(d)[:, 0]).tolist() == [False, True, False]
+    assert np.isnan(part.columns(d)[:, 0]).tolist() == [False, True, False]
+    assert np.isnan(ground.patch_moments(h)[:, 0]).tolist() == [False, True, False]
 
 
 def test_one_warning_for_crowded_contacts():

@@ -352,11 +352,12 @@ class Ground:
         for beside in np.split(new, np.flatnonzero(np.diff(new) > 1) + 1) if len(new) else ():
             for some in np.split(beside, range(AT_ONCE, len(beside), AT_ONCE)):
                 self._fill_series(some.tolist())
-        for series in dict.fromkeys(self._series[k] for k in blocks.tolist()):
-            if series is not None:
-                here = inside & (h > series.edges[0]) & (h < series.edges[-1])
-                out[here] = series.derivatives(h[here], tuple(columns))[:, :, : out.shape[2]]
-                out[here, :, 0] -= 1.0
+        laid = [self._series[k] for k in blocks.tolist()]
+        out[inside] = np.nan
+        for series in dict.fromkeys(every for every in laid if every is not None):
+            here = inside & (h > series.edges[0]) & (h < series.edges[-1])
+            out[here] = series.derivatives(h[here], tuple(columns))[:, :, : out.shape[2]]
+            out[here, :, 0] -= 1.0
 
     @cached_property
     def _ends(self) -> NDArray[np.intp]:
@@ -383,14 +384,35 @@ class Ground:
             self._series |= dict.fromkeys(blocks, series)
 
     def _columns_at(self, h: Array) -> Array:
-        """Every column at separations h, solved there, with 1 added: what is small is rounding."""
-        start = self._spline(h)
-        w, state = start[:, LIFT : LIFT + 1].copy(), start[:, OF_SEATS:].copy()
-        u = np.zeros((len(h), MOMENTS + 1))
-        if len(self._iterate_states(h, u, w, state)):
-            raise NoEquilibrium("between two separations of the table")
-        columns = [seat.logarithms(h, u) for seat in self.seats]
-        return 1.0 + np.column_stack([u, w, *columns])
+        """Every column at separations h, solved there, with 1 added: what is small is rounding.
+
+        Raises `NoEquilibrium` where only another ground than that of the rows beside is found.
+        """
+        start = self._spline(h)[:, LIFT:]
+        u, solved = np.zeros((len(h), LIFT)), np.full_like(start, np.nan)
+        rest = np.arange(len(h))
+        for memory in (MEMORY, *MEMORIES):
+            begin = start[rest] + self._miss_of_spline(h, solved - start)(h[rest])
+            ground, lift, state = u[rest], begin[:, :1].copy(), begin[:, 1:].copy()
+            failed = self._iterate_states(h[rest], ground, lift, state, memory)
+            whole = np.abs(lift - begin[:, :1])[:, 0] <= LEAP * (self.h[-1] - self.h[-2])
+            whole[failed] = False
+            done, rest = rest[whole], rest[~whole]
+            u[done], solved[done] = ground[whole], np.hstack([lift, state])[whole]
+            if not len(rest):
+                columns = [seat.logarithms(h, u) for seat in self.seats]
+                return 1.0 + np.column_stack([u, solved[:, :1], *columns])
+        raise NoEquilibrium("between two separations of the table")
+
+    def _miss_of_spline(self, h: Array, miss: Array) -> BSpline:
+        """What the spline misses between rows and separations h, where that is not NaN: (N, K)."""
+        from scipy.interpolate import make_interp_spline
+
+        some = ~np.isnan(miss[:, 0])
+        every = np.append(self.h, h[some])
+        values = np.vstack([np.zeros((len(self.h), miss.shape[1])), miss[some]])
+        every, first = np.unique(every, return_index=True)
+        return make_interp_spline(every, values[first], k=1)
 
 
 def field_offset(seat: Seat, field: FieldSum) -> float:
