@@ -57,6 +57,8 @@ NODES = 60
 """Of the scan for steady states."""
 BALANCED = 1e-6
 """Relative imbalance of loads below which a change of sign is a state."""
+NEVER = 1e-12
+"""Slowest rate over the fastest below which particles never leave: rounding leaves as much of 0."""
 
 
 class SteadyContact(NamedTuple):
@@ -169,7 +171,8 @@ def _numbers(loop: Loop, y: Array, d: float) -> Array | None:
     for _ in range(3):  # the shadow of particles may leave nothing to asperities
         rates = loop.rates(state, d)
         matrix = rates.matrix[pool, pool]
-        if float(np.max(np.linalg.eigvals(matrix).real)) >= 0:
+        slowest = float(np.max(np.linalg.eigvals(matrix).real))
+        if slowest >= -NEVER * float(np.max(np.abs(np.diag(matrix)))):
             return None
         state[pool] = np.linalg.solve(-matrix, rates.constant[pool])
     return state
