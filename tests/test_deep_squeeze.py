@@ -256,7 +256,7 @@ def test_nothing_beside_the_rim_counts_as_touching(room):
 @pytest.mark.slow
 @pytest.mark.parametrize(("rho", "m", "epsilon"), [(0.0, 1.0, 0.1), (1.0, 1.0, 0.02)])
 def test_load_from_above_is_load_through_the_middle(room, rho, m, epsilon):
-    case = room("shapes").Case(rho, m, fine=0.8, edge=0.015, step=0.016, tolerance=1e-4)
+    case = room("shapes").Case(rho, m, fine=0.8, edge=0.015, step=0.016, tolerance=3e-5)
     states = list(room("squeeze").Squeezing(case).run(epsilon))
     for state in states:
         assert state.top_load == pytest.approx(state.load, rel=3e-3)
