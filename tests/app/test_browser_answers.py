@@ -150,11 +150,11 @@ new MutationObserver(() => {
 def test_a_first_visit_tells_its_answer_apart_from_getting_ready(browser):
     process, address = served()
     try:
-        kill(process.pid)  # a browser that is slow would find them ready; others are begun
         page = browser.new_page()
         page.set_default_timeout(PATIENCE)
         page.add_init_script(WATCH)
-        page.goto(address)
+        page.goto(address, wait_until="commit")
+        kill(process.pid)  # a browser that is slow would find them ready; others are begun
         shot(page, "getting-ready")
         page.locator('[data-fact="time"]', has_text="answered in").wait_for()
         assert "in which the page was getting ready" in fact(page, "time")
