@@ -1,6 +1,7 @@
 """Inputs that no solid and no oil has: a word each, in Python and in study files."""
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,8 @@ from steel_and_dust import DUSTY
 
 import thirdbody as tb
 from thirdbody.study import run_study
+from thirdbody.study.dirty_oil import dirty_oil
+from thirdbody.study.oil_what_ifs import what_ifs_of_oil
 
 STUDY = Path(tb.__file__).parent / "data" / "studies" / "ball-screw.toml"
 SIZES = tb.distributions.Monodisperse(mean=5e-6)
@@ -94,3 +97,50 @@ def test_beside_a_film_the_note_on_the_gap_stands_with_that_on_the_oil():
     codes = [getattr(note, "code", "") for note in found.oil_notes]
     assert codes == ["film.left_out", "gap"]
     assert "gap" not in [getattr(note, "code", "") for note in study.notes]
+
+
+JAMMED_TWICE = """
+[surfaces]
+first = "S45C"
+second = "S45C"
+[roughness]
+sigma = "200 nm"
+R = "25 um"
+[particles]
+material = "SiO2"
+distribution = "truncated-gaussian"
+mean = "30 um"
+std = "3 um"
+areal_density = "1e9 / m^2"
+[load]
+pressure = "1 MPa"
+"""
+
+
+def test_particles_that_are_jammed_at_twice_their_number_are_answered(tmp_path):
+    """They cover 0.71 of the area: nothing is asked of 1.42."""
+    (tmp_path / "jammed.toml").write_text(JAMMED_TWICE, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = run_study(tb.load_study(tmp_path / "jammed.toml"))
+    codes = [what_if.code for what_if in result.what_ifs]
+    assert "number" not in codes
+    assert len(codes) > 1
+    assert len(result.to_dict()["what_ifs"]) == len(codes)
+    assert list(result.states.status) == ["ok"]
+
+
+def test_dirt_that_is_jammed_at_twice_its_number_is_answered():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        study = tb.load_study(STUDY)
+        (population,) = study.contact.populations
+        crowd = population.replace(
+            areal_density=0.6 / population.coverage * population.areal_density
+        )
+        study = replace(study, contact=study.contact.replace(particles=crowd))
+        oil = dirty_oil(study)
+        assert oil is not None
+        codes = [what_if.code for what_if in what_ifs_of_oil(study, oil)]
+    assert "number" not in codes
+    assert "film.oil.eta" in codes

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ..contact.contact import Contact
+from ..errors import InvalidValue
 from ..populations.materials import materials
 from ..quantities.record import Record
 from ..quantities.say import percent, value_of
@@ -79,7 +80,7 @@ def what_ifs_of_oil(study: Study, base_oil: DirtyOil) -> tuple[OilWhatIf, ...]:
     contact, film = study.contact, study.film
     if film is None or any(population.strength is not None for population in contact.populations):
         return ()
-    ends: list[tuple[str, str, str, str, tuple[Study, ...]]] = [
+    ends: list[tuple[str, str, str, str, tuple[Study | None, ...]]] = [
         (
             "the number of particles",
             "half and twice as many, one class of ISO 4406 each way",
@@ -108,7 +109,7 @@ def what_ifs_of_oil(study: Study, base_oil: DirtyOil) -> tuple[OilWhatIf, ...]:
         )
     out = []
     for what, between, action, code, pair in ends:
-        both = [dirty_oil(changed_study) for changed_study in pair]
+        both = [None if changed is None else dirty_oil(changed) for changed in pair]
         if all(oil is not None for oil in both):
             out.append(
                 OilWhatIf(
@@ -149,15 +150,19 @@ def _with_viscosity(study: Study, film: FilmConditions, factor: float) -> Study:
     return replace(study, film=film.replace(oil=oil))
 
 
-def _with_number(study: Study, factor: float) -> Study:
+def _with_number(study: Study, factor: float) -> Study | None:
+    """The study with more particles, or none where these are jammed."""
     parts = study.contact.populations
-    return _with_parts(
-        study,
-        tuple(
-            population.replace(areal_density=population.areal_density * factor)
-            for population in parts
-        ),
-    )
+    try:
+        return _with_parts(
+            study,
+            tuple(
+                population.replace(areal_density=population.areal_density * factor)
+                for population in parts
+            ),
+        )
+    except InvalidValue:
+        return None
 
 
 def _with_hardness(study: Study, i: int, H: float) -> Study:

@@ -13,7 +13,7 @@ from ..analysis.inputs import declared_quantity, input_of, inputs, words_of
 from ..analysis.uncertainty.inputs import stated_ranges
 from ..analysis.uncertainty.samples import columns_at
 from ..contact.contact import Contact
-from ..errors import RangeWarning
+from ..errors import InvalidValue, RangeWarning
 from ..quantities.record import Record
 from ..quantities.say import value_of
 
@@ -110,7 +110,8 @@ def what_ifs_of_states(study: Study, states: Equilibrium, at: int) -> tuple[What
         return ()
     share = float(np.ravel(states.particle_load_share)[at])
     of = "A_t" if contact.two_body or share > SATED else "particle_load_share"
-    ends = list(_ends(contact, study.uncertainty.inputs if study.uncertainty else {}))
+    every = _ends(contact, study.uncertainty.inputs if study.uncertainty else {})
+    ends = [varied for varied in every if _is_possible(contact, varied)]
     values_at_ends = _at_ends(contact, pressure, ends, of)
     out = [
         WhatIf(
@@ -125,6 +126,16 @@ def what_ifs_of_states(study: Study, states: Equilibrium, at: int) -> tuple[What
         if np.isfinite(values).all()
     ]
     return tuple(sorted(out, key=lambda what_if: -what_if.ratio))
+
+
+def _is_possible(contact: Contact, varied: _Ends) -> bool:
+    """Whether there is a contact at both ends: twice as many particles may be jammed."""
+    try:
+        for end in zip(*varied.values, strict=True):
+            contact.replace(**dict(zip(varied.names, end, strict=True)))
+    except InvalidValue:
+        return False
+    return True
 
 
 def _ends(contact: Contact, stated: dict[str, Any]) -> Iterator[_Ends]:
