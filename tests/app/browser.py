@@ -3,6 +3,7 @@
 It never fails and takes at most two minutes: without a browser the tests of the page skip.
 """
 
+import contextlib
 import os
 import re
 import shutil
@@ -53,6 +54,19 @@ def _answers(address):
         return urllib.request.urlopen(address, timeout=5).status == 200
     except (urllib.error.URLError, ConnectionError, TimeoutError):
         return False
+
+
+def processes_below(pid, words):
+    """Process ids of all that a process began, itself or through others, with words in their
+    command; none where the system does not list them."""
+    every = " ".join(f.read_text() for f in Path(f"/proc/{pid}/task").glob("*/children"))
+    below = []
+    for child in map(int, every.split()):
+        with contextlib.suppress(OSError):
+            if words in Path(f"/proc/{child}/cmdline").read_text():
+                below.append(child)
+            below += processes_below(child, words)
+    return below
 
 
 def chromium(playwright):

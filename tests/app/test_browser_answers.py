@@ -19,7 +19,7 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
 
 sys.path.insert(0, str(Path(__file__).parent))
-from browser import ended, served
+from browser import ended, processes_below, served
 
 from thirdbody.app.examples import example
 from thirdbody.app.text import to_link
@@ -100,13 +100,7 @@ def moved(page, slider, key="ArrowRight"):
 
 def solvers(pid):
     """Process ids of those that compute for a server."""
-    every = " ".join(f.read_text() for f in Path(f"/proc/{pid}/task").glob("*/children"))
-    found = []
-    for child in map(int, every.split()):
-        with contextlib.suppress(OSError):
-            if "spawn_main" in Path(f"/proc/{child}/cmdline").read_text():
-                found.append(child)
-    return found
+    return processes_below(pid, "spawn_main")
 
 
 def kill(pid):
