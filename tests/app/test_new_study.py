@@ -24,9 +24,15 @@ from thirdbody.app.tabs import before_after, error_bars, film, mode_map
 from thirdbody.app.verdict import badge_of
 from thirdbody.app.worker import mode_map as solved_map
 
+LONG = ("gear", "linear-guide")
+"""Kinds whose ground gives way, at each what-if anew."""
+
 
 @pytest.mark.spread(5)
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind",
+    [pytest.param(kind, marks=pytest.mark.slow) if kind in LONG else kind for kind in KINDS],
+)
 @pytest.mark.parametrize("oil", OILS)
 def test_what_the_form_begins_runs(kind, oil):
     study = with_oil(first_study(kind), oil)

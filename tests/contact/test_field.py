@@ -406,7 +406,7 @@ def test_a_seat_of_its_own_height_and_width():
     assert isinstance(interface(contact(particle_law=seats[1])), Interface)
 
 
-@pytest.mark.parametrize("width", [0.05, 0.08])
+@pytest.mark.parametrize("width", [0.05, pytest.param(0.08, marks=pytest.mark.slow)])
 def test_ground_of_narrow_seats_goes_on_without_a_leap(width):
     """Of several grounds the table keeps to one, however close its separations lie."""
     bodies = tb.Material(E=50.5e9, nu=0.458, H=139e6), tb.Material(E=1.64e9, nu=0.078, H=29.2e6)
