@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from scipy.interpolate import BarycentricInterpolator
 
 import thirdbody as tb
+from thirdbody.systems.elastic_balance import Outline, Skin
 from thirdbody.systems.rough_body import curve, rough_cylinder, rough_sphere
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -237,3 +238,53 @@ def test_mistakes():
         rough_sphere(contact, radius=5e-3, d=1e-3)
     with balances_not(Status.TOO_DEEP, says="-3 sigma_s"):
         rough_sphere(steel_contact(5e-9), radius=5e-3, load=100.0)
+
+
+PLATEAU = tb.Particles(
+    material=SILICA, areal_density=2.8e7, diameter=tb.distributions.Monodisperse(mean=20e-6)
+)
+"""Particles that fall out of contact all at once, far above the asperities."""
+LONG_TAIL = tb.Particles(
+    material=tb.materials["100Cr6"], areal_density=5e8,
+    diameter=tb.distributions.LogNormal(median=500e-9, gsd=2.0),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("law", [tb.asperity.KE(), tb.asperity.JKR(w=1.0)])
+@pytest.mark.parametrize("particles", [None, PARTICLES, PLATEAU, LONG_TAIL])
+def test_seeking_by_an_outline_leads_where_the_whole_law_leads(law, particles, monkeypatch):
+    contact = steel_contact(600e-9, asperity_law=law, particles=particles)
+    shapes = [(rough_sphere, 1e-6), (rough_sphere, 30.0), (rough_cylinder, 1e-4)]
+    by_outline = [solve(contact, radius=5e-3, load=load) for solve, load in shapes]
+    monkeypatch.setattr(Skin, "outline", property(lambda skin: skin))
+    for (solve, load), quick in zip(shapes, by_outline, strict=True):
+        whole = solve(contact, radius=5e-3, load=load)
+        assert quick.peak_pressure == pytest.approx(whole.peak_pressure, rel=1e-10)
+        assert quick.d == pytest.approx(whole.d, abs=1e-10 * 600e-9)
+
+
+@pytest.mark.parametrize("particles", [None, PARTICLES, PLATEAU, LONG_TAIL])
+def test_an_outline_keeps_to_the_law(particles):
+    skin = Skin(steel_contact(600e-9, particles=particles), None)
+    assert isinstance(skin.outline, Outline)
+    p_floor = skin.one(skin.floor)[0]
+    gap = np.linspace(skin.floor, skin.cut(skin.floor), 3000)
+    p, rough = skin(gap)[0], skin.outline(gap)[0]
+    counts = p > 1e-20 * p_floor
+    assert np.max(np.abs(np.log(rough[counts] / p[counts]))) < 0.3
+    assert np.max(rough[~counts], initial=0.0) < 1e-19 * p_floor
+
+
+def test_pressure_beyond_a_grid_is_not_left_out(monkeypatch):
+    """An outline that ends too early leads to a grid that is asked for once more."""
+    contact = steel_contact(600e-9, particles=PLATEAU)
+    whole = rough_cylinder(contact, radius=5e-3, load=1e-4)
+    law = Outline.__call__
+
+    def end_early(outline, gap):
+        edge = float(np.max(gap)) if np.size(gap) == 90 else math.inf
+        p, slope = law(outline, gap)
+        return np.where(gap < edge, p, 0.0), slope
+
+    monkeypatch.setattr(Outline, "__call__", end_early)
+    assert rough_cylinder(contact, radius=5e-3, load=1e-4).peak_pressure == whole.peak_pressure

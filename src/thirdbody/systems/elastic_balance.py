@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
@@ -32,6 +32,10 @@ OUT_OF_REACH = (
 )
 NEGLIGIBLE = 1e-17
 """Pressure, over the largest, at which the contact is cut off."""
+CLIFF, HALVINGS = 1e-4, 8
+"""Pressure, over that at the gap below, at which an outline asks for one between; how often."""
+SMALL = 1e-14
+"""Pressure at the edge of a grid, over the largest, from which on it is asked where it ends."""
 TAIL, COARSE = 1e-12, 1e-5
 """Size of the last coefficients of the pressure, over the largest, that counts as converged: in
 the end, and while the separation is still being sought."""
@@ -45,8 +49,49 @@ def crowded_warning(status: str) -> tuple[str, ...]:
     return () if status == "ok" else (status,)
 
 
-class Skin:
-    """A pressure law p(u) [Pa] with its slope, and where it may be used.
+class Course(Protocol):
+    """A pressure law p(u) [Pa] with its slope."""
+
+    floor: float
+    """Lowest gap that the law has [m]; −∞ where it has all."""
+    origin: float
+    """A gap to begin a search from [m]."""
+    step: float | None
+    """Width of a step of a search [m]."""
+
+    def __call__(self, gap: Array) -> tuple[Array, Array]:
+        """Pressure [Pa] and its slope [Pa/m]."""
+
+    def one(self, gap: float) -> tuple[float, float]:
+        p, slope = self(np.array([gap]))
+        return float(p[0]), float(slope[0])
+
+    def cut(self, gap: float) -> float:
+        """Gap at which the pressure is negligible beside that at ``gap``."""
+        p, slope = self.one(gap)
+        if p < 0:
+            raise InvalidValue(TENSILE, code=Mistake.BEYOND)
+        if not (p > 0 and slope < 0):
+            why = f"no contact at a gap of {value_of(gap, 'm')}"
+            raise NoEquilibrium(why, Status.TOO_LITTLE)
+        step = low = 0.0
+        high = p / -slope
+        for _ in range(WIDENED):
+            if not self.one(gap + high)[0] > NEGLIGIBLE * p:
+                break
+            low, high = high, 1.7 * high
+        else:
+            raise NoEquilibrium("the pressure does not end: at a gap of "
+                                f"{value_of(gap + high, 'm', 3)} it is "
+                                f"still that of {value_of(gap, 'm', 3)}")  # fmt: skip
+        for _ in range(12):
+            step = 0.5 * (low + high)
+            low, high = (step, high) if self.one(gap + step)[0] > NEGLIGIBLE * p else (low, step)
+        return gap + high
+
+
+class Skin(Course):
+    """A pressure law, and where it may be used.
 
     Made of a `Contact`, or of a callable ``pressure(gap) -> (p, dp/dgap)`` over arrays with E*.
     Below ``floor`` (−3 σ_s, or where the table of one field ends) the law of a contact is continued
@@ -107,32 +152,62 @@ class Skin:
         assert self.solids is not None
         return crowded_places(self.solids.contact, A_t, load)
 
-    def one(self, gap: float) -> tuple[float, float]:
-        p, slope = self(np.array([gap]))
-        return float(p[0]), float(slope[0])
-
-    def cut(self, gap: float) -> float:
-        """Gap at which the pressure is negligible beside that at ``gap``."""
-        p, slope = self.one(gap)
-        if p < 0:
-            raise InvalidValue(TENSILE, code=Mistake.BEYOND)
-        if not (p > 0 and slope < 0):
-            why = f"no contact at a gap of {value_of(gap, 'm')}"
-            raise NoEquilibrium(why, Status.TOO_LITTLE)
-        step = low = 0.0
-        high = p / -slope
-        for _ in range(WIDENED):
-            if not self.one(gap + high)[0] > NEGLIGIBLE * p:
+    @cached_property
+    def outline(self) -> Course:
+        """What is quick to ask, to seek with: itself where the pressure is tensile somewhere."""
+        if self.solids is None or self.step is None:
+            return self
+        gap = self.solids.rows
+        p = self(gap)[0]
+        start = self.origin if not len(gap) else gap[-1] + 0.1 * self.step
+        for batch in np.arange(8 * WIDENED).reshape(-1, 8):
+            above = start + 5 * self.step * np.expm1(0.1 * batch)
+            gap, p = np.append(gap, above), np.append(p, self(above)[0])
+            if not p[-1] > NEGLIGIBLE**3 * p[0]:
                 break
-            low, high = high, 1.7 * high
-        else:
-            raise NoEquilibrium("the pressure does not end: at a gap of "
-                                f"{value_of(gap + high, 'm', 3)} it is "
-                                f"still that of {value_of(gap, 'm', 3)}")  # fmt: skip
-        for _ in range(12):
-            step = 0.5 * (low + high)
-            low, high = (step, high) if self.one(gap + step)[0] > NEGLIGIBLE * p else (low, step)
-        return gap + high
+        for _ in range(HALVINGS):
+            steep = (p[1:] < CLIFF * p[:-1]) & (p[:-1] > NEGLIGIBLE**2 * p[0])
+            if not np.any(steep):
+                break
+            between = 0.5 * (gap[1:] + gap[:-1])[steep]
+            gap, p = np.append(gap, between), np.append(p, self(between)[0])
+            gap, p = gap[order := np.argsort(gap)], p[order]
+        counts = p > 0
+        if np.any(p < 0) or np.count_nonzero(counts) < 2:
+            return self
+        return Outline(self, self.step, gap[counts], p[counts])
+
+
+class Outline(Course):
+    """The pressure of a contact to some percent, by its logarithm at few gaps.
+
+    On one field of heights every separation that is no row of the ground's table is dear. Above
+    the last gap, where there is less than any pressure that counts, it is 0.
+
+    Parameters
+    ----------
+    skin : Skin
+        What is asked below the first gap.
+    step : float
+        Width of a step of a search [m].
+    gap, p : array (N,)
+        Gaps [m] and the pressures there [Pa].
+    """
+
+    def __init__(self, skin: Skin, step: float, gap: Array, p: Array):
+        from scipy.interpolate import PchipInterpolator
+
+        self.skin, self.floor, self.origin, self.step = skin, skin.floor, skin.origin, step
+        self.first, self.last = gap[0], gap[-1]
+        self.logarithm = PchipInterpolator(gap, np.log(p))
+
+    def __call__(self, gap: Array) -> tuple[Array, Array]:
+        within = np.clip(gap, self.first, self.last)
+        p = np.where(gap > self.last, 0.0, np.exp(self.logarithm(within)))
+        slope = p * self.logarithm(within, 1)
+        if np.any(deep := gap <= self.first):
+            p[deep], slope[deep] = self.skin(gap[deep])
+        return p, slope
 
 
 # ------------------------------------------------------------------------------ the shapes
@@ -150,7 +225,7 @@ class Grid(NamedTuple):
 
 
 class Shape(Protocol):
-    def extent(self, skin: Skin, d: float) -> float:
+    def extent(self, skin: Course, d: float) -> float:
         """Half-width [m] beyond which the skin cannot touch at the separation d [m]."""
 
     def grid(self, n: int, extent: float) -> Grid:
@@ -226,7 +301,7 @@ class Sphere:
     radius: float
     E_star: float
 
-    def extent(self, skin: Skin, d: float) -> float:
+    def extent(self, skin: Course, d: float) -> float:
         return math.sqrt(2 * self.radius * (skin.cut(max(d, skin.floor)) - d))
 
     def grid(self, n: int, extent: float) -> Grid:
@@ -248,7 +323,7 @@ class Cylinder:
     E_star: float
     reference: float
 
-    def extent(self, skin: Skin, d: float) -> float:
+    def extent(self, skin: Course, d: float) -> float:
         return math.sqrt(2 * self.radius * (skin.cut(max(d, skin.floor)) - d))
 
     def grid(self, n: int, extent: float) -> Grid:
@@ -286,7 +361,7 @@ class Balance(NamedTuple):
     """Chebyshev series of the displacement [m]."""
 
 
-def _newton(skin: Skin, grid: Grid, d: float, sunk: Array) -> tuple[Array, Array, Array, float]:
+def _newton(skin: Course, grid: Grid, d: float, sunk: Array) -> tuple[Array, Array, Array, float]:
     """Gap, pressure, slope of pressure and residual [m] by Newton's method, damped.
 
     ``sunk`` is a first guess of the displacement [m].
@@ -316,7 +391,7 @@ def _newton(skin: Skin, grid: Grid, d: float, sunk: Array) -> tuple[Array, Array
 
 
 def balance_at(
-    skin: Skin, shape: Shape, d: float, near: Balance | None = None, tolerance: float = TAIL
+    skin: Course, shape: Shape, d: float, near: Balance | None = None, tolerance: float = TAIL
 ) -> Balance:
     """Balance at one approach d [m], on the grid of a state ``near`` it or a finer one."""
     extent = shape.extent(skin, d) if near is None else near.extent
@@ -344,8 +419,7 @@ def balance_at(
         first += 1
     sinking = np.linalg.solve(np.eye(n) - grid.compliance * slope, np.ones(n))
     load, rate = float(grid.weights @ p), float(grid.weights @ (slope * sinking))
-    state = Balance(d, grid, gap, p, load, rate, tail, residual, extent, series)
-    return _deep_enough(skin, state) if tolerance == TAIL else state
+    return Balance(d, grid, gap, p, load, rate, tail, residual, extent, series)
 
 
 def _deep_enough(skin: Skin, state: Balance) -> Balance:
@@ -391,16 +465,27 @@ def balance(
     if target is None or not math.isfinite(target) or (load is not None and load <= 0):
         raise InvalidValue(f"{target!r} must be finite, a load > 0", code=Mistake.RANGE)
     if load is None:
-        return balance_at(skin, shape, target)
-    d = _rigid(skin, shape, target) if guess is None else guess
-    coarse = _seek(skin, shape, target, d, None, COARSE, 1e-5)
-    if quick:
-        return _deep_enough(skin, coarse)
-    return _seek(skin, shape, target, coarse.d, coarse, TAIL, 1e-14)
+        return _deep_enough(skin, balance_at(skin, shape, target))
+    outline = skin.outline
+    d = _rigid(outline, shape, target) if guess is None else guess
+    near = _seek(outline, shape, target, d, None, COARSE, 1e-5)
+    tolerance, enough = (COARSE, 1e-5) if quick else (TAIL, 1e-14)
+    state = _seek(skin, shape, target, near.d, near, tolerance, enough)
+    if _ends_early(outline, shape, state):  # the outline was too rough to say where it ends
+        near = balance_at(skin, shape, state.d, None, tolerance)
+        state = _seek(skin, shape, target, near.d, near, tolerance, enough)
+    return _deep_enough(skin, state)
+
+
+def _ends_early(law: Course, shape: Shape, state: Balance) -> bool:
+    """Whether the grid leaves out pressure that counts."""
+    edge = state.pressure[np.argmax(state.grid.x)]
+    counts = edge > SMALL * np.max(state.pressure)
+    return bool(counts and state.extent < 0.95 * shape.extent(law, state.d))
 
 
 def _seek(
-    skin: Skin,
+    skin: Course,
     shape: Shape,
     load: float,
     d: float,
@@ -437,7 +522,7 @@ def _seek(
     raise NoEquilibrium(f"no separation found for the load {load:.6g}")
 
 
-def _rigid(skin: Skin, shape: Shape, load: float) -> float:
+def _rigid(skin: Course, shape: Shape, load: float) -> float:
     """Separation at which the undeformed shape would carry the load, roughly."""
 
     def share_at(d: float) -> float:

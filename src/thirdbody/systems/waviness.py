@@ -33,6 +33,7 @@ from .elastic_balance import (
     OUT_OF_REACH,
     WIDENED,
     Balance,
+    Course,
     Grid,
     Skin,
     balance,
@@ -136,7 +137,7 @@ class Wave:
     wavelength: float
     E_star: float
 
-    def extent(self, skin: Skin, d: float) -> float:
+    def extent(self, skin: Course, d: float) -> float:
         return 1.0
 
     def grid(self, n: int, extent: float) -> Grid:
