@@ -523,11 +523,10 @@ def propagate(
     some 1e-3 of the width of a band at 2¹⁴ samples, falling faster than 1/√N. A critical load
     below the window of `transitions` counts as 0 and one above it as ∞, so that quantiles hold
     for all samples.
-    On the rough seat a state costs about 12 µs of a core where sizes vary, or the hardness of both
-    surfaces alike; 80 µs and more where the contacts of a particle with both surfaces become
-    unlike. On the plane seat, under `asperity_law` options and for heights that are not Gaussian,
-    states with other inputs are solved one by one, tens in a second. Each sample of particles
-    that break takes a second or so, and its sums are to 1e-3, mostly to 1e-6, of the load.
+    A state costs 10 to 300 µs of a core where the compiled engine knows it; others are solved one
+    by one, tens in a second. An output that looks at single contacts costs more: friction 10 to
+    300 ms a state, dents with their quantiles a second. Each sample of particles that break takes
+    a second or so, and its sums are to 1e-3, mostly to 1e-6, of the load.
 
     References
     ----------
