@@ -406,6 +406,20 @@ def test_a_seat_of_its_own_height_and_width():
     assert isinstance(interface(contact(particle_law=seats[1])), Interface)
 
 
+def test_panels_end_where_gaps_are_widest_or_narrowest():
+    """On ground of any shape, against a dense scan."""
+    seat = interface(contact(density=1e10)).particles.parts[0].seat
+    rng = np.random.default_rng(4)
+    u = rng.normal(size=(40, 13)) * np.exp(-0.5 * np.arange(13))
+    turns, zeta = seat._turning_points(np.zeros(40), u)[2], np.linspace(-3.999, 3.999, 40001)
+    gaps = seat._gap(np.zeros(40), u, np.broadcast_to(zeta, (40, len(zeta))))
+    for mine, gap in zip(turns, gaps, strict=True):
+        scanned = zeta[1:-1][np.diff(np.sign(np.diff(gap))) != 0]
+        mine = mine[mine > turns.min()]
+        assert len(scanned) == len(mine)
+        assert np.max(np.abs(scanned - mine), initial=0.0) < 4e-4
+
+
 @pytest.mark.parametrize("width", [0.05, pytest.param(0.08, marks=pytest.mark.slow)])
 def test_ground_of_narrow_seats_goes_on_without_a_leap(width):
     """Of several grounds the table keeps to one, however close its separations lie."""

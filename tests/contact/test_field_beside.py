@@ -73,6 +73,7 @@ def test_its_lowest_separation_is_one_of_its_table(H, density):
     assert len(tb.equilibria.roots(bound.contact, F_star=1e-3)) == 1
 
 
+@pytest.mark.slow
 def test_critical_loads_of_many_contacts_are_those_of_each():
     sigma = np.array([90e-9, 110e-9])
     for H in (5e9, 20e9):  # the second carries more than its table at F* = 1e-2

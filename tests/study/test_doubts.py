@@ -92,7 +92,7 @@ def test_the_film_of_a_study_is_run_by_a_method_and_is_no_function():
 def test_beside_a_film_the_note_on_the_gap_stands_with_that_on_the_oil():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        study = tb.load_study(STUDY.with_name("gear.toml"))
+        study = tb.load_study(STUDY.with_name("gear.toml"), ['asperity_law.name="ke"'])
         found = run_study(study)
     codes = [getattr(note, "code", "") for note in found.oil_notes]
     assert codes == ["film.left_out", "gap"]

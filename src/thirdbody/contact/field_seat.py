@@ -7,7 +7,7 @@ gives way much, a gap may rise with the height; panels follow it.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Nodes", "Seat", "heights"]
 
-CHORDS, SET_IN, TURNS = 40, 1e-14, 30
-"""Of the search for the ground that leaves a gap: chords at most, how near [σ], and steps to the
-ground of the widest or narrowest gap."""
+CHORDS, SET_IN, LEVEL_OUT = 40, 1e-14, 1e-9
+"""Of the search for the ground that leaves a gap: chords at most, how near [σ], and the slope of
+a gap [1] at which it is widest or narrowest."""
 HIGHEST_SEAT = 4.0
 """Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
 TINY = 1e-250
@@ -55,6 +55,46 @@ def heights(u: Array, zeta: Array) -> Array:
         value += u[:, n : n + 1]
         later, after = after, value
     return after
+
+
+def heights_slope(u: Array, zeta: Array) -> Array:
+    """Derivative of `heights` with respect to ζ (N, M), which is not far from the mean plane."""
+    shifted = np.zeros_like(u)
+    shifted[:, :-1] = u[:, 1:] * np.sqrt(np.arange(1.0, u.shape[1]))
+    return heights(shifted, zeta)
+
+
+def _zeros_by_chords(
+    of: Callable[[NDArray[np.intp], Array], Array],
+    ends: tuple[Array, Array],
+    values: tuple[Array, Array],
+    close: Array,
+) -> Array:
+    """Places (N,) between two ends at which functions of opposite values there are near 0.
+
+    By chords with the weight of an end that stays halved; ``of`` tells which of the functions at
+    which places are asked for.
+    """
+    (a, b), (f_a, f_b) = ends, values
+    places, last = np.where(f_a == 0, a, b), np.zeros(len(a))
+    here = np.flatnonzero((f_a != 0) & (f_b != 0))
+    a, b, f_a, f_b, last = (one[here] for one in (a, b, f_a, f_b, last))
+    for _ in range(CHORDS):
+        if not len(here):
+            break
+        zeta = (a * f_b - b * f_a) / (f_b - f_a)
+        f = of(here, zeta)
+        places[here] = zeta
+        behind = (f < 0) == (f_b < 0)
+        f_a = np.where(behind & (last == 1), 0.5 * f_a, f_a)
+        f_b = np.where(~behind & (last == -1), 0.5 * f_b, f_b)
+        a, f_a = np.where(behind, a, zeta), np.where(behind, f_a, f)
+        b, f_b = np.where(behind, zeta, b), np.where(behind, f, f_b)
+        last = np.where(behind, 1, -1)
+        far = np.abs(f) > close[here]
+        here = here[far]
+        a, b, f_a, f_b, last = (one[far] for one in (a, b, f_a, f_b, last))
+    return places
 
 
 class Nodes(NamedTuple):
@@ -109,7 +149,7 @@ class Seat:
         spectrum: Spectrum,
         shadow: str,
     ):
-        self.height = spectrum.height
+        self.height, self.slope = spectrum.height, spectrum.slope
         self.shadow = COLUMNS.index(shadow) if shadow in COLUMNS else None
         """Column of the area in which its particles keep asperities apart, if it is one."""
         assert isinstance(component.average, SeatAverage)
@@ -134,13 +174,15 @@ class Seat:
         like powers of it.
         """
         average = self.average.average
-        gaps = np.unique(np.concatenate([self.unit * average.edges, more]))
         onsets = self.unit * average.onsets
+        gaps = np.unique(np.concatenate([self.unit * average.edges, onsets, more]))
         fixed, grid, turns = self._turning_points(h, u)
         beside = self._gap(h, u, grid)
         every = np.broadcast_to(fixed, (len(h), len(fixed)))
-        ends = _beside(every, turns, self._heights_at(h, u, gaps, grid, beside))
-        begins = self._heights_at(h, u, onsets, grid, beside)
+        row, want, places = self._heights_at(h, u, gaps, grid, beside)
+        lowest, sets_in = grid[0, 0], np.isin(gaps, onsets)[want]
+        ends = _beside(every, turns, _in_rows(row, places, len(h), lowest))
+        begins = _in_rows(row[sets_in], places[sets_in], len(h), lowest)
         starts = _beside(grid[:, :1], begins, grid[:, -1:])
         rows, panel = np.nonzero(ends[:, 1:] > ends[:, :-1])
         begin, end = ends[rows, panel], ends[rows, panel + 1]
@@ -176,23 +218,28 @@ class Seat:
         Last those of widest and narrowest gaps (N, L), or the lowest in rows with fewer of them.
         """
         (fixed, grid), low = self._places, self.mean - DENSITY * self.width
-        gaps = self._gap(h, u, np.broadcast_to(grid, (len(h), len(grid))))
-        step = np.diff(gaps, axis=1)
-        rows, left = np.nonzero(step[:, 1:] * step[:, :-1] < 0)
-        a, b, sign = grid[left], grid[left + 2], np.sign(step[rows, left])
-        for _ in range(TURNS if len(rows) else 0):  # thirds, in which it stays
-            one, two = (2 * a + b) / 3, (a + 2 * b) / 3
-            both = self._gap(h[rows], u[rows], np.stack([one, two], axis=1)) * sign[:, None]
-            first = both[:, 0] > both[:, 1]
-            a, b = np.where(first, a, one), np.where(first, two, b)
-        turns = _in_rows(rows, 0.5 * (a + b), len(h), low)
-        return fixed, _beside(np.broadcast_to(grid, gaps.shape), turns), turns
+        within = grid[np.abs(grid) <= HIGHEST_SEAT]  # beyond, gaps only fall
 
-    def _heights_at(self, h: Array, u: Array, wanted: Array, grid: Array, beside: Array) -> Array:
-        """Heights ζ at which gaps over σ are wanted ones (K,), as many as a row has, or the lowest.
+        def slope(u: Array, zeta: Array) -> Array:
+            return heights_slope(u, zeta) - self.slope(zeta)
 
-        By chords with the weight of an end that stays halved, from heights ``grid`` (N, M) with
-        gaps ``beside``, between which gaps only fall or only rise.
+        slopes = slope(u, np.broadcast_to(within, (len(h), len(within))))
+        rows, left = np.nonzero(slopes[:, 1:] * slopes[:, :-1] < 0)
+        places = _zeros_by_chords(
+            lambda at, zeta: slope(u[rows[at]], zeta[:, None])[:, 0],
+            (within[left], within[left + 1]),
+            (slopes[rows, left], slopes[rows, left + 1]),
+            np.full(len(rows), LEVEL_OUT),
+        )
+        turns = _in_rows(rows, places, len(h), low)
+        return fixed, _beside(np.broadcast_to(grid, (len(h), len(grid))), turns), turns
+
+    def _heights_at(
+        self, h: Array, u: Array, wanted: Array, grid: Array, beside: Array
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+        """Heights ζ at which gaps over σ are wanted ones: row, which is wanted, and height (M,).
+
+        From heights ``grid`` (N, M) with gaps ``beside``, between which gaps only fall or rise.
         """
         crossings = []
         for k, gap in enumerate(wanted):
@@ -200,29 +247,19 @@ class Seat:
             rows, cells = np.nonzero(above[:, 1:] != above[:, :-1])
             crossings.append([rows, cells, np.full(len(rows), k)])
         row, cell, want = np.concatenate(crossings, axis=1)
-        a, b = grid[row, cell], grid[row, cell + 1]
-        f_a, f_b = beside[row, cell] - wanted[want], beside[row, cell + 1] - wanted[want]
-        places, last = np.where(f_a == 0, a, b), np.zeros(len(row))
-        close = SET_IN * np.maximum(1.0, 0.1 * np.abs(h[row]))
-        here = np.flatnonzero((f_a != 0) & (f_b != 0))
-        a, b, f_a, f_b, last = (one[here] for one in (a, b, f_a, f_b, last))
-        for _ in range(CHORDS):
-            if not len(here):
-                break
-            zeta = (a * f_b - b * f_a) / (f_b - f_a)
-            at = row[here]
-            f = self._gap(h[at], u[at], zeta[:, None])[:, 0] - wanted[want[here]]
-            places[here] = zeta
-            behind = (f < 0) == (f_b < 0)
-            f_a = np.where(behind & (last == 1), 0.5 * f_a, f_a)
-            f_b = np.where(~behind & (last == -1), 0.5 * f_b, f_b)
-            a, f_a = np.where(behind, a, zeta), np.where(behind, f_a, f)
-            b, f_b = np.where(behind, zeta, b), np.where(behind, f, f_b)
-            last = np.where(behind, 1, -1)
-            far = np.abs(f) > close[here]
-            here, a, b, f_a, f_b, last = (one[far] for one in (here, a, b, f_a, f_b, last))
+
+        def miss(at: NDArray[np.intp], zeta: Array) -> Array:
+            n = row[at]
+            return self._gap(h[n], u[n], zeta[:, None])[:, 0] - wanted[want[at]]
+
+        places = _zeros_by_chords(
+            miss,
+            (grid[row, cell], grid[row, cell + 1]),
+            (beside[row, cell] - wanted[want], beside[row, cell + 1] - wanted[want]),
+            SET_IN * np.maximum(1.0, 0.1 * np.abs(h[row])),
+        )
         order = np.argsort(row, kind="stable")
-        return _in_rows(row[order], places[order], len(h), grid[0, 0])
+        return row[order], want[order], places[order]
 
     def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
         """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""

@@ -85,11 +85,22 @@ class Spectrum:
         """z/σ where the Gaussian field is t, straight beyond ±4."""
         if len(self.heights) == 1:
             return t
-        norm = [math.sqrt(math.factorial(n)) for n in range(1, len(self.heights) + 1)]
-        series = np.array([0.0, *(G / scale for G, scale in zip(self.heights, norm, strict=True))])
         near = np.clip(t, -STRAIGHT, STRAIGHT)
-        slope = np.polynomial.hermite_e.hermeval(near, np.polynomial.hermite_e.hermeder(series))
-        return np.polynomial.hermite_e.hermeval(near, series) + slope * (t - near)
+        return np.polynomial.hermite_e.hermeval(near, self._series) + self.slope(t) * (t - near)
+
+    def slope(self, t: Array) -> Array:
+        """Derivative of `height` with respect to t."""
+        if len(self.heights) == 1:
+            return np.ones_like(t)
+        series = np.polynomial.hermite_e.hermeder(self._series)
+        near = np.clip(t, -STRAIGHT, STRAIGHT)
+        return np.asarray(np.polynomial.hermite_e.hermeval(near, series), dtype=float)
+
+    @property
+    def _series(self) -> Array:
+        """Coefficients of `height` in He_n, from n = 0 on."""
+        norm = [math.sqrt(math.factorial(n)) for n in range(1, len(self.heights) + 1)]
+        return np.array([0.0, *(G / scale for G, scale in zip(self.heights, norm, strict=True))])
 
     def mean(self, power: float) -> float:
         """⟨q^power⟩."""
