@@ -12,6 +12,7 @@ import thirdbody as tb
 from thirdbody.study import run_study
 from thirdbody.study.dirty_oil import dirty_oil
 from thirdbody.study.oil_what_ifs import what_ifs_of_oil
+from thirdbody.study.run_plate import load_plate, run_plate
 
 STUDY = Path(tb.__file__).parent / "data" / "studies" / "ball-screw.toml"
 SIZES = tb.distributions.Monodisperse(mean=5e-6)
@@ -144,3 +145,12 @@ def test_dirt_that_is_jammed_at_twice_its_number_is_answered():
         codes = [what_if.code for what_if in what_ifs_of_oil(study, oil)]
     assert "number" not in codes
     assert "film.oil.eta" in codes
+
+
+def test_a_plate_on_dust_that_twice_would_be_jammed_is_answered():
+    dust = ['particles={material="SiO2", distribution="monodisperse", mean="2 um", '
+            'areal_density="2e11 / m^2"}']  # fmt: skip
+    plate = load_plate(STUDY.with_name("wafer-chuck.toml"), dust)
+    found = run_plate(plate)
+    assert found.bumps is not None
+    assert "number" not in " ".join(what_if.what for what_if in found.what_ifs)

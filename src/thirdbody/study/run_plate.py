@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 from collections.abc import Callable, Iterable, Sequence
@@ -9,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import Note
+from ..errors import InvalidValue, Note
 from ..populations.particles import Particles
 from ..quantities.record import column
 from ..quantities.say import percent, value_of
@@ -198,14 +199,15 @@ def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> 
             kinds = [k.replace(areal_density=k.areal_density * number) for k in chuck.particles]
             return chuck.replace(particles=tuple(kinds))
 
-        out.append(
-            WhatIf(
-                what="the number of particles",
-                between="half and twice as many",
-                action="count them on the back of a plate, by size",
-                values=vary_heights(with_dust, 2.0),
+        with contextlib.suppress(InvalidValue):  # twice as many may be more than there is room for
+            out.append(
+                WhatIf(
+                    what="the number of particles",
+                    between="half and twice as many",
+                    action="count them on the back of a plate, by size",
+                    values=vary_heights(with_dust, 2.0),
+                )
             )
-        )
     else:
         out.append(
             WhatIf(
