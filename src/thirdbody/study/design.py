@@ -24,6 +24,7 @@ from .reader import (
     count,
     get,
     numbers,
+    problems_of_order,
     read_number,
     read_word,
     switch,
@@ -40,6 +41,7 @@ WORDS = {
     "over_loads": ("mean", "worst"),
     "over_scatter": ("mean", "nominal", "worst", "robust", "tail"),
 }
+FIXED = "what is not to be chosen needs no range: write it in its own table"
 EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
@@ -95,13 +97,21 @@ def _variable(reader: Reader, where: str, variable: tuple[str, object]) -> tuple
         if {amount.by for amount in ends} != {study_amount.by}:
             rule = f"must be by {study_amount.by}, like particles.concentration"
             raise InvalidValue(Problem(where, rule, code=Mistake.KIND))
-        return label, tuple(amount.amount for amount in ends)
+        return label, _in_order(where, entry, ends[0].amount, ends[1].amount)
     inputs = inputs_of(reader.whole)
     fields = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
     lowest, highest = (
         read_number(fields[0][1], reader, f"{where}.{end}", entry[end]) for end in ("low", "high")
     )
-    return "+".join(name for name, _ in fields), (lowest, highest)
+    return "+".join(name for name, _ in fields), _in_order(where, entry, lowest, highest)
+
+
+def _in_order(
+    where: str, entry: Mapping[str, object], low: float, high: float
+) -> tuple[float, float]:
+    if problems := problems_of_order(where, entry, low, high, alone=FIXED):
+        raise InvalidValue(*problems)
+    return low, high
 
 
 def _amount(where: str, value: Any) -> cleanliness.Concentration:

@@ -46,6 +46,7 @@ __all__ = [
     "keys_of",
     "number",
     "numbers",
+    "problems_of_order",
     "quantity_key",
     "read_number",
     "read_numbers",
@@ -593,17 +594,37 @@ def _problems_of_ends(about: Quantity, path: str, data: Any, log: bool) -> list[
         low, high = (read_number(about, Unsaid(), path, data[end]) for end in ("from", "to"))
     except (InvalidValue, LookupError, TypeError):
         return []
-    problems = []
-    if low >= high:
-        ends = f"from = {say(data['from'])} must be below to = {say(data['to'])}"
-        hint = "exchange them" if low > high else "for one value write it alone"
-        problems.append(Problem(path, f"is an empty range: {ends}", hint=hint, code=Mistake.ORDER))
+    problems = problems_of_order(path, data, low, high, ends=("from", "to"))
     if log and low <= 0:
         rule, hint = 'must be > 0 with spacing = "log"', 'use spacing = "linear"'
         problems.append(
             Problem(f"{path}.from", rule, say(data["from"]), hint=hint, code=Mistake.RANGE)
         )
     return problems
+
+
+def problems_of_order(
+    path: str,
+    data: Mapping[str, object],
+    low: float,
+    high: float,
+    *,
+    ends: tuple[str, str] = ("low", "high"),
+    alone: str = "for one value write it alone",
+) -> list[Problem]:
+    """Problem of a range that does not go up, with its ends as the file writes them.
+
+    >>> written = {"low": "1 um", "high": "50 nm"}
+    >>> (problem,) = problems_of_order("vary", written, 1e-6, 5e-8)
+    >>> str(problem)
+    'vary is an empty range: low = "1 um" must be below high = "50 nm"; exchange them'
+    """
+    if low < high:
+        return []
+    hint = "exchange them" if low > high else alone
+    first, last = (f"{end} = {say(data[end])}" for end in ends)
+    rule = f"is an empty range: {first} must be below {last}"
+    return [Problem(path, rule, hint=hint, code=Mistake.ORDER)]
 
 
 def is_span(values: object) -> bool:

@@ -10,7 +10,18 @@ from ..errors import InvalidValue, Mistake, Problem
 from ..quantities.nearest import guess, near_path
 from ..quantities.units import Quantity, say
 from .inputs import Input, inputs_of
-from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
+from .reader import (
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    count,
+    get,
+    problems_of_order,
+    read_number,
+    read_word,
+    wrong,
+)
 from .vocabulary import LOADS
 
 __all__ = ["LIFE", "UNCERTAINTY", "field_of_input", "ranges_of", "read_uncertain"]
@@ -129,6 +140,11 @@ def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -
         return read_number(meant.get(name, about), reader, path, table[name])
 
     first, second = reader.read_each({f"{where}.{name}": name for name in KINDS[kind]}, number)
+    exact = "what is exact needs no range"
+    if "low" in table and (
+        wrong_way := problems_of_order(where, table, first, second, alone=exact)
+    ):
+        raise InvalidValue(*wrong_way)
     try:
         return Uncertain(kind=kind, first=first, second=second)
     except InvalidValue as error:

@@ -207,7 +207,8 @@ def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
         ) from None
     if not low < high:
         rule = f": low = {low:g} must be below high = {high:g}"
-        raise InvalidValue(Problem(f"vary[{name!r}]", rule, code=Mistake.ORDER))
+        hint = "exchange them" if low > high else "what is not to be chosen needs no range"
+        raise InvalidValue(Problem(f"vary[{name!r}]", rule, hint=hint, code=Mistake.ORDER))
     if name == AMOUNT:
         if low <= 0:
             rule = f": low = {low:g} must be > 0"

@@ -1,0 +1,56 @@
+"""What a mistake in a study file is told with: its key, its value, its kind, what was meant."""
+
+import copy
+
+import pytest
+
+import thirdbody as tb
+from thirdbody.errors import Mistake
+from thirdbody.study import check
+
+DUSTY = {
+    "surfaces": {"first": "S45C", "second": "S45C"},
+    "roughness": {"sigma": "100 nm", "R": "2.8 um"},
+    "particles": {
+        "material": "SiO2",
+        "distribution": "log-normal",
+        "median": "300 nm",
+        "gsd": 1.5,
+        "areal_density": "1e11 / m^2",
+    },
+    "load": {"pressure": "5 MPa"},
+}
+MEDIAN = "particles.median"
+
+
+def problems(**tables):
+    with pytest.raises(tb.errors.InvalidValue) as told:
+        check(copy.deepcopy(DUSTY | tables))
+    return told.value.problems
+
+
+def design(low, high, **changes):
+    return {"vary": {MEDIAN: {"low": low, "high": high}}, "objective": {"of": "A_t"}} | changes
+
+
+@pytest.mark.parametrize(
+    ("tables", "place", "first"),
+    [
+        ({"design": design("1 um", "50 nm")}, f'design.vary."{MEDIAN}"', '"1 um"'),
+        (
+            {"uncertainty": {"inputs": {MEDIAN: {"low": "1 um", "high": "50 nm"}}}},
+            f'uncertainty.inputs."{MEDIAN}"',
+            '"1 um"',
+        ),
+        (
+            {"sweep": {"pressure": {"from": "1 GPa", "to": "2 MPa", "points": 2}}},
+            "sweep.pressure",
+            '"1 GPa"',
+        ),
+    ],
+)
+def test_ends_in_the_wrong_order_as_the_file_writes_them(tables, place, first):
+    (problem,) = problems(**tables)
+    assert (problem.code, problem.place) == (Mistake.ORDER, place)
+    assert first in problem.rule
+    assert problem.hint == "exchange them"
