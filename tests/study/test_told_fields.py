@@ -54,3 +54,15 @@ def test_ends_in_the_wrong_order_as_the_file_writes_them(tables, place, first):
     assert (problem.code, problem.place) == (Mistake.ORDER, place)
     assert first in problem.rule
     assert problem.hint == "exchange them"
+
+
+def test_objectives_and_limits_that_are_no_numbers_are_all_named():
+    wrong = {"of": "plastic_shar"}
+    limits = [{"of": "A_t", "most": 0.1}, {"of": "mu", "most": 0.2}]
+    asked = design("1 um", "50 nm", objective=wrong, limits=limits)
+    told = {each.place: each for each in problems(design=asked)}
+    assert told.keys() == {f'design.vary."{MEDIAN}"', "design.objective.of", "design.limits.1.of"}
+    objective, limit = told["design.objective.of"], told["design.limits.1.of"]
+    assert {objective.code, limit.code} == {Mistake.UNKNOWN}
+    assert (objective.value, objective.meant) == ('"plastic_shar"', "plastic_share")
+    assert "[outputs.friction]" in limit.hint

@@ -8,8 +8,10 @@ from typing import Any
 
 from ..analysis.design.problem import Limit, Objective, Suspension
 from ..analysis.design.search import AMOUNT
+from ..analysis.design.task import problems_of_metric
+from ..effects import REGISTRY as OUTPUTS
 from ..equilibrium.columns import about
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, Problem, in_study
 from ..populations.measured import cleanliness
 from ..quantities.nearest import guess
 from ..quantities.units import say, to_si
@@ -172,6 +174,11 @@ def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry:
 
     def one(reader: Reader, path: str, key: str) -> tuple[str, Any]:
         if key == "of":
+            stated = reader.whole.get("outputs")
+            names = stated.keys() & OUTPUTS.keys() if isinstance(stated, dict) else ()
+            outputs = [OUTPUTS[name] for name in names]
+            if problems := problems_of_metric(path, entry[key], say(entry[key]), outputs):
+                raise InvalidValue(*(each.put_in_words(in_study) for each in problems))
             return key, entry["of"]
         if key not in keys:
             hint = guess(key, ("of", *keys))

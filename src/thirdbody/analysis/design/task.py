@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...contact.contact import Contact
-from ...equilibrium.columns import columns_of
+from ...contact.output import AbstractOutput
+from ...effects import REGISTRY as OUTPUTS
+from ...equilibrium.columns import COLUMNS, PLASTIC_SHARE
 from ...equilibrium.solve import given_load
 from ...errors import Advice, InvalidValue, Mistake, Problem
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
 from ...quantities.arguments import is_empty
+from ...quantities.nearest import guess
 from ..inputs import input_of as moved_input
 from ..uncertainty.inputs import drawn_inputs
 from .problem import Limit, Objective, Suspension
 from .search import AMOUNT, DENSITY, Task, Variable
 
-__all__ = ["NOT_SMOOTH", "design_task"]
+__all__ = ["NOT_SMOOTH", "design_task", "problems_of_metric"]
 
 Array = NDArray[np.float64]
 
@@ -127,21 +130,32 @@ def _unknown(
     problems: list[str] = []
     if not objectives:
         problems.append(is_empty("objective", "say what should be small or large"))
-    smooth = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
-    both: list[Objective | Limit] = [*objectives, *limits]
-    problems += [
-        Problem(
-            "",
-            f"{type(goal).__name__} of {goal.of!r}: no such number; the states of this contact "
-            f"have {', '.join(sorted(smooth))}",
-            code=Mistake.UNKNOWN,
-        )
-        for goal in both
-        if goal.of not in smooth
-    ]
+    for argument, goals in (("objective", objectives), ("limits", limits)):
+        for i, goal in enumerate(goals):
+            place = f"{argument}[{i}].of" if len(goals) > 1 else f"{argument}.of"
+            problems += problems_of_metric(place, goal.of, repr(goal.of), contact.outputs)
     if len({objective.label for objective in objectives}) < len(objectives):
         problems.append(Problem("", "two objectives are the same", code=Mistake.CLASH))
     return problems
+
+
+def problems_of_metric(
+    place: str, of: str, value: str, outputs: Iterable[AbstractOutput | type[AbstractOutput]]
+) -> list[Problem]:
+    """Problem of an objective or a limit that is no number of states with these outputs."""
+    columns = {**COLUMNS, "plastic_share": PLASTIC_SHARE}
+    columns |= {name: column for output in outputs for name, column in output.columns.items()}
+    meanings = {name: each.meaning for name, each in columns.items() if name not in NOT_SMOOTH}
+    if of in meanings:
+        return []
+    rule = "is not a number of the states of this contact"
+    home = next((name for name, kind in OUTPUTS.items() if of in kind.columns), None)
+    hint: str = (
+        guess(of, sorted(meanings), meanings=meanings, otherwise="they have ")
+        if home is None
+        else Advice(f"outputs.{OUTPUTS[home].__name__} has it", f"a table [outputs.{home}] has it")
+    )
+    return [Problem(place, rule, value, hint=hint, code=Mistake.UNKNOWN)]
 
 
 def _suspension_problems(
