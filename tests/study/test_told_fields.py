@@ -66,3 +66,12 @@ def test_objectives_and_limits_that_are_no_numbers_are_all_named():
     assert {objective.code, limit.code} == {Mistake.UNKNOWN}
     assert (objective.value, objective.meant) == ('"plastic_shar"', "plastic_share")
     assert "[outputs.friction]" in limit.hint
+
+
+def test_of_many_inputs_the_nearest_few_are_listed():
+    (problem,) = problems(design=design(1, 2, vary={"particles.size": {"low": 1, "high": 2}}))
+    assert (problem.code, problem.place) == (Mistake.UNKNOWN, 'design.vary."particles.size"')
+    assert MEDIAN in problem.hint
+    assert problem.hint.count("particles.") <= 6
+    assert "[roughness]" in problem.hint
+    assert "roughness." not in problem.hint

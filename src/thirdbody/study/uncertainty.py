@@ -7,7 +7,8 @@ from typing import Any
 
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
 from ..errors import InvalidValue, Mistake, Problem
-from ..quantities.nearest import guess, near_path
+from ..quantities.nearest import guess, near_path, nearest_paths
+from ..quantities.say import join_words
 from ..quantities.units import Quantity, say
 from .inputs import Input, inputs_of
 from .reader import (
@@ -110,7 +111,12 @@ def field_of_input(
         raise InvalidValue(Problem(where, rule, code=Mistake.BEYOND))
     meanings = {path: about["meaning"] for path, (_, about) in numbers.items()}
     meant = near_path(name, numbers, meanings)
-    hint = guess("", listed, meant=meant, otherwise="it has ")
+    few = nearest_paths(name, listed)
+    hint = guess("", few, meant=meant, otherwise="it has ")
+    if meant is None and len(few) < len(listed):
+        tables = dict.fromkeys(path.partition(".")[0] for path in listed)
+        others = join_words([f"[{each}]" for each in tables])
+        hint += f", and other numbers of {others}, each by table and key"
     raise InvalidValue(
         Problem(where, f": {name} is not a number of this study", hint=hint, code=Mistake.UNKNOWN)
     )
