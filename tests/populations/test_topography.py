@@ -657,6 +657,20 @@ def test_a_file_without_unit_asks_for_it(tmp_path, library):
     np.testing.assert_allclose(s.heights, h - np.nanmean(h), atol=1e-18)
 
 
+def test_a_text_parted_by_commas_is_read_like_one_parted_by_blanks(tmp_path, library):
+    heights = np.random.default_rng(5).normal(0, 1, (40, 40))
+    read = []
+    for mark in (" ", ",", ";", ", "):
+        np.savetxt(tmp_path / "map.csv", heights, delimiter=mark)
+        read.append(from_topography(tmp_path / "map.csv", unit="nm", spacing=1e-7).heights)
+        np.testing.assert_array_equal(read[-1], read[0])
+    for text in ("0,1 0,2\n" * 9, "0,1;0,2\n" * 9, "1.000,1 1.000,2\n" * 9):
+        (tmp_path / "map.csv").write_text(text, "utf-8")
+        with refuses(Mistake.DAMAGED, "") as told:
+            from_topography(tmp_path / "map.csv", unit="nm", spacing=1e-7)
+        assert told.value.problems[0].hint
+
+
 def test_huge_files_are_refused_before_they_are_read(tmp_path, library):
     path = tmp_path / "huge.npy"
     head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (900000, 900000), }"

@@ -5,6 +5,7 @@ Files are read by SurfaceTopography (the extra ``surfaces``), which is loaded wi
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
@@ -154,7 +155,7 @@ def _from_file(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            reader = open_topography(str(path))
+            reader = open_topography(_with_blanks(path) or str(path))
         except Exception as error:
             _refuse_file(path, error)
         with reader:
@@ -180,6 +181,28 @@ def _from_file(
                 _refuse_file(path, error, form)
 
 
+NUMBERS = re.compile(rb"[-+\d.eE,;\s]+")
+TEXTS = (".txt", ".csv", ".dat", ".asc", ".xyz")
+"""How names of files of plain numbers end."""
+
+
+def _with_blanks(path: Path) -> io.BytesIO | None:
+    """A text of numbers between commas or semicolons with blanks instead; None for other files.
+
+    Commas that may be decimal ones are left: there must be points, and one number to a field.
+    """
+    with path.open("rb") as file:
+        start = file.read(4096)
+        mark = b";" if b";" in start else b","
+        if mark not in start or b"." not in start:
+            return None
+        fields = (field for line in start.splitlines() for field in line.split(mark))
+        several = any(len(field.split()) > 1 for field in fields)
+        if several or NUMBERS.fullmatch(start) is None or (mark == b";" and b"," in start):
+            return None
+        return io.BytesIO((start + file.read()).replace(mark, b" "))
+
+
 def _refuse_file(path: Path, error: Exception | None, form: str = "") -> NoReturn:
     text = str(error).strip().splitlines() if error is not None else []
     many = len(text) > 1 or not text
@@ -193,10 +216,10 @@ def _refuse_file(path: Path, error: Exception | None, form: str = "") -> NoRetur
         raise InvalidValue(
             f"cannot read {path}{kind}: the file is damaged ({why})", code=Mistake.DAMAGED
         ) from None
-    raise InvalidValue(
-        f"cannot read {path}: it is in none of the formats of SurfaceTopography, or damaged",
-        code=Mistake.DAMAGED,
-    ) from None
+    rule = f"cannot read {path}: it is in none of the formats of SurfaceTopography, or damaged"
+    hint = "numbers of a text have decimal points, and blanks between columns"
+    hint = hint if path.suffix.lower() in TEXTS else ""
+    raise InvalidValue(Problem("", rule, hint=hint, code=Mistake.DAMAGED)) from None
 
 
 def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
