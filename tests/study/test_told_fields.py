@@ -3,9 +3,10 @@
 import copy
 
 import pytest
+from refusals import refuses
 
 import thirdbody as tb
-from thirdbody.errors import Mistake
+from thirdbody.errors import Mistake, in_study
 from thirdbody.study import check
 
 DUSTY = {
@@ -75,3 +76,13 @@ def test_of_many_inputs_the_nearest_few_are_listed():
     assert problem.hint.count("particles.") <= 6
     assert "[roughness]" in problem.hint
     assert "roughness." not in problem.hint
+
+
+def test_particles_too_large_for_their_seat_are_named_with_the_limit():
+    large = DUSTY["particles"] | {"median": "100 mm", "areal_density": 1e-3}
+    beside = DUSTY["particles"] | {"law": {"name": "series", "seat": "plane"}}
+    for particles, place in ((large, "particles"), ([beside, large], "particles.1")):
+        study = check(copy.deepcopy(DUSTY | {"particles": particles}))
+        with refuses(Mistake.BEYOND, place, says="10 mm") as told:
+            study.solve()
+        assert 'particle_law.seat = "plane"' in in_study(told.value.problems[0].hint)
