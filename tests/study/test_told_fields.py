@@ -86,3 +86,14 @@ def test_particles_too_large_for_their_seat_are_named_with_the_limit():
         with refuses(Mistake.BEYOND, place, says="10 mm") as told:
             study.solve()
         assert 'particle_law.seat = "plane"' in in_study(told.value.problems[0].hint)
+
+
+def test_a_misspelt_kind_of_table_is_one_mistake():
+    gaussian = DUSTY["particles"] | {"distribution": "gaussian"}
+    asked = design("50 nm", "1 um")
+    (problem,) = problems(particles=gaussian, design=asked)
+    assert (problem.code, problem.place) == (Mistake.OPTION, "particles.distribution")
+    assert problem.meant == "truncated-gaussian"
+    told = problems(particles=gaussian | {"gsdd": 1.5})
+    assert [each.place for each in told] == ["particles.gsdd", "particles.distribution"]
+    assert told[0].meant == "gsd"

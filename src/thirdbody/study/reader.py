@@ -269,20 +269,16 @@ class Reader:
     ) -> object:
         """A table whose other keys depend on the word under ``tag``.
 
-        When the word is missing or misspelt, the rest of the table is checked all the same:
-        against the nearest kind, or against what any kind would take.
+        When the word is missing or misspelt, the rest of the table is checked all the same, against
+        what any kind would take, the nearest one first.
         """
         kind_word = get(data, tag)
-        chosen = (
-            kind_word
-            if isinstance(kind_word, str) and kind_word in kinds
-            else nearest_option(str(kind_word), kinds)
-        )
+        is_known = isinstance(kind_word, str) and kind_word in kinds
+        nearest = kind_word if is_known else nearest_option(str(kind_word), kinds)
         keys = {tag: tag_key(tuple(kinds))}
-        for name in kinds if chosen is None else (chosen,):
+        for name in (nearest,) if is_known else filter(None, (nearest, *kinds)):
             for field, key in keys_of(kinds[name]).items():
-                required = key.required and chosen is not None
-                keys.setdefault(field, key._replace(required=required))
+                keys.setdefault(field, key._replace(required=key.required and is_known))
         self.known_keys.variants[path] = tag, kinds
         made = build or (lambda values: self.make(kinds[values.pop(tag)], path, values))
         return self.table(path, data, keys | dict(common or {}), made)
