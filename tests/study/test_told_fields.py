@@ -97,3 +97,13 @@ def test_a_misspelt_kind_of_table_is_one_mistake():
     told = problems(particles=gaussian | {"gsdd": 1.5})
     assert [each.place for each in told] == ["particles.gsdd", "particles.distribution"]
     assert told[0].meant == "gsd"
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [("grinded", "ground"), ("Grinding", "ground"), ("honing", "honed"), ("turning", "turned")],
+)
+def test_other_words_for_a_finishing_process(word, meant):
+    (problem,) = problems(roughness={"Ra": "0.1 um", "process": word})
+    assert (problem.code, problem.place) == (Mistake.OPTION, "roughness.process")
+    assert (problem.value, problem.meant) == (f'"{word}"', meant)
