@@ -107,3 +107,17 @@ def test_other_words_for_a_finishing_process(word, meant):
     (problem,) = problems(roughness={"Ra": "0.1 um", "process": word})
     assert (problem.code, problem.place) == (Mistake.OPTION, "roughness.process")
     assert (problem.value, problem.meant) == (f'"{word}"', meant)
+
+
+@pytest.mark.parametrize(
+    "written",
+    ['median = "300 nm', "median = '300 nm", 'median = 300 nm"', 'median = "300 nm  # of all'],
+)
+def test_a_quote_that_is_missing_is_named_with_its_line(tmp_path, written):
+    file = tmp_path / "study.toml"
+    file.write_text(f"[particles]\n{written}\ngsd = 1.5\nname = 2\n", "utf-8")
+    with refuses(Mistake.FORM, "", says="line 2") as told:
+        tb.load_study(file)
+    (problem,) = told.value.problems
+    assert 'median = "300 nm"' in problem.hint
+    assert problem.source == str(file)
