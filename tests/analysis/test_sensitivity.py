@@ -409,19 +409,19 @@ def test_table_puts_the_strongest_input_first():
         ({"of": "A_t"}, refuses(Mistake.MISSING, "", says="F_star")),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "roughness.sigmaa"},
-            refuses(Mistake.UNKNOWN, "to = 'roughness.sigmaa'", meant="roughness.sigma"),
+            refuses(Mistake.UNKNOWN, "to", value="'roughness.sigmaa'", meant="roughness.sigma"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "roughness.eta"},
-            refuses(Mistake.MISSING, "to = 'roughness.eta'"),
+            refuses(Mistake.MISSING, "to", value="'roughness.eta'"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "particle_law.seat"},
-            refuses(Mistake.BEYOND, "to = 'particle_law.seat'"),
+            refuses(Mistake.BEYOND, "to", value="'particle_law.seat'"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "asperity_law.K"},
-            refuses(Mistake.BEYOND, "to = 'asperity_law.K'"),
+            refuses(Mistake.BEYOND, "to", value="'asperity_law.K'"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "pressure"},
@@ -429,7 +429,7 @@ def test_table_puts_the_strongest_input_first():
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "roughness.R+particle_law.h_0"},
-            refuses(Mistake.BEYOND, "to = 'roughness.R+particle_law.h_0'"),
+            refuses(Mistake.BEYOND, "to", value="'roughness.R+particle_law.h_0'"),
         ),
     ],
 )
@@ -440,7 +440,7 @@ def test_bad_requests_say_what_is_wrong(arguments, refusal):
 
 
 def test_particles_that_are_not_there():
-    with refuses(Mistake.BEYOND, "to = 'particles.areal_density'"):
+    with refuses(Mistake.BEYOND, "to", value="'particles.areal_density'"):
         tb.sensitivity(TWO_BODY, of="A_t", to="particles.areal_density", F_star=1e-5)
     got = tb.sensitivity(TWO_BODY, of="A_t", F_star=1e-5)
     assert not any(label.startswith("particle") for label in got.inputs)

@@ -37,7 +37,7 @@ from ..quantities.progress import watch_contacts
 from ..quantities.record import Column, TableRecord, Variable
 from ..quantities.uncertain import is_uncertain, shift_value
 from .differences import FULL, QUICK, Entry, Places, Rule
-from .inputs import NUMBERS, Input, _room, input_of, inputs
+from .inputs import NUMBERS, TO, Input, _room, input_of, inputs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -46,8 +46,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Sensitivity", "sensitivity"]
 
-TO = "to = {!r}"
-"""How the place of an input is written."""
 AT_ONCE = 500
 """Loads differentiated at a time."""
 CRITICAL = {
