@@ -454,3 +454,14 @@ def test_the_page_shows_what_its_code_prints():
     shown = [line for line in table.splitlines() if line != "..."]
     assert len(shown) == 7
     assert set(shown) <= set(printed.getvalue().splitlines())
+
+
+def test_columns_tell_their_unit_or_where_it_stands():
+    asked = {"to": ["roughness.sigma", "roughness.R"], "F_star": 1e-5}
+    one = tb.sensitivity(TWO_BODY, of="h", **asked).to_dataset()
+    told = {name: column.attrs.get("units") for name, column in one.data_vars.items()}
+    wanted = {"derivative": "1", "error": "1", "elasticity": "1", "value": "m", "input": "m"}
+    assert told == wanted | {"status": None}
+    two = tb.sensitivity(TWO_BODY, of=["h", "A_t"], **asked).to_dataset()
+    for name in ("derivative", "error", "value"):
+        assert two[name].attrs["units_in"] in two.coords
