@@ -9,6 +9,7 @@ from typing import Any
 from ..analysis.design.problem import Limit, Objective, Suspension
 from ..analysis.design.search import AMOUNT
 from ..analysis.design.task import problems_of_metric
+from ..contact.output import AbstractOutput
 from ..effects import REGISTRY as OUTPUTS
 from ..equilibrium.columns import about
 from ..errors import InvalidValue, Mistake, Problem, in_study
@@ -175,10 +176,11 @@ def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry:
     def one(reader: Reader, path: str, key: str) -> tuple[str, Any]:
         if key == "of":
             stated = reader.whole.get("outputs")
-            names = stated.keys() & OUTPUTS.keys() if isinstance(stated, dict) else ()
-            outputs = [OUTPUTS[name] for name in names]
+            names = stated if isinstance(stated, dict) else ()
+            kinds = (OUTPUTS[name] for name in names if name in OUTPUTS)
+            outputs = [kind for kind in kinds if issubclass(kind, AbstractOutput)]
             if problems := problems_of_metric(path, entry[key], say(entry[key]), outputs):
-                raise InvalidValue(*(each.put_in_words(in_study) for each in problems))
+                raise InvalidValue(*(problem.put_in_words(in_study) for problem in problems))
             return key, entry["of"]
         if key not in keys:
             hint = guess(key, ("of", *keys))

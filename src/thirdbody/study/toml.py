@@ -84,10 +84,10 @@ CLOSED = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'')
 """A string of TOML on one line."""
 
 
-def _closed(line: str) -> str:
+def _closed_line(line: str) -> str:
     """A line with the quote that it lacks; "" where it lacks none, or may go on below.
 
-    >>> _closed('median = "300 nm   # a size'), _closed('median = "300 nm" # its "size')
+    >>> _closed_line('median = "300 nm   # a size'), _closed_line('median = "300 nm" # its "size')
     ('median = "300 nm"', '')
     """
     bare = CLOSED.sub("", line).partition("#")[0]
@@ -105,7 +105,9 @@ def _syntax(path: Path, text: str, message: str) -> str:
     number = int(where[1]) if where and where[1] else len(lines)
     what = message[: where.start()] if where else message
     for i, text_of_line in enumerate(lines[:number], start=1):
-        if (meant := _closed(text_of_line)) and (i == number or "'\\n'" in what or '"\'"' in what):
+        if (meant := _closed_line(text_of_line)) and (
+            i == number or "'\\n'" in what or '"\'"' in what
+        ):
             lone = text_of_line.strip()
             hint = "a quote is probably missing" + (f": {meant}" if meant != lone else "")
             return f"{path}, line {i}: a string has no end, in: {lone}; {hint}"

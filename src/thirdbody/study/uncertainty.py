@@ -115,7 +115,7 @@ def field_of_input(
     hint = guess("", few, meant=meant, otherwise="it has ")
     if meant is None and len(few) < len(listed):
         tables = dict.fromkeys(path.partition(".")[0] for path in listed)
-        others = join_words([f"[{each}]" for each in tables])
+        others = join_words([f"[{table}]" for table in tables])
         hint += f", and other numbers of {others}, each by table and key"
     raise InvalidValue(
         Problem(where, f": {name} is not a number of this study", hint=hint, code=Mistake.UNKNOWN)

@@ -130,10 +130,14 @@ def _unknown(
     problems: list[str] = []
     if not objectives:
         problems.append(is_empty("objective", "say what should be small or large"))
-    for argument, goals in (("objective", objectives), ("limits", limits)):
-        for i, goal in enumerate(goals):
-            place = f"{argument}[{i}].of" if len(goals) > 1 else f"{argument}.of"
-            problems += problems_of_metric(place, goal.of, repr(goal.of), contact.outputs)
+    metrics = {
+        "objective": [objective.of for objective in objectives],
+        "limits": [limit.of for limit in limits],
+    }
+    for argument, names in metrics.items():
+        for i, of in enumerate(names):
+            place = f"{argument}[{i}].of" if len(names) > 1 else f"{argument}.of"
+            problems += problems_of_metric(place, of, repr(of), contact.outputs)
     if len({objective.label for objective in objectives}) < len(objectives):
         problems.append(Problem("", "two objectives are the same", code=Mistake.CLASH))
     return problems
@@ -145,16 +149,21 @@ def problems_of_metric(
     """Problem of an objective or a limit that is no number of states with these outputs."""
     columns = {**COLUMNS, "plastic_share": PLASTIC_SHARE}
     columns |= {name: column for output in outputs for name, column in output.columns.items()}
-    meanings = {name: each.meaning for name, each in columns.items() if name not in NOT_SMOOTH}
+    meanings = {name: column.meaning for name, column in columns.items() if name not in NOT_SMOOTH}
     if of in meanings:
         return []
     rule = "is not a number of the states of this contact"
-    home = next((name for name, kind in OUTPUTS.items() if of in kind.columns), None)
-    hint: str = (
-        guess(of, sorted(meanings), meanings=meanings, otherwise="they have ")
-        if home is None
-        else Advice(f"outputs.{OUTPUTS[home].__name__} has it", f"a table [outputs.{home}] has it")
-    )
+    homes = {
+        column: kind
+        for kind in OUTPUTS.values()
+        if issubclass(kind, AbstractOutput)
+        for column in kind.columns
+    }
+    hint: str
+    if home := homes.get(of):
+        hint = Advice(f"outputs.{home.__name__} has it", f"a table [outputs.{home.name}] has it")
+    else:
+        hint = guess(of, sorted(meanings), meanings=meanings, otherwise="they have ")
     return [Problem(place, rule, value, hint=hint, code=Mistake.UNKNOWN)]
 
 

@@ -402,7 +402,7 @@ class Folder:
                 "or give another folder",
                 code=Mistake.OTHER_STUDY,
             )
-        refuse_another(path, old_study, study, derived=("order",), called=_called)
+        refuse_another(path, old_study, study, derived=("order",), called=_entry_in_words)
 
     def _refuse_strangers(self) -> None:
         """Refuse a folder without a study that holds anything but what a killed run leaves."""
@@ -454,10 +454,10 @@ class Folder:
             yield
 
 
-def _called(key: str) -> str:
+def _entry_in_words(key: str) -> str:
     """What a reader calls an entry of ``study.json``.
 
-    >>> _called("vary.particles.diameter.mean.particles.diameter.mean")
+    >>> _entry_in_words("vary.particles.diameter.mean.particles.diameter.mean")
     'particles.diameter.mean'
     """
     label = key.removeprefix("vary.")
