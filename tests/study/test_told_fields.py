@@ -1,13 +1,16 @@
 """What a mistake in a study file is told with: its key, its value, its kind, what was meant."""
 
 import copy
+import tomllib
 
 import pytest
 from refusals import refuses
 
 import thirdbody as tb
 from thirdbody.errors import Mistake, in_study
+from thirdbody.quantities.units import example_of, to_si
 from thirdbody.study import check
+from thirdbody.study.reader import UNITS
 
 DUSTY = {
     "surfaces": {"first": "S45C", "second": "S45C"},
@@ -22,6 +25,7 @@ DUSTY = {
     "load": {"pressure": "5 MPa"},
 }
 MEDIAN = "particles.median"
+DULL = {"E": "205 GPa", "nu": 0.29}
 
 
 def problems(**tables):
@@ -121,3 +125,15 @@ def test_a_quote_that_is_missing_is_named_with_its_line(tmp_path, written):
     (problem,) = told.value.problems
     assert 'median = "300 nm"' in problem.hint
     assert problem.source == str(file)
+
+
+def test_a_value_that_may_be_written_is_one_of_the_quantity():
+    """5 GPa are no load, but a hardness; and of every unit one can be written."""
+    (pressure,) = problems(load={"pressure": "5 N"})
+    (hardness,) = problems(surfaces={"first": DULL | {"H": "5 N"}, "second": "S45C"})
+    assert (pressure.code, pressure.place) == (Mistake.UNIT, "load.pressure")
+    assert (hardness.code, hardness.place) == (Mistake.UNIT, "surfaces.first.H")
+    assert ('"5 MPa"' in pressure, '"5 GPa"' in hardness) == (True, True)
+    for unit in {*UNITS.values()} - {"1"}:
+        written = tomllib.loads(f"example = {example_of(unit)}")["example"]
+        assert to_si(written, unit) > 0

@@ -20,7 +20,7 @@ from ..quantities.nearest import Guess, guess
 from ..quantities.say import join_words
 from ..quantities.slips import SLIP, unit_meant
 from ..quantities.unit_patterns import HARDNESS_TEXT, name_of_unit
-from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
+from ..quantities.units import Quantity, example_of, quantity_to_si, say
 from ..quantities.value import (
     allowed_range,
     hint_on,
@@ -276,7 +276,8 @@ class Reader:
         is_known = isinstance(kind_word, str) and kind_word in kinds
         nearest = kind_word if is_known else nearest_option(str(kind_word), kinds)
         keys = {tag: tag_key(tuple(kinds))}
-        for name in (nearest,) if is_known else filter(None, (nearest, *kinds)):
+        likely = [] if nearest is None else [nearest]
+        for name in likely if is_known else [*likely, *kinds]:
             for field, key in keys_of(kinds[name]).items():
                 keys.setdefault(field, key._replace(required=key.required and is_known))
         self.known_keys.variants[path] = tag, kinds
@@ -458,7 +459,7 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
     def read(reader: Reader, path: str, value: object) -> tuple[float, ...]:
         if not isinstance(value, list):
             raise wrong(
-                path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value, code=Mistake.KIND
+                path, f"must be a list, e.g. [{example_of(unit)}, ...]", value, code=Mistake.KIND
             )
         return read_numbers(one, Unsaid(), path, value)
 
