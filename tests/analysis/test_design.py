@@ -298,7 +298,11 @@ def test_an_end_of_the_range_is_told():
             refuses(Mistake.RANGE, "Roughness.sigma", value="-1e-07"),
         ),
         ({"vary": {"roughness.R": [STEEL]}}, refuses(Mistake.KIND, "vary['roughness.R']")),
-        ({"objective": Objective(of="muu")}, refuses(Mistake.UNKNOWN, "", says="'muu'")),
+        (
+            {"objective": Objective(of="plastic_shar")},
+            refuses(Mistake.UNKNOWN, "objective.of", value="'plastic_shar'", meant="plastic_share"),
+        ),
+        ({"limits": [Limit(of="muu", most=1)]}, refuses(Mistake.UNKNOWN, "limits.of")),
         ({"objective": []}, refuses(Mistake.EMPTY, "objective")),
         ({"F_star": None}, refuses(Mistake.MISSING, "", says="pressure, F_star")),
         ({"weights": [1, 2, 3]}, refuses(Mistake.SHAPE, "", says="weights")),

@@ -409,19 +409,19 @@ def test_table_puts_the_strongest_input_first():
         ({"of": "A_t"}, refuses(Mistake.MISSING, "", says="F_star")),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "roughness.sigmaa"},
-            refuses(Mistake.UNKNOWN, "to = 'roughness.sigmaa'", meant="roughness.sigma"),
+            refuses(Mistake.UNKNOWN, "to", value="'roughness.sigmaa'", meant="roughness.sigma"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "roughness.eta"},
-            refuses(Mistake.MISSING, "to = 'roughness.eta'"),
+            refuses(Mistake.MISSING, "to", value="'roughness.eta'"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "particle_law.seat"},
-            refuses(Mistake.BEYOND, "to = 'particle_law.seat'"),
+            refuses(Mistake.BEYOND, "to", value="'particle_law.seat'"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "asperity_law.K"},
-            refuses(Mistake.BEYOND, "to = 'asperity_law.K'"),
+            refuses(Mistake.BEYOND, "to", value="'asperity_law.K'"),
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "pressure"},
@@ -429,7 +429,7 @@ def test_table_puts_the_strongest_input_first():
         ),
         (
             {"of": "A_t", "F_star": 1e-5, "to": "roughness.R+particle_law.h_0"},
-            refuses(Mistake.BEYOND, "to = 'roughness.R+particle_law.h_0'"),
+            refuses(Mistake.BEYOND, "to", value="'roughness.R+particle_law.h_0'"),
         ),
     ],
 )
@@ -440,7 +440,7 @@ def test_bad_requests_say_what_is_wrong(arguments, refusal):
 
 
 def test_particles_that_are_not_there():
-    with refuses(Mistake.BEYOND, "to = 'particles.areal_density'"):
+    with refuses(Mistake.BEYOND, "to", value="'particles.areal_density'"):
         tb.sensitivity(TWO_BODY, of="A_t", to="particles.areal_density", F_star=1e-5)
     got = tb.sensitivity(TWO_BODY, of="A_t", F_star=1e-5)
     assert not any(label.startswith("particle") for label in got.inputs)
@@ -454,3 +454,14 @@ def test_the_page_shows_what_its_code_prints():
     shown = [line for line in table.splitlines() if line != "..."]
     assert len(shown) == 7
     assert set(shown) <= set(printed.getvalue().splitlines())
+
+
+def test_columns_tell_their_unit_or_where_it_stands():
+    asked = {"to": ["roughness.sigma", "roughness.R"], "F_star": 1e-5}
+    one = tb.sensitivity(TWO_BODY, of="h", **asked).to_dataset()
+    told = {name: column.attrs.get("units") for name, column in one.data_vars.items()}
+    wanted = {"derivative": "1", "error": "1", "elasticity": "1", "value": "m", "input": "m"}
+    assert told == wanted | {"status": None}
+    two = tb.sensitivity(TWO_BODY, of=["h", "A_t"], **asked).to_dataset()
+    for name in ("derivative", "error", "value"):
+        assert two[name].attrs["units_in"] in two.coords

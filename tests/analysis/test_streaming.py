@@ -26,7 +26,9 @@ from thirdbody.analysis.sweep import stores, streaming
 from thirdbody.analysis.sweep.folder import name_of
 from thirdbody.analysis.sweep.make_plan import make_plan
 from thirdbody.analysis.sweep.plan import LOOKED_AT
+from thirdbody.cli.commands import sweep as sweep_command
 from thirdbody.equilibrium.modes import MODES
+from thirdbody.errors import in_study
 from thirdbody.numerics.sampling import DESIGNS, Span, latin, sobol
 from thirdbody.study import check, load_study
 
@@ -371,8 +373,12 @@ def test_another_study_is_refused(tmp_path):
     with refuses(Mistake.OTHER_STUDY, "", says="chunk is 262144"):
         tb.sweep(DUSTY, **GRID, out=tmp_path, chunk=5)
     longer = GRID | {"F_star": np.geomspace(1e-6, 1e-5, 5000)}
-    with refuses(Mistake.OTHER_STUDY, "", says="F_star"):
+    with refuses(Mistake.OTHER_STUDY, "", says="F_star is 5e-07 … 0.003 (9 values)") as told:
         tb.sweep(DUSTY, **longer, out=tmp_path)
+    (problem,) = told.value.problems
+    assert "1e-06 … 1e-05 (5000 values)" in problem.rule
+    assert problem.source == str(tmp_path)
+    assert "--out" in in_study(problem.hint)
     assert files(tmp_path) == before
 
 
@@ -393,6 +399,13 @@ def test_missing_package_has_one_message(tmp_path, monkeypatch, format, package)
     with refuses(Mistake.ABSENT, "format", says=f" {package}: "):
         tb.sweep(CLEAN, F_star=1e-5, out=tmp_path / "o", format=format)
     assert not (tmp_path / "o").exists()
+
+
+def test_missing_package_names_the_option_of_the_command(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "zarr", None)
+    asked = sweep_command.Options(study=EXAMPLE, out=tmp_path / "o")
+    with refuses(Mistake.ABSENT, "--format", says="thirdbody[sweep]"):
+        sweep_command.command(asked)
 
 
 # ---------------------------------------------------------------- killed for real

@@ -7,6 +7,7 @@ import tomllib
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command_line import refused
 from typer.testing import CliRunner
@@ -110,10 +111,13 @@ def test_mistakes(arguments, words, empty_folder):
 
 
 def test_a_file_of_ones_own(empty_folder):
-    Path("heights.txt").write_text("1 2\n", "utf-8")
+    pytest.importorskip("SurfaceTopography")
+    heights = np.random.default_rng(3).normal(0, 2e-7, (64, 64))
+    np.savetxt("heights.txt", heights)
     assert run("new", "measured-surface", "heights.txt").exit_code == 0
     table = tomllib.loads(Path("measured-surface.toml").read_text("utf-8"))["roughness"]
-    assert table == {"topography": "heights.txt"}
+    assert table == {"topography": "heights.txt", "unit": "m", "spacing": "1 um"}
+    assert load_study("measured-surface.toml").contact.roughness.sigma > 0
     assert "asperity_law" not in tomllib.loads(Path("measured-surface.toml").read_text("utf-8"))
     Path("below").mkdir()
     run("new", "measured-surface", "heights.txt", "--out", "below/study.toml")

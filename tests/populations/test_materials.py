@@ -64,10 +64,10 @@ def test_library():
 
 
 def test_unknown_material():
-    with refuses(Mistake.UNKNOWN, "", meant="S45C") as told:
+    with refuses(Mistake.UNKNOWN, "materials['S45c']", meant="S45C") as told:
         tb.materials["S45c"]
     assert isinstance(told.value, KeyError)
-    with refuses(Mistake.UNKNOWN, "", says="'unobtainium'"):
+    with refuses(Mistake.UNKNOWN, "materials['unobtainium']"):
         tb.materials["unobtainium"]
     assert "unobtainium" not in tb.materials
     assert tb.materials.get("unobtainium") is None
@@ -187,9 +187,9 @@ def test_search():
 
 
 def test_other_names_are_suggested():
-    with refuses(Mistake.UNKNOWN, "", meant="100Cr6"):
+    with refuses(Mistake.UNKNOWN, "materials['52100']", meant="100Cr6"):
         tb.materials["52100"]
-    with refuses(Mistake.UNKNOWN, "", meant="ZrO2"):
+    with refuses(Mistake.UNKNOWN, "materials['zirconia']", meant="ZrO2"):
         tb.materials["zirconia"]
 
 

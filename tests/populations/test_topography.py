@@ -13,6 +13,7 @@ from refusals import Mistake, refuses
 
 import thirdbody as tb
 from thirdbody import study
+from thirdbody.cli.commands import surface
 from thirdbody.errors import code_of
 from thirdbody.populations.measured import synthetic
 from thirdbody.populations.measured.topography import COLUMNS, from_topography
@@ -592,8 +593,8 @@ def test_the_tip_radius_in_a_file_is_a_limit(library):
         (dict(source="example", cutoff=-1.0), "at least 0"),
         (dict(source="example", cutoff=math.nan), "finite"),
         (dict(source="example", unit="GPa"), "pressure"),
-        (dict(source="example", unit="nm"), "leave unit out"),
-        (dict(source="example", spacing=1e-7), "leave spacing out"),
+        (dict(source="example", unit="nm"), "leave it out"),
+        (dict(source="example", spacing=1e-7), "leave it out"),
         (dict(source="example", spacing=(1, 2, 3)), "spacing"),
         (dict(source="example", resolution=0.0), "above 0"),
     ],
@@ -647,10 +648,27 @@ def test_a_file_without_unit_asks_for_it(tmp_path, library):
         from_topography(path)
     unit, sides = error.value.problems
     assert unit.code is sides.code is Mistake.UNIT
-    assert "unit = " in unit
-    assert "spacing = " in sides
+    assert (unit.place, sides.place) == ("unit", "spacing")
+    assert '"um"' in unit.hint
+    for place in ("--unit", "--spacing"):
+        with refuses(Mistake.UNIT, place):
+            surface.command(surface.Options(file=path))
     s = from_topography(path, unit="nm", spacing=1e-7, detrend="none")
     np.testing.assert_allclose(s.heights, h - np.nanmean(h), atol=1e-18)
+
+
+def test_a_text_parted_by_commas_is_read_like_one_parted_by_blanks(tmp_path, library):
+    heights = np.random.default_rng(5).normal(0, 1, (40, 40))
+    read = []
+    for mark in (" ", ",", ";", ", "):
+        np.savetxt(tmp_path / "map.csv", heights, delimiter=mark)
+        read.append(from_topography(tmp_path / "map.csv", unit="nm", spacing=1e-7).heights)
+        np.testing.assert_array_equal(read[-1], read[0])
+    for text in ("0,1 0,2\n" * 9, "0,1;0,2\n" * 9, "1.000,1 1.000,2\n" * 9):
+        (tmp_path / "map.csv").write_text(text, "utf-8")
+        with refuses(Mistake.DAMAGED, "") as told:
+            from_topography(tmp_path / "map.csv", unit="nm", spacing=1e-7)
+        assert told.value.problems[0].hint
 
 
 def test_huge_files_are_refused_before_they_are_read(tmp_path, library):

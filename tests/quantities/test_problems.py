@@ -7,6 +7,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from refusals import refuses
 from steel_and_dust import DUSTY as CONTACT
 
 import thirdbody as tb
@@ -49,7 +50,14 @@ def test_one_mistake_has_one_sentence(call):
 def test_sensitivity_names_its_own_argument():
     with pytest.raises(tb.errors.InvalidValue) as told:
         tb.sensitivity(CONTACT, F_star=1e-4, of="A_t", to=["roughness.sigm"])
-    assert told.value.problems == (NOT_AN_INPUT.format("to = 'roughness.sigm'"),)
+    (problem,) = told.value.problems
+    assert problem == NOT_AN_INPUT.format("to = 'roughness.sigm'")
+    assert (problem.place, problem.value) == ("to", "'roughness.sigm'")
+
+
+def test_a_name_of_no_material_has_a_place():
+    with refuses(Mistake.UNKNOWN, "materials['S45']", meant="S45C"):
+        tb.materials["S45"]
 
 
 @pytest.mark.parametrize(

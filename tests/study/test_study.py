@@ -313,7 +313,7 @@ def test_loads(write, load, name, values):
 # ---------------------------------------------------------------------------- mistakes
 def test_wrong_dimension(problems):
     found = problems(('sigma = "100 nm"', 'sigma = "300 GPa"'))
-    only(found, 'roughness.sigma = "300 GPa"', "is a pressure", "a length [m]", '"300 nm"')
+    only(found, 'roughness.sigma = "300 GPa"', "is a pressure", "a length [m]", '"100 nm"')
 
 
 def test_wrong_dimension_of_a_load(problems):
@@ -378,7 +378,7 @@ def test_unknown_key_that_is_meant_for_a_missing_one_is_told_once(problems):
     [
         (
             'sigma = "100 nm"\n',
-            ["roughness.sigma is missing", "surface heights", "[m]", '"300 nm"'],
+            ["roughness.sigma is missing", "surface heights", "[m]", '"100 nm"'],
         ),
         ('first = "S45C"\n', ["surfaces.first is missing", "a material", '"S45C"']),
         ('material = "SiO2"\n', ["particles.material is missing", "SiO2"]),

@@ -12,7 +12,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.output import AbstractOutput
 from ..equilibrium.columns import COLUMNS
-from ..equilibrium.states import carries, unknown_inputs, vary_contact
+from ..equilibrium.states import carries, problem_of_name, unknown_inputs, vary_contact
 from ..errors import InvalidValue, Mistake, Problem
 from ..populations.roughness import ETA_R_SIGMA
 from ..quantities.say import join_words
@@ -89,10 +89,8 @@ def input_of(contact: Contact, label: str, where: str = "vary[{!r}]") -> Input:
     values = tuple(numbers[name] for name in names)
     if len(names) > 1:
         if problems := [
-            Problem(
-                where.format(label),
-                f"moves its inputs by one factor, but {name} is zero",
-                code=Mistake.BEYOND,
+            problem_of_name(
+                where, label, f"moves its inputs by one factor, but {name} is zero", Mistake.BEYOND
             )
             for name, value in zip(names, values, strict=True)
             if value == 0
@@ -110,7 +108,7 @@ def _scale(contact: Contact, name: str, value: float, where: str) -> float:
     usual = {"1": 1.0, "m": contact.roughness.sigma}.get(about["unit"], 0.0)
     if not (scale := max(abs(value), usual)):
         hint = "give it a value to say what a small change is"
-        raise InvalidValue(Problem(where.format(name), "is zero", hint=hint, code=Mistake.RANGE))
+        raise InvalidValue(problem_of_name(where, name, "is zero", Mistake.RANGE, hint=hint))
     return scale
 
 
@@ -183,23 +181,21 @@ def _no_input(contact: Contact, name: str, numbers: Iterable[str], where: str) -
     """Why a name is not an input that can be varied."""
     if unknown := next(unknown_inputs(contact, [name], list(numbers), where), None):
         return unknown
-    place = where.format(name)
     if name in ("roughness.eta", "roughness.eta_R_sigma"):
         other = "eta_R_sigma" if name.endswith("eta") else "eta"
         hint = f"the density follows from 'roughness.{other}', use that"
-        return Problem(place, "is not given", hint=hint, code=Mistake.MISSING)
+        return problem_of_name(where, name, "is not given", Mistake.MISSING, hint=hint)
     if contact.value_at(name) is None:
+        rule = "is None: the contact finds it from its other inputs"
         hint = "vary those, or give it a value"
-        return Problem(
-            place,
-            "is None: the contact finds it from its other inputs",
-            hint=hint,
-            code=Mistake.BEYOND,
-        )
-    return Problem(place, "is not a number that could change a little", code=Mistake.BEYOND)
+        return problem_of_name(where, name, rule, Mistake.BEYOND, hint=hint)
+    rule = "is not a number that could change a little"
+    return problem_of_name(where, name, rule, Mistake.BEYOND)
 
 
 # -------------------------------------------------------------------------- differences
+TO = "to = {!r}"
+"""How the place of an input is written by which something is differentiated."""
 FULL_REACH = 4
 """Steps to either side of a difference with all its digits."""
 
@@ -222,5 +218,5 @@ def _room(contact: Contact, moved: Input, step: float, reach: int = FULL_REACH) 
             why = why or str(refused)
         else:
             return offsets
-    place = f"to = {moved.label!r}"
-    raise InvalidValue(Problem(place, f"can be moved to neither side: {why}", code=Mistake.BEYOND))
+    rule = f"can be moved to neither side: {why}"
+    raise InvalidValue(problem_of_name(TO, moved.label, rule, Mistake.BEYOND))

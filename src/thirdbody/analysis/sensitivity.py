@@ -37,7 +37,7 @@ from ..quantities.progress import watch_contacts
 from ..quantities.record import Column, TableRecord, Variable
 from ..quantities.uncertain import is_uncertain, shift_value
 from .differences import FULL, QUICK, Entry, Places, Rule
-from .inputs import NUMBERS, Input, _room, input_of, inputs
+from .inputs import NUMBERS, TO, Input, _room, input_of, inputs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -46,8 +46,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Sensitivity", "sensitivity"]
 
-TO = "to = {!r}"
-"""How the place of an input is written."""
 AT_ONCE = 500
 """Loads differentiated at a time."""
 CRITICAL = {
@@ -281,13 +279,22 @@ class Sensitivity(TableRecord):
         def pairs(table: Mapping[str, Mapping[str, ArrayLike]]) -> NDArray[np.generic]:
             return np.array([stack(row[to] for to in self.inputs) for row in table.values()])
 
+        of, to = self._abouts()
+        slopes = {unit_over(one.unit, other.unit) for one in of for other in to}
+        units = {
+            "derivative": _unit_of_all(slopes, "derivative_units"),
+            "error": _unit_of_all(slopes, "derivative_units"),
+            "value": _unit_of_all({one.unit for one in of}, "of_units"),
+            "input": _unit_of_all({one.unit for one in to}, "to_units"),
+            "elasticity": {"units": "1"},
+        }
         both = ("of", "to", *along)
-        labels = {name: {"long_name": meaning} for name, meaning in MEANINGS.items()}
+        labels = {
+            name: {"long_name": meaning} | units.get(name, {}) for name, meaning in MEANINGS.items()
+        }
         return {
             "derivative": Variable(both, pairs(self.derivative), labels["derivative"]),
-            "elasticity": Variable(
-                both, pairs(self.elasticity), labels["elasticity"] | {"units": "1"}
-            ),
+            "elasticity": Variable(both, pairs(self.elasticity), labels["elasticity"]),
             "error": Variable(both, pairs(self.error), labels["error"]),
             "status": Variable(both, pairs(self.status).astype(str), labels["status"]),
             "value": Variable(("of", *along), stack(self.value.values()), labels["value"]),
@@ -324,6 +331,11 @@ class Sensitivity(TableRecord):
             for to in self.inputs
         ]
         yield Card("Elasticities d ln c/d ln p", rows)
+
+
+def _unit_of_all(units: set[str], coordinate: str) -> dict[str, str]:
+    """Attributes that say the unit of a column, or the coordinate that says each."""
+    return {"units": next(iter(units))} if len(units) == 1 else {"units_in": coordinate}
 
 
 def _default_inputs(contact: Contact) -> list[str]:

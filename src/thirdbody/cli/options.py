@@ -5,8 +5,8 @@ from __future__ import annotations
 import inspect
 import math
 import os
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import nullcontext
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from dataclasses import MISSING, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
@@ -34,6 +34,7 @@ __all__ = [
     "argument",
     "load_own_code",
     "metres",
+    "named_as_options",
     "not_a_folder",
     "option",
     "parameters_of",
@@ -237,6 +238,20 @@ def not_a_folder(out: Path | None) -> list[Problem]:
     why = hindrance_of_folder(out)
     rule = f": cannot write there: {why}"
     return [Problem("--out", rule, str(out), code=Mistake.UNWRITABLE)] if why else []
+
+
+@contextmanager
+def named_as_options(*names: str) -> Iterator[None]:
+    """Context in which mistakes in arguments of these names are told as those in options."""
+    try:
+        yield
+    except InvalidValue as error:
+        raise type(error)(
+            *(
+                problem.changed(path=f"--{problem.path}") if problem.place in names else problem
+                for problem in error.problems
+            )
+        ) from None
 
 
 def metres(option: str, text: str, problems: list[str]) -> float:

@@ -135,14 +135,14 @@ class Contact(Value):
             try:
                 law = self.law_of(population)
             except InvalidValue as error:
-                out += [_of_population(one, place, population) for one in error.problems]
+                out += [at_population(one, place, population) for one in error.problems]
                 continue
             laws.append(law)
             if population.strength is not None and not law.breakable:
                 rule = f": particles of the law {law.name} do not break"
                 hint = "use " + SERIES + ", or remove strength"
                 out.append(
-                    _of_population(
+                    at_population(
                         Problem("strength", rule, hint=hint, code=Mistake.BEYOND), place, population
                     )
                 )
@@ -191,7 +191,7 @@ class Contact(Value):
         return not self.populations
 
 
-def _of_population(problem: Problem, place: str, particles: Particles) -> Problem:
+def at_population(problem: Problem, place: str, particles: Particles) -> Problem:
     """A problem of one population at its place; advice on its law where it has one of its own."""
 
     def advice(text: str) -> str:

@@ -12,15 +12,16 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws.base import SeatedLaw
+from ..errors import InvalidValue
+from ..laws.base import AbstractParticleLaw, SeatedLaw
 from ..populations.particles import Particles
 from ..quantities.progress import advance
 from .asperity_sums import asperity_sum
 from .broken_averages import is_rough
-from .contact import Contact
+from .contact import Contact, at_population
 from .field_ground import put_on_ground
 from .field_sums import FieldSum
-from .particle_sums import SeatedParticles, particle_sum, together_in
+from .particle_sums import OWNER, ParticleSum, SeatedParticles, particle_sum, together_in
 
 Array = NDArray[np.float64]
 
@@ -39,8 +40,7 @@ class Interface:
             laws[0].centre if laws else 0.0,
         )
         self.populations = [
-            particle_sum(law, contact.surfaces, contact.roughness, population)
-            for law, population in zip(laws, contact.populations, strict=True)
+            _sum_at(place, law, contact) for law, place in zip(laws, contact.places, strict=True)
         ]
         if self.populations and isinstance(self.asperities, FieldSum):
             self.asperities, on_ground = put_on_ground(
@@ -117,6 +117,20 @@ class Interface:
             particle_fields = of_particles
             particle_fields["shadow"] = np.minimum(particle_fields["shadow"], 1.0)
         return together(F, areas, particle_fields)
+
+
+def _sum_at(place: str, law: AbstractParticleLaw, contact: Contact) -> ParticleSum:
+    """Sum of the population at a place; its own mistakes are told there."""
+    population = contact.places[place]
+    try:
+        return particle_sum(law, contact.surfaces, contact.roughness, population)
+    except InvalidValue as error:
+        raise InvalidValue(
+            *(
+                at_population(problem, place, population) if problem.owner == OWNER else problem
+                for problem in error.problems
+            )
+        ) from None
 
 
 def together(

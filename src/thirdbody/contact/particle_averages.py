@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
-from ..errors import InvalidValue, Mistake
 from ..laws.base import COLUMNS, KINDS, OneParticle
 from ..laws.spots import Layout, ParticleSpots
 from ..numerics.chebyshev import PiecewiseChebyshev
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["SeatAverage", "SizeAverage", "seat_average", "size_average"]
+__all__ = ["WIDEST", "SeatAverage", "SizeAverage", "seat_average", "size_average"]
 
 
 class SizeAverage:
@@ -403,13 +402,6 @@ class SeatAverage:
 
     def __init__(self, average: SizeAverage, width: float):
         self.average, self.width, self.particle = average, width, average.particle
-        span = (average.top - average.bottom) / width
-        if span > WIDEST:
-            raise InvalidValue(
-                f"particle diameters range over {span:.3g} widths of the seat, more than "
-                f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'",
-                code=Mistake.BEYOND,
-            )
         self.low = average.bottom - NORMAL_REACH * width
         self.high = average.top + NORMAL_REACH * width
 

@@ -17,15 +17,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue, Mistake
+from ..errors import Advice, InvalidValue, Mistake, Problem
 from ..laws.base import COLUMNS, AbstractParticleLaw, SeatedLaw
 from ..laws.particle.breakage import Breakage
 from ..laws.particle.horng2022 import NO_ONE_PARTICLE, Horng2022
 from ..populations.materials import MaterialPair, reduced_modulus
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
+from ..quantities.say import value_of
 from .broken_averages import BrokenAverage, broken_average
-from .particle_averages import SeatAverage, SizeAverage, seat_average, size_average
+from .particle_averages import WIDEST, SeatAverage, SizeAverage, seat_average, size_average
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -69,7 +70,9 @@ def _over_sizes_and_seats(
             breakage = Breakage.of_material(particles.strength, particles.material, scale)
             average = broken_average(one, shape, breakage)
         if law.seat == "rough":
-            average = seat_average(average, law.zeta_std * roughness.sigma / scale)
+            width = law.zeta_std * roughness.sigma
+            _need_room((average.top - average.bottom) * scale, width)
+            average = seat_average(average, width / scale)
         density = particles.areal_density * weight
         parts.append(Part(average, scale, density, offset=law.seat_offset(roughness)))
     made = SeatedParticles(parts, law.shadow, coverage)
@@ -80,6 +83,28 @@ def _over_sizes_and_seats(
             code=Mistake.FULL,
         )
     return made
+
+
+OWNER = "particles"
+"""Whose mistakes are those of a population, which stands at a place of its own in a contact."""
+
+
+def _need_room(span: float, width: float) -> None:
+    """Refuse diameters that range over more of a rough seat than there are nodes for; all [m]."""
+    if span > WIDEST * width:
+        most, seat = value_of(WIDEST * width, "m", 3), value_of(width, "m", 3)
+        rule = f": diameters range over {value_of(span, 'm', 3)}, and {most} is the most on a seat"
+        hint = "check the units of sizes and roughness; where both are right the surface is smooth "
+        hint += "for such particles, " + Advice("seat='plane'", 'particle_law.seat = "plane"')
+        raise InvalidValue(
+            Problem(
+                "",
+                f"{rule} as rough as {seat}",
+                hint=hint,
+                owner=OWNER,
+                code=Mistake.BEYOND,
+            )
+        )
 
 
 @particle_sum.register(Horng2022)

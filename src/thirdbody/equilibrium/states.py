@@ -211,6 +211,18 @@ def _loads_and_inputs(
     return load, loads, arrays
 
 
+def problem_of_name(where: str, name: str, rule: str, code: Mistake, *, hint: str = "") -> Problem:
+    """A mistake in a name that stands as a key, "vary[{!r}]", or as a value, "to = {!r}".
+
+    >>> told = problem_of_name("to = {!r}", "sigm", "is not an input", Mistake.UNKNOWN)
+    >>> str(told), told.path, told.value
+    ("to = 'sigm' is not an input", 'to', "'sigm'")
+    """
+    path, is_value, _ = where.partition(" = ")
+    value = repr(name) if is_value else None
+    return Problem(path.format(name), rule, value, hint=hint, code=code)
+
+
 def unknown_inputs(
     contact: Contact,
     names: Iterable[str],
@@ -230,9 +242,9 @@ def unknown_inputs(
         How the place of a name is written.
     """
     for name in names:
-        place = where.format(name)
         if contact.two_body and name.startswith("particle"):
-            yield Problem(place, "says nothing of a contact without particles", code=Mistake.BEYOND)
+            rule = "says nothing of a contact without particles"
+            yield problem_of_name(where, name, rule, Mistake.BEYOND)
             continue
         try:
             contact.value_at(name)
@@ -242,7 +254,7 @@ def unknown_inputs(
             beside = [path for path in paths if path.rpartition(".")[0] == above]
             meant = near_path(name, paths, _meanings_beside(contact, above))
             hint = guess("", beside or paths, meant=meant, show=repr, otherwise="the inputs are ")
-            yield Problem(place, "is not an input", hint=hint, code=Mistake.UNKNOWN)
+            yield problem_of_name(where, name, "is not an input", Mistake.UNKNOWN, hint=hint)
 
 
 def _meanings_beside(contact: Contact, path: str) -> dict[str, str]:

@@ -332,8 +332,8 @@ class MaterialLibrary(Mapping[str, Material]):
             hint = f"did you mean {meant!r}?" if meant else "materials.search('steel') finds names"
             raise UnknownMaterial(
                 Problem(
-                    "",
-                    f"material {name!r} is not in the library",
+                    f"materials[{name!r}]",
+                    "is not a material of the library",
                     hint=Guess(hint, meant),
                     code=Mistake.UNKNOWN,
                 )

@@ -14,6 +14,7 @@ __all__ = [
     "name_of_meaning",
     "near_path",
     "nearest_name",
+    "nearest_paths",
     "nearest_word",
     "no_attribute",
 ]
@@ -162,6 +163,21 @@ def near_path(
         return nearest_word(name, same, cutoff=0.0)
     # names of one owner are alike by it alone
     return nearest_word(name, (path for path, _, _ in every), cutoff=0.85 if beside else 0.6)
+
+
+def nearest_paths(name: str, paths: Iterable[str], *, most: int = 6) -> list[str]:
+    """The dotted names that are most like another: those that begin as it does, and likest spelt.
+
+    >>> nearest_paths("roughness.x", ["E", "roughness.R", "roughness.sigma"], most=2)
+    ['roughness.R', 'roughness.sigma']
+    """
+    start = name.partition(".")[0]
+
+    def unlike(path: str) -> tuple[bool, float]:
+        ratio = difflib.SequenceMatcher(None, name.casefold(), path.casefold()).ratio()
+        return path.partition(".")[0] != start, -ratio
+
+    return sorted(paths, key=unlike)[:most]
 
 
 def guess(

@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import Advice, InvalidValue, Mistake
+from ..errors import Advice, InvalidValue, Mistake, Problem
 from .files import is_draft, make_folder, write_text
 
 __all__ = [
@@ -34,6 +34,9 @@ __all__ = [
 
 SEAL = "sha256"
 """Key under which a record says the digest of the rest of it."""
+
+MOST_SHOWN, FEW = 3, 4
+"""Differences between two records that are told, and values of a list that are told one by one."""
 
 Fingerprint = list[Any] | None
 """Size in bytes and SHA-256 of a file; None for a file that there is not."""
@@ -239,6 +242,7 @@ def refuse_another(
     wanted: Mapping[str, object],
     *,
     derived: tuple[str, ...] = (),
+    called: Callable[[str], str] = str,
 ) -> None:
     """Refuse a place that holds the results of another study.
 
@@ -249,6 +253,8 @@ def refuse_another(
         What was studied there, and what is asked.
     derived : tuple of str, optional
         Keys that follow from the others, and are no difference of their own.
+    called : callable, optional
+        What a reader calls a dotted key.
 
     Raises
     ------
@@ -258,11 +264,13 @@ def refuse_another(
     differ = [(key, *two) for key, two in differences(held, wanted).items() if key not in derived]
     if not differ:
         return
-    shown = "; ".join(f"{key} is {_say(a)} there and {_say(b)} here" for key, a, b in differ[:3])
-    more = f"; and {len(differ) - 3} more" if len(differ) > 3 else ""
-    raise InvalidValue(
-        f"{place} holds another study: {shown}{more}; give another folder", code=Mistake.OTHER_STUDY
-    )
+    rule = f"{place} holds another study: "
+    for i, (key, a, b) in enumerate(differ[:MOST_SHOWN]):
+        rule = rule + ", " * (i > 0) + called(key) + f" is {_say(a)} there and {_say(b, a)} here"
+    rule += f", and {len(differ) - MOST_SHOWN} more" if len(differ) > MOST_SHOWN else ""
+    here = Advice("give another folder", "give another folder with --out")
+    hint = here + ", or remove this one if its results are not needed"
+    raise InvalidValue(Problem("", rule, hint=hint, code=Mistake.OTHER_STUDY, source=str(place)))
 
 
 def differences(
@@ -277,8 +285,12 @@ def differences(
     }
 
 
+SUMMARY = {"values", "first", "last", "sha256"}
+"""Keys under which a record tells a list that is too long for it."""
+
+
 def _flat(data: object, path: str = "") -> dict[str, object]:
-    if not isinstance(data, Mapping):
+    if not isinstance(data, Mapping) or data.keys() == SUMMARY:
         return {path: data}
     out: dict[str, object] = {}
     for key, value in data.items():
@@ -286,6 +298,23 @@ def _flat(data: object, path: str = "") -> dict[str, object]:
     return out
 
 
-def _say(value: object) -> str:
-    text = json.dumps(value, ensure_ascii=False)
-    return text if len(text) < 60 else f"{text[:50]} ..."
+def _say(value: object, other: object = None) -> str:
+    """A value of a record in short, and whether a list only looks like the other one.
+
+    >>> _say([1e-7, 1.5e-7, 1.6e-7, 1.7e-7, 3e-7])
+    '1e-07 … 3e-07 (5 values)'
+    >>> _say([1.0, 2.0, 3.0, 5.0, 9.0], [1.0, 2.0, 4.0, 5.0, 9.0])
+    '1 … 9 (5 values, others between)'
+    """
+    if isinstance(value, list) and len(value) > FEW:
+        value = {"values": len(value), "first": value[0], "last": value[-1]}
+    if not isinstance(value, Mapping):
+        text = json.dumps(value, ensure_ascii=False)
+        return text if len(text) < 60 else f"{text[:50]} ..."
+    first, last = (
+        f"{end:.4g}" if isinstance(end, float) else json.dumps(end, ensure_ascii=False)[:60]
+        for end in (value["first"], value["last"])
+    )
+    shown = f"{first} … {last} ({value['values']} values"
+    alike = other is not None and _say(other) == f"{shown})"
+    return shown + (", others between)" if alike else ")")

@@ -18,7 +18,7 @@ from .nearest import guess, nearest_word
 
 __all__ = [
     *("EXAMPLES", "MICRONS", "Meant", "Quantity", "Range", "comma_may_part_thousands"),
-    *("not_among", "quantity_to_si", "say", "to_si"),
+    *("example_of", "not_among", "quantity_to_si", "say", "to_si"),
 ]
 
 
@@ -72,9 +72,17 @@ EXAMPLES = {
     "kg": '"50 g"',
     "kg/s": '"125 mg/h"',
     "1/s": '"1e6 / min"',
+    "1/m": '"1 / mm"',
+    "rad/s": '"1500 rpm"',
+    "K": '"350 K"',
+    "W/m^2/K": '"2000 W/m^2/K"',
+    "m^2*K/W": '"1e-6 m^2*K/W"',
+    "ohm*m^2": '"1e-12 ohm*m^2"',
     "1": "0.5",
 }
 """How a value in each of the library's units may be written."""
+WRITTEN = re.compile(r"'([+-]?\d[^']*)'")
+"""A value as the hint on a quantity writes it."""
 
 _USUAL = ("nm", "um", "µm", "mm", "m", "angstrom", "Pa", "kPa", "MPa", "GPa", "bar", "psi")
 
@@ -120,7 +128,17 @@ _HARDNESS = re.compile(
 """A hardness number, as "700 HV", "700 HV10", "62 HRC"; the test load behind it is not used."""
 
 
-def to_si(value: object, unit: str) -> float:
+def example_of(unit: str, hint: str = "") -> str:
+    """How a value of a unit may be written; of a quantity as its hint writes one.
+
+    >>> example_of("Pa"), example_of("Pa", "MPa are 5e6 or '5 MPa'"), example_of("m^2*K/W")
+    ('"5 GPa"', '"5 MPa"', '"1e-6 m^2*K/W"')
+    """
+    written = WRITTEN.search(hint)
+    return f'"{written[1]}"' if written else EXAMPLES.get(unit, f'"1 {unit}"')
+
+
+def to_si(value: object, unit: str, *, example: str = "") -> float:
     """One number in SI from a plain number or a string with a unit.
 
     Parameters
@@ -129,6 +147,8 @@ def to_si(value: object, unit: str) -> float:
         A plain number is taken as SI already.
     unit : str
         The SI unit that is needed: "m", "Pa", "1/m^2", or "1" for a pure number.
+    example : str, optional
+        How such a value may be written, in quotes; one of this unit by default.
 
     Returns
     -------
@@ -149,6 +169,7 @@ def to_si(value: object, unit: str) -> float:
     ...
     thirdbody.errors.InvalidValue: "300 GPa" is a pressure, but a length [m] is needed...
     """
+    example = example or example_of(unit)
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         try:
             return float(value)
@@ -158,15 +179,16 @@ def to_si(value: object, unit: str) -> float:
         from .carried import carries_unit, in_si  # numpy, which `thirdbody --help` does not need
 
         if carries_unit(value) and not isinstance(value, (list, tuple, dict)):
-            return _one(in_si(value, unit), unit)
+            return _one(in_si(value, unit), unit, example)
         if hasattr(value, "__float__") and not isinstance(value, bool):  # numpy's numbers
-            return _one(value, unit)
-        return _refuse(f"{say(value)} must be {_need_text(unit)}", Mistake.KIND)
+            return _one(value, unit, example)
+        return _refuse(f"{say(value)} must be {_need_text(unit, example)}", Mistake.KIND)
     text = value.strip()
     number = _NUMBER.match(text)
     if number is None:
         return _refuse(
-            f"{say(value)} has no number in front; it must be {_need_text(unit)}", Mistake.KIND
+            f"{say(value)} has no number in front; it must be {_need_text(unit, example)}",
+            Mistake.KIND,
         )
     rest = text[number.end() :].strip()
     if not rest:
@@ -181,11 +203,11 @@ def to_si(value: object, unit: str) -> float:
     if re.match(r",\d", rest):
         return _refuse(_about_comma(text, shown), Mistake.FORM)
     if ends := _RANGE.fullmatch(rest):
-        return _refuse(_about_range(number.group(), ends, shown, unit), Mistake.FORM)
+        return _refuse(_about_range(number.group(), ends, shown, example), Mistake.FORM)
     body = one_spelling(rest)
     if body is None:
-        return _refuse(f"{shown} cannot be read; it must be {_need_text(unit)}")
-    return _scale(number.group(), body, shown, unit)
+        return _refuse(f"{shown} cannot be read; it must be {_need_text(unit, example)}")
+    return _scale(number.group(), body, shown, unit, example)
 
 
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+(?![\d,])")
@@ -207,12 +229,12 @@ _RANGE = re.compile(
 """What follows the first number of a range in words: "nm to 100 nm"."""
 
 
-def _about_range(low: str, ends: re.Match[str], shown: str, unit: str) -> str:
+def _about_range(low: str, ends: re.Match[str], shown: str, example: str) -> str:
     """What a range in words is, and how one is written where it may stand."""
     first = f"{low} {ends['unit'] or ends['unit_of_high']}".strip()
     last = f"{ends['high']} {ends['unit_of_high']}".strip()
     return (
-        f"{shown} is a range, but one value is needed here, e.g. {EXAMPLES.get(unit, unit)}; in "
+        f"{shown} is a range, but one value is needed here, e.g. {example}; in "
         f"[load] or [sweep.vary] a range is {{ from = {say(first)}, to = {say(last)}, "
         "points = 10 }"
     )
@@ -264,7 +286,9 @@ def quantity_to_si(value: object, about: Meant) -> float:
     wanted = about["unit"] == "Pa" and about["meaning"].startswith("hardness")
     match = _HARDNESS.fullmatch(value.strip()) if wanted and isinstance(value, str) else None
     if match is None:
-        return to_si(value, about["unit"])
+        hint = about.get("hint")
+        example = example_of(about["unit"], hint if isinstance(hint, str) else "")
+        return to_si(value, about["unit"], example=example)
     from .hardness import pressure
 
     number = to_si(match["number"], "1")
@@ -274,11 +298,11 @@ def quantity_to_si(value: object, about: Meant) -> float:
         return _refuse(f"{say(value)} cannot be used: {error}", error.code)
 
 
-def _one(value: Any, unit: str) -> float:
+def _one(value: Any, unit: str, example: str) -> float:
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        return _refuse(f"{say(value)} must be {_need_text(unit)}", Mistake.KIND)
+        return _refuse(f"{say(value)} must be {_need_text(unit, example)}", Mistake.KIND)
 
 
 def _refuse(sentence: str, code: Mistake = Mistake.UNIT, *, hint: str = "") -> NoReturn:
@@ -310,11 +334,11 @@ def not_among(key: str, value: object, allowed: Iterable[str]) -> Problem:
     )
 
 
-def _need_text(unit: str) -> str:
+def _need_text(unit: str, example: str) -> str:
     kind = KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
     if unit == "1":
         return f"{kind}, e.g. {EXAMPLES['1']}"
-    return f"{kind}: a number in SI [{unit}] or with a unit, e.g. {EXAMPLES.get(unit, unit)}"
+    return f"{kind}: a number in SI [{unit}] or with a unit, e.g. {example}"
 
 
 def _shift(number: str, power: int) -> float:
@@ -325,17 +349,16 @@ def _shift(number: str, power: int) -> float:
         return math.copysign(math.inf, float(number))
 
 
-def _scale(number: str, body: str, shown: str, unit: str) -> float:
+def _scale(number: str, body: str, shown: str, unit: str, example: str = "") -> float:
     units = registry()
     wanted = "" if unit == "1" else unit.replace("^", "**")
     try:
         parsed = units.parse_units(body)
     except Exception:
-        return _refuse_unknown(body, shown, unit)
+        return _refuse_unknown(body, shown, unit, example)
     if strange := next((word for word in re.findall(r"[^\W\d_]+", body) if not is_usual(word)), ""):
-        return _refuse(
-            f"{shown} has the unit {strange}, which is not used here; it must be {_need_text(unit)}"
-        )
+        must = f"it must be {_need_text(unit, example)}"
+        return _refuse(f"{shown} has the unit {strange}, which is not used here; {must}")
     if parsed.dimensionality == units.parse_units(wanted).dimensionality:
         factor = units.convert(1.0, parsed, wanted)
         exponent = round(math.log10(factor)) if factor > 0 else 0
@@ -347,11 +370,11 @@ def _scale(number: str, body: str, shown: str, unit: str) -> float:
         return _refuse(f"{shown} is {kind}, but a pure number is needed, e.g. {EXAMPLES['1']}")
     return _refuse(
         f"{shown} is {kind}, but {KINDS.get(wanted, 'a quantity')} [{unit}] is needed, "
-        f"e.g. {EXAMPLES.get(unit, unit)}"
+        f"e.g. {example}"
     )
 
 
-def _refuse_unknown(body: str, shown: str, unit: str) -> NoReturn:
+def _refuse_unknown(body: str, shown: str, unit: str, example: str) -> NoReturn:
     units = registry()
     for word in re.findall(r"[^\W\d_]+", body):
         if word in units:
@@ -363,6 +386,6 @@ def _refuse_unknown(body: str, shown: str, unit: str) -> NoReturn:
             )
         rule = f"{shown} has the unit {word}, which is not known (case matters)"
         meant = nearest_word(word, _USUAL, cutoff=0.7)
-        hint = guess("", (), meant=meant) if meant else f"it must be {_need_text(unit)}"
+        hint = guess("", (), meant=meant) if meant else f"it must be {_need_text(unit, example)}"
         _refuse(rule, hint=hint)
-    _refuse(f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}")
+    _refuse(f"{shown} has a unit that cannot be read; it must be {_need_text(unit, example)}")

@@ -8,8 +8,11 @@ from typing import Any
 
 from ..analysis.design.problem import Limit, Objective, Suspension
 from ..analysis.design.search import AMOUNT
+from ..analysis.design.task import problems_of_metric
+from ..contact.output import AbstractOutput
+from ..effects import REGISTRY as OUTPUTS
 from ..equilibrium.columns import about
-from ..errors import InvalidValue, Mistake, Problem
+from ..errors import InvalidValue, Mistake, Problem, in_study
 from ..populations.measured import cleanliness
 from ..quantities.nearest import guess
 from ..quantities.units import say, to_si
@@ -24,6 +27,7 @@ from .reader import (
     count,
     get,
     numbers,
+    problems_of_order,
     read_number,
     read_word,
     switch,
@@ -40,6 +44,7 @@ WORDS = {
     "over_loads": ("mean", "worst"),
     "over_scatter": ("mean", "nominal", "worst", "robust", "tail"),
 }
+FIXED = "what is not to be chosen needs no range: write it in its own table"
 EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
@@ -95,13 +100,21 @@ def _variable(reader: Reader, where: str, variable: tuple[str, object]) -> tuple
         if {amount.by for amount in ends} != {study_amount.by}:
             rule = f"must be by {study_amount.by}, like particles.concentration"
             raise InvalidValue(Problem(where, rule, code=Mistake.KIND))
-        return label, tuple(amount.amount for amount in ends)
+        return label, _in_order(where, entry, ends[0].amount, ends[1].amount)
     inputs = inputs_of(reader.whole)
     fields = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
     lowest, highest = (
         read_number(fields[0][1], reader, f"{where}.{end}", entry[end]) for end in ("low", "high")
     )
-    return "+".join(name for name, _ in fields), (lowest, highest)
+    return "+".join(name for name, _ in fields), _in_order(where, entry, lowest, highest)
+
+
+def _in_order(
+    where: str, entry: Mapping[str, object], low: float, high: float
+) -> tuple[float, float]:
+    if problems := problems_of_order(where, entry, low, high, alone=FIXED):
+        raise InvalidValue(*problems)
+    return low, high
 
 
 def _amount(where: str, value: Any) -> cleanliness.Concentration:
@@ -162,6 +175,12 @@ def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry:
 
     def one(reader: Reader, path: str, key: str) -> tuple[str, Any]:
         if key == "of":
+            stated = reader.whole.get("outputs")
+            names = stated if isinstance(stated, dict) else ()
+            kinds = (OUTPUTS[name] for name in names if name in OUTPUTS)
+            outputs = [kind for kind in kinds if issubclass(kind, AbstractOutput)]
+            if problems := problems_of_metric(path, entry[key], say(entry[key]), outputs):
+                raise InvalidValue(*(problem.put_in_words(in_study) for problem in problems))
             return key, entry["of"]
         if key not in keys:
             hint = guess(key, ("of", *keys))

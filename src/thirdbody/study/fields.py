@@ -15,7 +15,7 @@ from typing import Any, Literal
 from ..laws import asperity
 from ..quantities.arguments import words_of_quantity
 from ..quantities.slips import slips_are_told
-from ..quantities.units import EXAMPLES, Quantity
+from ..quantities.units import Quantity, example_of
 from ..quantities.value import allowed_range, problem_with
 
 __all__ = ["Declaration", "about_of", "declarations", "filled_in", "idle", "needed_fields"]
@@ -155,7 +155,7 @@ def idle(kind: type) -> dict[str, str]:
 def about_of(name: str, about: Quantity) -> str:
     """Meaning of a quantity, with an example of how to write it."""
     unit = about["unit"]
-    example = EXAMPLES.get(unit, f"1 [{unit}]")
+    example = example_of(unit, about["hint"])
     if unit == "1" and problem_with(about, 0.5):
         example = "2.0"
     return f"{words_of_quantity(name, about)}, e.g. {name} = {example}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..effects import REGISTRY as OUTPUTS
@@ -75,6 +75,14 @@ def inputs_of(whole: Mapping[str, object]) -> list[Input]:
     return list(inputs.values())
 
 
+def _sizes(table: object) -> Iterable[type]:
+    """The distribution of a table; all of them where its word is none, which is told there."""
+    name = get(table, "distribution")
+    if name is None or (isinstance(name, str) and name in DISTRIBUTIONS):
+        return [DISTRIBUTIONS[name]] if name else []
+    return DISTRIBUTIONS.values()
+
+
 def _kinds(whole: Mapping[str, object]) -> list[tuple[str, type]]:
     """The classes whose fields each table of the file holds."""
     kinds: list[tuple[str, type | None]] = [
@@ -85,8 +93,8 @@ def _kinds(whole: Mapping[str, object]) -> list[tuple[str, type]]:
     ]
     tables = populations(whole)
     for path, table in tables.items():
-        sizes = DISTRIBUTIONS.get(str(get(table, "distribution")))
-        kinds += [(path, Particles), (path, sizes), (f"{path}.material", Material)]
+        kinds += [(path, Particles), *((path, sizes) for sizes in _sizes(table))]
+        kinds.append((f"{path}.material", Material))
         if get(table, "strength") is not None:
             kinds.append((f"{path}.strength", WeibullStrength))
         if isinstance(word := get(get(table, "shape"), "kind"), str):

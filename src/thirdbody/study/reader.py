@@ -20,7 +20,7 @@ from ..quantities.nearest import Guess, guess
 from ..quantities.say import join_words
 from ..quantities.slips import SLIP, unit_meant
 from ..quantities.unit_patterns import HARDNESS_TEXT, name_of_unit
-from ..quantities.units import EXAMPLES, Quantity, quantity_to_si, say
+from ..quantities.units import Quantity, example_of, quantity_to_si, say
 from ..quantities.value import (
     allowed_range,
     hint_on,
@@ -46,6 +46,7 @@ __all__ = [
     "keys_of",
     "number",
     "numbers",
+    "problems_of_order",
     "quantity_key",
     "read_number",
     "read_numbers",
@@ -268,20 +269,17 @@ class Reader:
     ) -> object:
         """A table whose other keys depend on the word under ``tag``.
 
-        When the word is missing or misspelt, the rest of the table is checked all the same:
-        against the nearest kind, or against what any kind would take.
+        When the word is missing or misspelt, the rest of the table is checked all the same, against
+        what any kind would take, the nearest one first.
         """
         kind_word = get(data, tag)
-        chosen = (
-            kind_word
-            if isinstance(kind_word, str) and kind_word in kinds
-            else nearest_option(str(kind_word), kinds)
-        )
+        is_known = isinstance(kind_word, str) and kind_word in kinds
+        nearest = kind_word if is_known else nearest_option(str(kind_word), kinds)
         keys = {tag: tag_key(tuple(kinds))}
-        for name in kinds if chosen is None else (chosen,):
+        likely = [] if nearest is None else [nearest]
+        for name in likely if is_known else [*likely, *kinds]:
             for field, key in keys_of(kinds[name]).items():
-                required = key.required and chosen is not None
-                keys.setdefault(field, key._replace(required=required))
+                keys.setdefault(field, key._replace(required=key.required and is_known))
         self.known_keys.variants[path] = tag, kinds
         made = build or (lambda values: self.make(kinds[values.pop(tag)], path, values))
         return self.table(path, data, keys | dict(common or {}), made)
@@ -461,7 +459,7 @@ def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
     def read(reader: Reader, path: str, value: object) -> tuple[float, ...]:
         if not isinstance(value, list):
             raise wrong(
-                path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value, code=Mistake.KIND
+                path, f"must be a list, e.g. [{example_of(unit)}, ...]", value, code=Mistake.KIND
             )
         return read_numbers(one, Unsaid(), path, value)
 
@@ -593,17 +591,37 @@ def _problems_of_ends(about: Quantity, path: str, data: Any, log: bool) -> list[
         low, high = (read_number(about, Unsaid(), path, data[end]) for end in ("from", "to"))
     except (InvalidValue, LookupError, TypeError):
         return []
-    problems = []
-    if low >= high:
-        ends = f"from = {say(data['from'])} must be below to = {say(data['to'])}"
-        hint = "exchange them" if low > high else "for one value write it alone"
-        problems.append(Problem(path, f"is an empty range: {ends}", hint=hint, code=Mistake.ORDER))
+    problems = problems_of_order(path, data, low, high, ends=("from", "to"))
     if log and low <= 0:
         rule, hint = 'must be > 0 with spacing = "log"', 'use spacing = "linear"'
         problems.append(
             Problem(f"{path}.from", rule, say(data["from"]), hint=hint, code=Mistake.RANGE)
         )
     return problems
+
+
+def problems_of_order(
+    path: str,
+    data: Mapping[str, object],
+    low: float,
+    high: float,
+    *,
+    ends: tuple[str, str] = ("low", "high"),
+    alone: str = "for one value write it alone",
+) -> list[Problem]:
+    """Problem of a range that does not go up, with its ends as the file writes them.
+
+    >>> written = {"low": "1 um", "high": "50 nm"}
+    >>> (problem,) = problems_of_order("vary", written, 1e-6, 5e-8)
+    >>> str(problem)
+    'vary is an empty range: low = "1 um" must be below high = "50 nm"; exchange them'
+    """
+    if low < high:
+        return []
+    hint = "exchange them" if low > high else alone
+    first, last = (f"{end} = {say(data[end])}" for end in ends)
+    rule = f"is an empty range: {first} must be below {last}"
+    return [Problem(path, rule, hint=hint, code=Mistake.ORDER)]
 
 
 def is_span(values: object) -> bool:

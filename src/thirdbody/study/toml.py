@@ -80,13 +80,38 @@ def _toml_files(path: Path) -> list[Path]:
         return []
 
 
+CLOSED = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'')
+"""A string of TOML on one line."""
+
+
+def _closed_line(line: str) -> str:
+    """A line with the quote that it lacks; "" where it lacks none, or may go on below.
+
+    >>> _closed_line('median = "300 nm   # a size'), _closed_line('median = "300 nm" # its "size')
+    ('median = "300 nm"', '')
+    """
+    bare = CLOSED.sub("", line).partition("#")[0]
+    if not re.search("[\"']", bare) or re.search("\"{3}|'{3}", line):
+        return ""
+    key, equals, value = line.partition("#")[0].strip().partition("=")
+    alone = value.strip().strip("\"'")
+    return f'{key}{equals} "{alone}"' if equals and not re.search("[\"']", alone) else line.strip()
+
+
 def _syntax(path: Path, text: str, message: str) -> str:
     """A TOML syntax error with its line and the likely cause."""
     where = re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)", message)
     lines = text.splitlines() or [""]
     number = int(where[1]) if where and where[1] else len(lines)
-    line = lines[min(number, len(lines)) - 1].split("#")[0].strip()
     what = message[: where.start()] if where else message
+    for i, text_of_line in enumerate(lines[:number], start=1):
+        if (meant := _closed_line(text_of_line)) and (
+            i == number or "'\\n'" in what or '"\'"' in what
+        ):
+            lone = text_of_line.strip()
+            hint = "a quote is probably missing" + (f": {meant}" if meant != lone else "")
+            return f"{path}, line {i}: a string has no end, in: {lone}; {hint}"
+    line = lines[min(number, len(lines)) - 1].split("#")[0].strip()
     if twice := re.fullmatch(r"Cannot declare \((.+?),?\) twice", what):
         table = twice[1].replace("'", "").replace(", ", ".")
         return f"{path}, line {number}: the table [{table}] stands twice; keep one of the two"

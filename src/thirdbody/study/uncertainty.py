@@ -7,10 +7,22 @@ from typing import Any
 
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
 from ..errors import InvalidValue, Mistake, Problem
-from ..quantities.nearest import guess, near_path
+from ..quantities.nearest import guess, near_path, nearest_paths
+from ..quantities.say import join_words
 from ..quantities.units import Quantity, say
 from .inputs import Input, inputs_of
-from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
+from .reader import (
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    count,
+    get,
+    problems_of_order,
+    read_number,
+    read_word,
+    wrong,
+)
 from .vocabulary import LOADS
 
 __all__ = ["LIFE", "UNCERTAINTY", "field_of_input", "ranges_of", "read_uncertain"]
@@ -99,7 +111,12 @@ def field_of_input(
         raise InvalidValue(Problem(where, rule, code=Mistake.BEYOND))
     meanings = {path: about["meaning"] for path, (_, about) in numbers.items()}
     meant = near_path(name, numbers, meanings)
-    hint = guess("", listed, meant=meant, otherwise="it has ")
+    few = nearest_paths(name, listed)
+    hint = guess("", few, meant=meant, otherwise="it has ")
+    if meant is None and len(few) < len(listed):
+        tables = dict.fromkeys(path.partition(".")[0] for path in listed)
+        others = join_words([f"[{table}]" for table in tables])
+        hint += f", and other numbers of {others}, each by table and key"
     raise InvalidValue(
         Problem(where, f": {name} is not a number of this study", hint=hint, code=Mistake.UNKNOWN)
     )
@@ -129,6 +146,11 @@ def read_uncertain(reader: Reader, where: str, about: Quantity, entry: object) -
         return read_number(meant.get(name, about), reader, path, table[name])
 
     first, second = reader.read_each({f"{where}.{name}": name for name in KINDS[kind]}, number)
+    exact = "what is exact needs no range"
+    if "low" in table and (
+        wrong_way := problems_of_order(where, table, first, second, alone=exact)
+    ):
+        raise InvalidValue(*wrong_way)
     try:
         return Uncertain(kind=kind, first=first, second=second)
     except InvalidValue as error:

@@ -34,8 +34,16 @@ ALSO_CALLED = {
     "pearson": ("johnson",),
     "delta": ("monodisperse",),
     "single": ("monodisperse",),
+    **dict.fromkeys(("turning", "lathed"), ("turned",)),
+    **dict.fromkeys(("milling", "mill"), ("milled",)),
+    **dict.fromkeys(("grinded", "grinding", "grind"), ("ground",)),
+    **dict.fromkeys(("honing", "hone"), ("honed",)),
+    **dict.fromkeys(("lapping", "lap"), ("lapped",)),
+    **dict.fromkeys(("superfinishing", "superfinish"), ("superfinished",)),
+    **dict.fromkeys(("polishing", "polish", "buffed"), ("polished",)),
+    **dict.fromkeys(("blasting", "blast", "sandblasted", "peened"), ("blasted",)),
 }
-"""Other words for distributions, to suggest the right one."""
+"""Other words for distributions and finishing processes, to suggest the right one."""
 
 
 def nearest_option(

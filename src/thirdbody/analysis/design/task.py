@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...contact.contact import Contact
-from ...equilibrium.columns import columns_of
+from ...contact.output import AbstractOutput
+from ...effects import REGISTRY as OUTPUTS
+from ...equilibrium.columns import COLUMNS, PLASTIC_SHARE
 from ...equilibrium.solve import given_load
 from ...errors import Advice, InvalidValue, Mistake, Problem
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
 from ...quantities.arguments import is_empty
+from ...quantities.nearest import guess
 from ..inputs import input_of as moved_input
 from ..uncertainty.inputs import drawn_inputs
 from .problem import Limit, Objective, Suspension
 from .search import AMOUNT, DENSITY, Task, Variable
 
-__all__ = ["NOT_SMOOTH", "design_task"]
+__all__ = ["NOT_SMOOTH", "design_task", "problems_of_metric"]
 
 Array = NDArray[np.float64]
 
@@ -127,21 +130,41 @@ def _unknown(
     problems: list[str] = []
     if not objectives:
         problems.append(is_empty("objective", "say what should be small or large"))
-    smooth = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
-    both: list[Objective | Limit] = [*objectives, *limits]
-    problems += [
-        Problem(
-            "",
-            f"{type(goal).__name__} of {goal.of!r}: no such number; the states of this contact "
-            f"have {', '.join(sorted(smooth))}",
-            code=Mistake.UNKNOWN,
-        )
-        for goal in both
-        if goal.of not in smooth
-    ]
+    metrics = {
+        "objective": [objective.of for objective in objectives],
+        "limits": [limit.of for limit in limits],
+    }
+    for argument, names in metrics.items():
+        for i, of in enumerate(names):
+            place = f"{argument}[{i}].of" if len(names) > 1 else f"{argument}.of"
+            problems += problems_of_metric(place, of, repr(of), contact.outputs)
     if len({objective.label for objective in objectives}) < len(objectives):
         problems.append(Problem("", "two objectives are the same", code=Mistake.CLASH))
     return problems
+
+
+def problems_of_metric(
+    place: str, of: str, value: str, outputs: Iterable[AbstractOutput | type[AbstractOutput]]
+) -> list[Problem]:
+    """Problem of an objective or a limit that is no number of states with these outputs."""
+    columns = {**COLUMNS, "plastic_share": PLASTIC_SHARE}
+    columns |= {name: column for output in outputs for name, column in output.columns.items()}
+    meanings = {name: column.meaning for name, column in columns.items() if name not in NOT_SMOOTH}
+    if of in meanings:
+        return []
+    rule = "is not a number of the states of this contact"
+    homes = {
+        column: kind
+        for kind in OUTPUTS.values()
+        if issubclass(kind, AbstractOutput)
+        for column in kind.columns
+    }
+    hint: str
+    if home := homes.get(of):
+        hint = Advice(f"outputs.{home.__name__} has it", f"a table [outputs.{home.name}] has it")
+    else:
+        hint = guess(of, sorted(meanings), meanings=meanings, otherwise="they have ")
+    return [Problem(place, rule, value, hint=hint, code=Mistake.UNKNOWN)]
 
 
 def _suspension_problems(
@@ -207,7 +230,8 @@ def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
         ) from None
     if not low < high:
         rule = f": low = {low:g} must be below high = {high:g}"
-        raise InvalidValue(Problem(f"vary[{name!r}]", rule, code=Mistake.ORDER))
+        hint = "exchange them" if low > high else "what is not to be chosen needs no range"
+        raise InvalidValue(Problem(f"vary[{name!r}]", rule, hint=hint, code=Mistake.ORDER))
     if name == AMOUNT:
         if low <= 0:
             rule = f": low = {low:g} must be > 0"

@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from ...errors import InvalidValue, Mistake, Note, Problem
+from ...errors import Advice, InvalidValue, Mistake, Note, Problem
 from ...quantities.files import is_draft, remove_files, write_text
 from ...quantities.progress import reporting
 from ...quantities.run_files import (
@@ -402,7 +402,7 @@ class Folder:
                 "or give another folder",
                 code=Mistake.OTHER_STUDY,
             )
-        refuse_another(path, old_study, study, derived=("order",))
+        refuse_another(path, old_study, study, derived=("order",), called=_entry_in_words)
 
     def _refuse_strangers(self) -> None:
         """Refuse a folder without a study that holds anything but what a killed run leaves."""
@@ -452,6 +452,19 @@ class Folder:
             file.write(str(os.getpid()))
             file.flush()
             yield
+
+
+def _entry_in_words(key: str) -> str:
+    """What a reader calls an entry of ``study.json``.
+
+    >>> _entry_in_words("vary.particles.diameter.mean.particles.diameter.mean")
+    'particles.diameter.mean'
+    """
+    label = key.removeprefix("vary.")
+    inputs = label[: len(label) // 2] if label != key else ""
+    # an input is listed below its own name, several that move together below all of theirs
+    name = inputs if label == f"{inputs}.{inputs}" else label
+    return Advice(name, name.removeprefix("contact.").replace(".diameter.", "."))
 
 
 def name_of(study: Mapping[str, object]) -> str:

@@ -248,11 +248,8 @@ def _require_packages(format: str) -> None:
                 )
             ) from None
         if name == "zarr" and int(module.__version__.split(".")[0]) < 3:
-            raise InvalidValue(
-                f"format = 'zarr' needs zarr 3 and finds {module.__version__}: "
-                "pip install 'thirdbody[sweep]'",
-                code=Mistake.ABSENT,
-            )
+            rule = f"needs zarr 3 and finds {module.__version__}: pip install 'thirdbody[sweep]'"
+            raise InvalidValue(Problem("format", rule, repr(format), code=Mistake.ABSENT))
 
 
 def _carry_out(

@@ -38,6 +38,11 @@ SIZED = ("ball-bearing",)
 """Kinds that have sizes of their own."""
 FIRST = re.compile(r"^#   thirdbody (solve|film|probability|plate|life)\b", re.MULTILINE)
 """What the head of a file says to type first."""
+MEANT = {
+    "unit": "of heights: a guess by their size, as the file does not tell; put yours",
+    "spacing": "of neighbouring points: a place to put yours, as the file does not tell",
+}
+"""Options of a measured surface, as its study file says them."""
 SCHEMA = "study.schema.json"
 
 
@@ -70,7 +75,6 @@ def command(
     """A study file that runs at once: start with this one."""
     from ...quantities.files import need_folders, write_text
     from ...quantities.nearest import guess
-    from ...quantities.units import say
     from ...study.bearing_file import bearing_file
 
     problems: list[str] = []
@@ -128,13 +132,7 @@ def command(
     if out is not None:
         text = text.replace(f"{kind}.toml", str(out))
     if measured is not None:
-        where = measured if measured.is_absolute() or out is None else measured.resolve()
-        text = text.replace('topography = "example"', f"topography = {json.dumps(str(where))}")
-        text = text.replace('cutoff = "1 um"  ', '# cutoff = "1 um"')
-        # a map of one's own may be one that the law refuses: a profile, or a broad spectrum
-        for line in ("[asperity_law]", 'name = "field"', 'spectrum = "measured"'):
-            text = text.replace(line, f"# {line}")
-        text = text.replace("thirdbody surface FILE", f"thirdbody surface {say(str(measured))}")
+        text = _of_measured(text, measured, relative=out is None)
     need_folders(target)
     written = {target: text}
     if schema:
@@ -145,3 +143,21 @@ def command(
         write_text(file, content)
         print(f"written: {file}", file=sys.stderr)
     print(f"thirdbody {first[1]} {target}")
+
+
+def _of_measured(text: str, measured: Path, *, relative: bool) -> str:
+    """The study file of this surface, with what its file leaves open; it runs at once."""
+    from ...populations.measured.instruments import options_unsaid
+    from ...quantities.units import say
+
+    where = measured if measured.is_absolute() or relative else measured.resolve()
+    lines = [f"topography = {json.dumps(str(where))}"]
+    for key, likely in options_unsaid(measured).items():
+        lines.append(f'{key} = "{likely}"  # {MEANT[key]}')
+        print(f"warning: roughness.{key} = {likely!r}: {MEANT[key]}", file=sys.stderr)
+    text = re.sub(r'topography = "example".*', lambda _: "\n".join(lines), text)
+    text = text.replace('cutoff = "1 um"  ', '# cutoff = "1 um"')
+    # a map of one's own may be one that the law refuses: a profile, or a broad spectrum
+    for line in ("[asperity_law]", 'name = "field"', 'spectrum = "measured"'):
+        text = text.replace(line, f"# {line}")
+    return text.replace("thirdbody surface FILE", f"thirdbody surface {say(str(measured))}")

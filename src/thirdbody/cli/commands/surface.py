@@ -11,7 +11,17 @@ from typing import TYPE_CHECKING, Any
 from ...errors import InvalidValue
 from ...quantities.say import number, signed_number, value_of
 from ...quantities.tables import Table
-from ..options import Force, JsonFile, ParquetFile, XlsxFile, argument, metres, not_a_folder, option
+from ..options import (
+    Force,
+    JsonFile,
+    ParquetFile,
+    XlsxFile,
+    argument,
+    metres,
+    named_as_options,
+    not_a_folder,
+    option,
+)
 from ..show import ALL, terminal
 from ..streams import STDOUT, TableFiles, tell_written, warn_of
 
@@ -39,7 +49,8 @@ class Options:
     """Options of the command."""
 
     file: Path = argument(
-        'A measured surface or profile (x3p, sur, al3d, npy, txt, ...), or the word "example".',
+        "A measured surface or profile, x3p, sur, al3d, npy, txt, ... (each needs "
+        "SurfaceTopography: pip install 'thirdbody[surfaces]'), or the word \"example\".",
         "FILE",
     )
     cutoff: str | None = option(
@@ -90,9 +101,14 @@ def command(options: Options) -> None:
     files.need(force=options.force)
     if not options.force:
         refuse_strangers(options.out, "surface.json", "surface.png", "surface.svg")
-    topography = from_topography(
-        options.file, detrend=options.detrend, unit=options.unit, channel=options.channel, **lengths
-    )
+    with named_as_options("unit", "spacing", "channel", "detrend", "cutoff", "resolution"):
+        topography = from_topography(
+            options.file,
+            detrend=options.detrend,
+            unit=options.unit,
+            channel=options.channel,
+            **lengths,
+        )
     result = topography.to_dict()
     warn_of(topography.warnings)
     files.write(

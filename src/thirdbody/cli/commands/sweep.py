@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING
 from ...errors import InvalidValue, Mistake, NoEquilibrium, Problem
 from ...quantities.say import join_words, percent, plural, value_of
 from ..interrupt import Interrupted
-from ..options import Force, ParquetFile, Settings, XlsxFile, argument, option, tell_notes
+from ..options import (
+    Force,
+    ParquetFile,
+    Settings,
+    XlsxFile,
+    argument,
+    named_as_options,
+    option,
+    tell_notes,
+)
 from ..show import terminal
 from ..streams import TableFiles, tell_written, warn_of
 
@@ -39,7 +48,12 @@ class Options:
     out: Path | None = option(
         "--out", "Write the states into a folder; the same command goes on with it.", "DIR"
     )
-    format: str = option("--format", "Format of the data in DIR.", "zarr|netcdf", default="zarr")
+    format: str = option(
+        "--format",
+        "Format of the data in DIR; both need more packages: pip install 'thirdbody[sweep]'.",
+        "zarr|netcdf",
+        default="zarr",
+    )
     workers: int = option(
         "--workers", "Threads that solve blocks of states, e.g. 4.", "N", default=1
     )
@@ -88,14 +102,15 @@ def command(options: Options) -> None:
 
         client = connect_client(options.scheduler)
     try:
-        folder = run(
-            plan,
-            options.out,
-            format=options.format,
-            workers=options.workers,
-            client=client,
-            progress=True,
-        )
+        with named_as_options("format"):
+            folder = run(
+                plan,
+                options.out,
+                format=options.format,
+                workers=options.workers,
+                client=client,
+                progress=True,
+            )
     except KeyboardInterrupt:
         done = len(list((options.out / "done").glob("[0-9]*.json")))
         raise Interrupted(

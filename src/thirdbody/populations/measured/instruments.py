@@ -5,6 +5,7 @@ Files are read by SurfaceTopography (the extra ``surfaces``), which is loaded wi
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
@@ -19,8 +20,10 @@ from ...errors import InvalidValue, Mistake, Problem
 from ...quantities.say import value_of
 from ...quantities.units import to_si
 
-__all__ = ["MOST_POINTS", "Raw", "is_number", "read"]
+__all__ = ["MOST_POINTS", "Raw", "is_number", "options_unsaid", "read"]
 
+GROUND, LENGTHS = 3e-7, ("um", "nm", "mm", "m")
+"""RMS height of a ground face [m], and the units in which heights are told."""
 MOST_POINTS = 20_000_000
 MOST_BYTES = 1_000_000_000
 
@@ -88,13 +91,11 @@ def _told_already(
 ) -> None:
     """Refuse options that the file states itself."""
     if unit is not None and scale is not None:
-        raise InvalidValue(
-            f"{name} tells its unit, {unit}, itself; leave unit out", code=Mistake.CLASH
-        )
+        rule = f"is told by {name} itself, {unit}; leave it out"
+        raise InvalidValue(Problem("unit", rule, code=Mistake.CLASH))
     if unit is not None and steps is not None:
-        raise InvalidValue(
-            f"{name} tells its lateral size itself; leave spacing out", code=Mistake.CLASH
-        )
+        rule = f"follows from the lateral size that {name} tells; leave it out"
+        raise InvalidValue(Problem("spacing", rule, code=Mistake.CLASH))
 
 
 def _per_axis(steps: tuple[float, ...], dim: int) -> tuple[float, ...]:
@@ -154,7 +155,7 @@ def _from_file(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            reader = open_topography(str(path))
+            reader = open_topography(_with_blanks(path) or str(path))
         except Exception as error:
             _refuse_file(path, error)
         with reader:
@@ -180,6 +181,28 @@ def _from_file(
                 _refuse_file(path, error, form)
 
 
+NUMBERS = re.compile(rb"[-+\d.eE,;\s]+")
+TEXTS = (".txt", ".csv", ".dat", ".asc", ".xyz")
+"""How names of files of plain numbers end."""
+
+
+def _with_blanks(path: Path) -> io.BytesIO | None:
+    """A text of numbers between commas or semicolons with blanks instead; None for other files.
+
+    Commas that may be decimal ones are left: there must be points, and one number to a field.
+    """
+    with path.open("rb") as file:
+        start = file.read(4096)
+        mark = b";" if b";" in start else b","
+        if mark not in start or b"." not in start:
+            return None
+        fields = (field for line in start.splitlines() for field in line.split(mark))
+        several = any(len(field.split()) > 1 for field in fields)
+        if several or NUMBERS.fullmatch(start) is None or (mark == b";" and b"," in start):
+            return None
+        return io.BytesIO((start + file.read()).replace(mark, b" "))
+
+
 def _refuse_file(path: Path, error: Exception | None, form: str = "") -> NoReturn:
     text = str(error).strip().splitlines() if error is not None else []
     many = len(text) > 1 or not text
@@ -193,10 +216,10 @@ def _refuse_file(path: Path, error: Exception | None, form: str = "") -> NoRetur
         raise InvalidValue(
             f"cannot read {path}{kind}: the file is damaged ({why})", code=Mistake.DAMAGED
         ) from None
-    raise InvalidValue(
-        f"cannot read {path}: it is in none of the formats of SurfaceTopography, or damaged",
-        code=Mistake.DAMAGED,
-    ) from None
+    rule = f"cannot read {path}: it is in none of the formats of SurfaceTopography, or damaged"
+    hint = "numbers of a text have decimal points, and blanks between columns"
+    hint = hint if path.suffix.lower() in TEXTS else ""
+    raise InvalidValue(Problem("", rule, hint=hint, code=Mistake.DAMAGED)) from None
 
 
 def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
@@ -230,24 +253,10 @@ def _lacking(
     problems = []
     if unit is None and scale is None:
         problems.append(
-            Problem(
-                "",
-                f'{path} does not state its unit; give it, e.g. unit = "um" (heights, and sides '
-                "too "
-                "unless spacing is given)",
-                code=Mistake.UNIT,
-            )
+            _missing_unit(str(path), " for heights, and for sides unless spacing is given")
         )
     if sizes is None and steps is None:
-        problems.append(
-            Problem(
-                "",
-                f"{path} does not state its lateral size; give spacing, the distance of "
-                "neighbouring "
-                'points, e.g. spacing = "0.5 um"',
-                code=Mistake.UNIT,
-            )
-        )
+        problems.append(_missing_spacing(str(path)))
     if problems:
         raise InvalidValue(*problems)
     if sizes is None:
@@ -257,13 +266,45 @@ def _lacking(
     return out
 
 
+def _missing_unit(name: str, of: str = "") -> Problem:
+    rule = f"is missing: {name} does not state it"
+    return Problem("unit", rule, hint=f'give it, e.g. "um"{of}', code=Mistake.UNIT)
+
+
+def _missing_spacing(name: str) -> Problem:
+    rule = f"is missing: {name} does not state its lateral size"
+    hint = 'give the distance of neighbouring points, e.g. "0.5 um"'
+    return Problem("spacing", rule, hint=hint, code=Mistake.UNIT)
+
+
+def options_unsaid(path: Path) -> dict[str, str]:
+    """Options that a file leaves open, with a likely value each; none of one that nobody can read.
+
+    The unit is the one in which the RMS height is nearest to that of a ground face.
+    """
+    try:
+        read(path, None, None, None)
+    except InvalidValue as error:
+        unsaid = [problem.path for problem in error.problems]
+    else:
+        return {}
+    out = {"spacing": "1 um"} if "spacing" in unsaid else {}
+    if "unit" in unsaid:
+        try:
+            raw = read(path, 1.0, (1.0,) if out else None, None)
+        except InvalidValue:
+            return {}
+        size = float(np.nanstd(np.ma.filled(raw.heights.astype(float), np.nan))) or 1.0
+        units = {name: abs(math.log(size * to_si(f"1 {name}", "m") / GROUND)) for name in LENGTHS}
+        out = {"unit": min(units, key=units.__getitem__), **out}
+    return out
+
+
 def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, ...] | None) -> Raw:
     """An object of SurfaceTopography, in its own unit."""
     unit = made.unit
     if unit is None and scale is None:
-        raise InvalidValue(
-            f'{name} does not state its unit; give it, e.g. unit = "um"', code=Mistake.UNIT
-        )
+        raise InvalidValue(_missing_unit(name))
     if unit is not None and name == type(made).__name__:
         has_size = getattr(made, "physical_sizes", None) is not None
         _told_already(name, unit, scale, steps if has_size else None)
@@ -279,9 +320,7 @@ def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, 
         heights = made.heights()
         sizes = made.physical_sizes
         if sizes is None and steps is None:
-            raise InvalidValue(
-                f"{name} does not state its lateral size; give spacing", code=Mistake.UNIT
-            )
+            raise InvalidValue(_missing_spacing(name))
         if steps is not None:
             spacing = _per_axis(steps, np.ndim(heights))
         else:
