@@ -27,7 +27,7 @@ from thirdbody.analysis.sweep.folder import name_of
 from thirdbody.analysis.sweep.make_plan import make_plan
 from thirdbody.analysis.sweep.plan import LOOKED_AT
 from thirdbody.cli.commands import sweep as sweep_command
-from thirdbody.equilibrium.modes import MODES
+from thirdbody.equilibrium.status import Status
 from thirdbody.errors import in_study
 from thirdbody.numerics.sampling import DESIGNS, Span, latin, sobol
 from thirdbody.study import check, load_study
@@ -60,19 +60,19 @@ def in_memory(number, **options):
 
 
 def same(stored, memory):
-    """Bit for bit, the codes of the stored columns read as words."""
+    """Bit for bit, in every variable, its type and its attributes; a folder tells less of why."""
     assert stored.sizes == memory.sizes
-    if "status" in memory:  # in a folder the status is its own code
-        assert_array_equal(stored["status"], memory["status_code"])
-        memory = memory.drop_vars("status_code")
     assert list(stored.data_vars) == list(memory.data_vars)
+    assert set(stored.coords) == set(memory.coords)
     for name in (*memory.data_vars, *memory.coords):
         assert stored[name].dims == memory[name].dims
+        assert stored[name].dtype.kind == memory[name].dtype.kind, name
+        assert stored[name].attrs == memory[name].attrs, name
         found, wanted = stored[name].values, memory[name].values
-        if name == "mode":
-            found = np.array(["", *MODES])[found]
-        elif name == "status":
-            found, wanted = found == 0, wanted == "ok"
+        if name == "status":
+            found, wanted = found == "ok", wanted == "ok"
+        elif wanted.dtype.kind != "U":
+            assert found.dtype == wanted.dtype, name
         assert_array_equal(found, wanted, err_msg=name)
 
 
@@ -279,9 +279,12 @@ def test_streamed_is_in_memory_bit_for_bit(tmp_path, format, workers):
             assert stored.attrs["version"] == tb.__version__
             assert "doi:" in stored.attrs["citations"]
             assert stored.A_t.attrs["units"] == "1"
-            assert stored["status"].dtype.itemsize == stored["mode"].dtype.itemsize == 1
-            meanings = stored["status"].attrs["flag_meanings"].split()
-            assert len(meanings) == len(stored["status"].attrs["flag_values"])
+            with streaming.Folder(
+                tmp_path / str(number), format, tuple(stored.data_vars)[:-1]
+            ).open() as codes:
+                assert codes["status"].dtype.itemsize == codes["mode"].dtype.itemsize == 1
+                meanings = codes["status"].attrs["flag_meanings"].split()
+                assert len(meanings) == len(codes["status"].attrs["flag_values"])
         assert sorted(p.name for p in (tmp_path / str(number)).iterdir()) == sorted(
             ["done", "files.json", "finished.json", "lock", "study.json", streaming.Folder(
                 tmp_path, format, ()).data.name]
@@ -290,12 +293,13 @@ def test_streamed_is_in_memory_bit_for_bit(tmp_path, format, workers):
 
 def test_codes_say_why_there_is_no_state(tmp_path):
     stored = tb.sweep(CLEAN, F_star=[1e-5, 1e3, 1e-305], out=tmp_path / "o")
-    meanings = stored["status"].attrs["flag_meanings"].split()
-    assert [meanings[code] for code in stored["status"].values] == [
-        "ok",
-        "no_equilibrium_above",
-        "no_equilibrium_below",
-    ]
+    codes = [Status.OK, Status.TOO_MUCH, Status.TOO_LITTLE]
+    assert stored["status_code"].values.tolist() == codes
+    assert stored["status"].values.tolist() == [code.sentence for code in codes]
+    meanings = stored["status_code"].attrs["flag_meanings"].split()
+    assert [meanings[code] for code in codes] == [code.word for code in codes]
+    first, unsolved = stored.isel(F_star=0), stored.where(stored.status != "ok", drop=True)
+    assert (first.status.item(), first.mode.item(), unsolved.sizes["F_star"]) == ("ok", "s-s", 2)
     assert_array_equal(np.isnan(stored.A_t), [False, True, True])
     assert streaming.Folder(tmp_path / "o", "zarr", ()).finished_summary["unsolved"] == 2
 

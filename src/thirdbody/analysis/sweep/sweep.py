@@ -101,9 +101,9 @@ def sweep(
         pairs (``state``); every column of `Equilibrium` as a variable with ``units``,
         ``long_name`` and ``symbol``; inputs, version, citations and ``engine``, how many states
         each engine solved and why, as attributes. A state without equilibrium is NaN with its
-        reason in ``status``, of which ``status_code`` holds the number. In ``out``, ``mode`` and
-        ``status`` are codes (``flag_values``, ``flag_meanings``), and the data are loaded when
-        they are used.
+        reason in ``status``, of which ``status_code`` holds the number. Those of ``out`` are loaded
+        when they are used; its files hold ``mode`` and ``status`` as codes (``flag_values``,
+        ``flag_meanings``), so that ``status`` is the sentence that all states of a code share.
 
     Raises
     ------
@@ -158,6 +158,9 @@ def sweep(
     if out is None:
         return streaming.in_memory(plan, workers=workers, client=client, progress=progress)
     with refused_by_disk(out):
-        return streaming.run(
+        folder = streaming.run(
             plan, out, format=format, workers=workers, client=client, progress=progress
-        ).open()
+        )
+        from .decoded import open_as_in_memory
+
+        return open_as_in_memory(folder, plan)
