@@ -419,10 +419,10 @@ class TestResults:
 
     def test_results_with_arrays_can_be_compared_and_kept(self):
         loads = np.array([1e-6, 1e-5])
-        one, two = (tb.solve(dusty(), F_star=loads) for _ in range(2))
-        assert one == one
-        assert one != two
-        assert len({one, two, one}) == 2
+        one, two, other = (tb.solve(dusty(), F_star=loads * factor) for factor in (1, 1, 2))
+        assert one == two
+        assert one != other
+        assert len({one, two, other}) == 2
 
 
 def test_stones_among_dust_hide_no_root():

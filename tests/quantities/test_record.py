@@ -1,10 +1,12 @@
 """Results as records: their columns say what they are, and every form holds the same numbers."""
 
+import copy
 import importlib
 import inspect
 import json
+import pickle
 import pkgutil
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from html import escape
 from importlib import resources
 from typing import NamedTuple
@@ -93,6 +95,32 @@ def test_every_form_of_states_holds_the_same_numbers(every, name):
         assert (data[column].units, data[column].long_name) == (told.unit, told.meaning)
         assert table.attrs["symbol"][column] == told.symbol
     assert f"{name}, 2 states" in state._repr_html_()
+
+
+def is_its_copy(found):
+    """Whether a result is equal to its copies, of which a pickle is one, and has their hash."""
+    copies = [copy.deepcopy(found), pickle.loads(pickle.dumps(found))]
+    same_hash = type(found).__hash__ is None or {hash(each) for each in copies} == {hash(found)}
+    return same_hash and all(each is not found and each == found for each in copies)
+
+
+def test_states_are_equal_by_their_values():
+    """At any depth, NaN to NaN; another load, contact or kind of result is another result."""
+    one, two = (tb.solve(CONTACT, pressure=[1e6, 1e15]) for _ in range(2))
+    assert (np.isnan(one.d[1]), one == two, hash(one) == hash(two)) == (True, True, True)
+    assert one != tb.solve(CONTACT, pressure=[2e6, 1e15])
+    assert one != replace(one, d=one.d[:1])
+    assert one != replace(one, outputs={"mu": one.d})
+    assert one != replace(one, status=one.mode)
+    assert one != one.to_dict()
+    assert tb.solve(CONTACT, pressure=1e6) == tb.solve(CONTACT, pressure=1e6)
+    assert tb.transitions(CONTACT) == tb.transitions(CONTACT)  # with NaN in them
+    assert len({one, two, tb.solve(CONTACT, pressure=1e6)}) == 2
+
+
+@pytest.mark.parametrize("name", ["Equilibrium", "MixedFilm", "ExplicitState"])
+def test_states_are_their_copies(every, name):
+    assert is_its_copy(every[name])
 
 
 def test_a_record_leaves_out_what_it_says_and_no_number_that_is_not_finite():
@@ -495,6 +523,7 @@ def test_every_result_has_the_forms_of_its_kind():
 def test_results_of_numbers_alone_have_two_forms(name):
     found = NUMBERS[name]()
     assert type(found).__name__ == name
+    assert is_its_copy(found)
     plain, page = found.to_dict(), found._repr_html_()
     assert json.loads(json.dumps(plain, allow_nan=False)) == plain
     assert list(plain) == [item.name for item in fields(found)]
@@ -509,6 +538,7 @@ def test_other_results_in_every_form(name):
     make, along = RESULTS[name]
     found = make()
     assert type(found).__name__ == name
+    assert is_its_copy(found)
     data, table = found.to_dataset(title="a title"), found.to_dataframe()
     assert data.attrs["title"] == "a title"
     assert found.to_dict()

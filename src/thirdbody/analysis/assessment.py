@@ -50,7 +50,7 @@ RARE = 1e-4
 """Probability below which a value counts as outside the range of an input."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Change(Record):
     """How far one input, the others as they are, must go to change the mode."""
 
@@ -65,7 +65,7 @@ class Change(Record):
     """Probability that the input is there or farther."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Stop(Record):
     """End of the search along one input: beyond it the contact is refused."""
 
@@ -107,7 +107,7 @@ class PageRecord(TableRecord):
 
 
 # -------------------------------------------------------------------------- the page
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Assessment(PageRecord):
     """What an engineer wants to know of a contact under its operating load.
 

@@ -32,7 +32,7 @@ NUMBERS = ("pressure", "F_star", "A_t", "particle_load_share", "F/F_cr1", "F/F_c
 """Columns of a result of several loads, beside those of the mode."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Assessments(PageRecord):
     """What an engineer wants to know of a contact under each of several loads.
 

@@ -153,7 +153,7 @@ def compare(
     return comparison_of(contact, pressure=pressure, F_star=F_star, laws=laws).to_dataset()
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
+@dataclasses.dataclass(frozen=True, eq=False, slots=True)
 class Comparison(TableRecord):
     """What `compare` finds, in plain columns: loading xarray takes longer than comparing."""
 

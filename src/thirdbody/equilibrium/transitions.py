@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 Share = Callable[[Array], Array]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Critical(Record):
     """A load F* [1] where something changes, or why there is none.
 
@@ -50,7 +50,7 @@ class Critical(Record):
     status: str = column("", "", "found, or why there is no load")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class TurningPoint(Record):
     """The turning point of the contact area by three definitions; they differ by factors of 1–3.
 
@@ -78,7 +78,7 @@ class TurningPoint(Record):
     """Strongest bend of ln A_t against ln F* in the hybrid mode."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Transitions(TableRecord):
     """Critical loads F* [1] and turning point of one contact; made by `transitions`.
 

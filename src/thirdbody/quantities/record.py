@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import InvalidValue, Mistake
 from ..version import __version__
+from .alike import has_same_fields, hash_of_fields
 from .arguments import names_arguments
 from .notebook import Card, Row, Shown, words_of
 from .plain_data import plain_data
@@ -138,6 +139,13 @@ class Record(Shown):
     not_in_dict: ClassVar[tuple[str, ...]] = ("contact",)
     """Fields that `to_dict` leaves out of every field."""
 
+    def __eq__(self, other: object) -> bool:
+        """Whether the other is of this kind and holds the same values; NaN is the same as NaN."""
+        return has_same_fields(self, other) if type(other) is type(self) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash_of_fields(self)
+
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON: None for what is not a finite number, lists for arrays."""
         names = (item.name for item in fields(self))  # type: ignore[arg-type]
@@ -193,7 +201,13 @@ def _as_dicts(value: object) -> object:
 
 
 class MappedRecord(Record, Mapping[str, Any]):
-    """A record that is read by attribute, and indexed as its plain data."""
+    """A record that is read by attribute, and indexed as its plain data.
+
+    As a mapping it is equal to whatever has the same plain data.
+    """
+
+    __eq__ = Mapping.__eq__
+    __hash__ = None  # type: ignore[assignment]
 
     @cached_property
     def _data(self) -> dict[str, object]:

@@ -32,7 +32,7 @@ DENSITY = 870.0
 """Of the oil [kg/m³], as elsewhere in study files."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class PopulationDents(Record):
     """Dents of one population of particles in the film.
 
@@ -65,7 +65,7 @@ class PopulationDents(Record):
     deepest: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Life(Record):
     """Life of a bearing in its oil by ISO 281.
 
@@ -98,7 +98,7 @@ class Life(Record):
     why: str = ""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class DirtyOil(Record):
     """What the particles of the oil do; made by `dirty_oil`.
 

@@ -36,7 +36,7 @@ ENTRY = 1.0
 """Entry ratio where nobody says it: an upper bound."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class TrackDents(Record):
     """Dents in one track by one oil.
 
@@ -69,7 +69,7 @@ class TrackDents(Record):
     smaller_depth: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class OilDents(Record):
     """Dents by an oil as it is at one moment, or as it ends with a filter.
 
@@ -90,7 +90,7 @@ class OilDents(Record):
     tracks: tuple[TrackDents, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class LifeDents(Record):
     """Dents in all tracks, by all oils that are compared; made by `dents_of_life`.
 

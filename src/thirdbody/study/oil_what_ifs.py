@@ -26,7 +26,7 @@ VISCOSITY = 1.25
 """By what factor the viscosity at the inlet may be off: some six kelvin of a mineral oil."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class OilWhatIf(Record):
     """What dents and life would be if something were otherwise.
 

@@ -35,7 +35,7 @@ SEATS = (-1.0, 1.0)
 """Mean seats of particles, in RMS heights about those of the law: deep in valleys, on peaks."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class WhatIf(Record):
     """What an answer would be if something were otherwise."""
 

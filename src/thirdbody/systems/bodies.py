@@ -96,7 +96,7 @@ BODIES: dict[str, type[Body]] = {
 
 
 # ------------------------------------------------------------------ under a force
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Pressed(Record):
     """One contact of bodies under a force.
 

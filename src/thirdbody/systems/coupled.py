@@ -70,7 +70,7 @@ SLOPE = 1e-5
 """Step of the differences that give the loop gain, over the largest rise."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class CoupledState(StateRecord):
     """One state in which inputs and outputs agree.
 
@@ -97,7 +97,7 @@ class CoupledState(StateRecord):
     """The contact there."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Coupled(TableRecord):
     """What `coupled` finds: the states, and where the stable one ends.
 

@@ -32,7 +32,7 @@ MOST, LITTLE = 0.8, 0.2
 is squashed; between them it does both."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Nature(Record):
     """What the particles of one population are; made by `natures`.
 

@@ -60,7 +60,7 @@ NODES = 16
 
 
 # ------------------------------------------------------------------------------ in a film
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class FilmDents(Record):
     """Dents in one surface per overrolling, made by `FilmParticles.dents`.
 
@@ -94,7 +94,7 @@ class FilmDents(Record):
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class SeverityIndex(Record):
     r"""Damaged volume per area and overrolling, with its parts. Not a life.
 

@@ -38,7 +38,7 @@ SAMPLES = 33
 _PLACES = np.sin(0.5 * np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES) ** 2
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class TableError(Record):
     """How far a table is from the contact it was made of; never less than the true error.
 

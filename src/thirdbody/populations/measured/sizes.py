@@ -272,7 +272,7 @@ class MeasuredSizes(Value):
         return tuple(sorted((self.fit(kind) for kind in FITS), key=lambda fit: fit.rms))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Fit(Record):
     """A distribution fitted to measured sizes, and how well it fits.
 

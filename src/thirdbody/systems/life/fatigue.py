@@ -33,7 +33,7 @@ def __dir__() -> list[str]:
     return sorted(__all__)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class FatiguePair(Record):
     """Damage and rating life of a bearing over a history of codes; made by `miner_pair`.
 

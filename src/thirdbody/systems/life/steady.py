@@ -75,7 +75,7 @@ def describe_reproduction(R0: float, *, why: str = "") -> str:
 
 
 # ------------------------------------------------------------------ a stock in the contact
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class ContactStock(Record):
     """Debris in a dry contact that its own stock protects; made by `contact_stock`.
 
@@ -144,7 +144,7 @@ def contact_stock(source: float, *, capacity: float, residence: float) -> Contac
 
 
 # ------------------------------------------------------------------ all steady states
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class SteadyPoint(Record):
     """A steady state of one unknown; found by `find_steady_points`.
 
