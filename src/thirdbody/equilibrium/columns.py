@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -16,6 +16,7 @@ from ..contact.output import column as output_column
 from ..errors import InvalidValue
 from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
+from ..quantities.notebook import Card
 from ..quantities.record import Column, StateRecord, Variable, column, declared_columns
 from ..quantities.units import Quantity
 from ..version import __version__
@@ -82,6 +83,7 @@ class Equilibrium(_ContactRecord):
 
     more_columns = {CODE: STATUS_CODE}
     in_columns = ("population",)
+    in_dict = (*_ContactRecord.in_dict, "populations")
     contact: Contact = field(repr=False)
     """What was solved."""
     d: Number = column("d", "m", "separation d, from the mean asperity height")
@@ -146,6 +148,12 @@ class Equilibrium(_ContactRecord):
         names = [population.name for population in self.populations]
         return {"population": Variable(("population",), names)} if names else {}
 
+    def _cards(self) -> Iterator[Card]:
+        """The states, then what each of several populations carries in them."""
+        yield from _ContactRecord._cards(self)
+        for population in self.populations:
+            yield from population._cards()
+
     @takes_units
     def modes(
         self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: Basis = "area"
@@ -186,6 +194,11 @@ class PopulationShare(_ContactRecord):
     area_share: Number = column("A_sa,t*", "1", "area share of a population")
     outputs: Mapping[str, Number] = field(default_factory=dict)
     """Columns of the outputs that each population has of its own, as its dents, by name."""
+
+    def _cards(self) -> Iterator[Card]:
+        """The states of the population, under its name."""
+        for card in _ContactRecord._cards(self):
+            yield card._replace(title=f"{self.name}: {card.title}")
 
 
 BESIDE = {"engine": Column("", "", "what found the separation"), CODE: STATUS_CODE}

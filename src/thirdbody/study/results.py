@@ -256,7 +256,7 @@ class StudyResult(_Result):
         return columns, units
 
     def _coded_states(self) -> Columns:
-        columns = self.states.to_dict()
+        columns = plain_data(self.states.columns())
         columns["mode"] = [mode or None for mode in columns["mode"]]
         return {name: columns.pop(name) for name in ("status", CODE)} | columns
 
