@@ -54,7 +54,7 @@ STUDY = {
     },
 }
 
-BESIDE_COLUMNS = {"populations"}
+BESIDE_COLUMNS = {"populations", "warnings", "notes"}
 """What plain data of states have beside a list for each column."""
 
 
@@ -120,6 +120,15 @@ def test_states_are_equal_by_their_values():
     assert tb.solve(CONTACT, pressure=1e6) == tb.solve(CONTACT, pressure=1e6)
     assert tb.transitions(CONTACT) == tb.transitions(CONTACT)  # with NaN in them
     assert len({one, two, tb.solve(CONTACT, pressure=1e6)}) == 2
+
+
+def test_warnings_are_notes_that_stand_taken_apart_in_plain_data():
+    with pytest.warns(tb.errors.RangeWarning):
+        state = tb.solve(CONTACT.replace(asperity_law=tb.asperity.GW()), pressure=1e8)
+    plain = state.to_dict()
+    assert state.notes == state.warnings != ()
+    assert plain["warnings"] == [one["sentence"] for one in plain["notes"]] == list(state.notes)
+    assert [one["code"] for one in plain["notes"]] == [one.code for one in state.notes]
 
 
 @pytest.mark.parametrize("name", ["Equilibrium", "MixedFilm", "ExplicitState"])
@@ -204,7 +213,7 @@ def test_results_of_a_study_are_read_by_attribute_and_by_key(run):
     assert list(found) == list(plain)
     assert "states" in found
     assert json.loads(json.dumps(plain, allow_nan=False)) == plain
-    assert plain["warnings"] == list(found.warnings)
+    assert plain["warnings"] == list(found.warnings) == list(found.notes)
     columns, units = found.table()
     assert set(columns) == set(units)
     for name, values in columns.items():

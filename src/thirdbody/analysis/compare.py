@@ -29,13 +29,13 @@ from ..equilibrium.columns import COLUMNS, PLASTIC_SHARE, Equilibrium
 from ..equilibrium.doubts import BEYOND
 from ..equilibrium.load import ForceLoad, as_force_load
 from ..equilibrium.solve import given_load, solve
-from ..errors import InvalidValue, Mistake, Problem, RangeWarning, code_of, note_data
+from ..errors import InvalidValue, Mistake, Problem, RangeWarning, code_of
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
 from ..quantities.arguments import is_empty
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
 from ..quantities.nearest import guess
-from ..quantities.record import VERSION, Column, TableRecord, Variable
+from ..quantities.record import NOTES, VERSION, Column, TableRecord, Variable
 from ..quantities.say import percent
 
 if TYPE_CHECKING:
@@ -162,7 +162,7 @@ class Comparison(TableRecord):
         ("inputs", lambda one: json.loads(one.attrs["inputs"]) | {one.load: one.loads[one.load]}),
         ("own_law", lambda one: one.attrs["own_law"]),
         *("laws", ("states", lambda one: one.flat()[0]), "warnings"),
-        ("notes", lambda one: [note_data(warning) for warning in one.warnings]),
+        NOTES,
         ("citations", lambda one: one.attrs["citations"].splitlines()),
     )
     along = "law"

@@ -17,7 +17,7 @@ from ..errors import InvalidValue
 from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
 from ..quantities.notebook import Card
-from ..quantities.record import Column, StateRecord, Variable, column, declared_columns
+from ..quantities.record import NOTES, Column, StateRecord, Variable, column, declared_columns
 from ..quantities.units import Quantity
 from ..version import __version__
 from .modes import EPS_1, EPS_2, MODES, Basis, need_shares
@@ -83,7 +83,7 @@ class Equilibrium(_ContactRecord):
 
     more_columns = {CODE: STATUS_CODE}
     in_columns = ("population",)
-    in_dict = (*_ContactRecord.in_dict, "populations")
+    in_dict = (*_ContactRecord.in_dict, "populations", "warnings", NOTES)
     contact: Contact = field(repr=False)
     """What was solved."""
     d: Number = column("d", "m", "separation d, from the mean asperity height")
@@ -109,7 +109,11 @@ class Equilibrium(_ContactRecord):
     residual: Number = column("r", "1", "relative imbalance |F_t/F − 1|")
     iterations: int | NDArray[np.int_] = column("n", "", "evaluations of the load")
     warnings: tuple[str, ...] = ()
-    """Where the answer leaves the range of a model: cause, effect, what to do; a sentence each."""
+    """Where the answer leaves the range of a model: cause, effect, what to do; a sentence each.
+
+    Each is a `thirdbody.errors.Note`, with ``code``, ``effect`` and ``action``. ``notes`` is the
+    same.
+    """
     populations: tuple[PopulationShare, ...] = ()
     """What each of several populations carries; empty for one."""
     outputs: Mapping[str, Number] = field(default_factory=dict)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..errors import InvalidValue, Mistake
+from ..errors import InvalidValue, Mistake, note_data
 from ..version import __version__
 from .alike import has_same_fields, hash_of_fields
 from .arguments import names_arguments
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    *("VERSION", "Column", "Entry", "MappedRecord", "Record", "StateRecord", "TableRecord"),
-    *("Variable", "column", "declared_columns", "flags_of", "with_names"),
+    *("NOTES", "VERSION", "Column", "Entry", "MappedRecord", "Record", "StateRecord"),
+    *("TableRecord", "Variable", "column", "declared_columns", "flags_of", "with_names"),
 ]
 
 MOST_SHOWN = 6
@@ -40,6 +40,8 @@ mapping, each with a key of its own. A key that comes again stands where it come
 
 VERSION: Entry = ("version", lambda record: __version__)
 """The version of the library."""
+NOTES: Entry = ("notes", lambda record: [note_data(warning) for warning in record.warnings])
+"""The warnings taken apart, for programs that read no sentences."""
 
 
 class Column(NamedTuple):
@@ -368,6 +370,11 @@ class StateRecord(TableRecord):
 
     __slots__ = ()
     in_dict: ClassVar[tuple[Entry, ...]] = (("", "columns"),)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The same as ``warnings``: sentences with ``code``, ``effect`` and ``action``."""
+        return tuple(getattr(self, "warnings", ()))
 
     @names_arguments
     def about(self, name: str) -> Column:

@@ -13,10 +13,11 @@ import numpy as np
 from ..contact.citations import cite
 from ..equilibrium.columns import CODE, provenance
 from ..equilibrium.transitions import Transitions
-from ..errors import NoEquilibrium, note_data
+from ..errors import NoEquilibrium
 from ..quantities.carried import takes_units
 from ..quantities.plain_data import plain_data
 from ..quantities.record import (
+    NOTES,
     VERSION,
     Entry,
     MappedRecord,
@@ -48,7 +49,7 @@ Columns = dict[str, list[object]]
 def _entries(input_entry: Entry, *numbers: Entry) -> tuple[Entry, ...]:
     """Entries of a result: what every study says, an input beside the contact, and numbers."""
     inputs: Entry = ("inputs", (("", "study.contact"), input_entry))
-    more = ("natures", "warnings", ("notes", "_notes"), "citations")
+    more = ("natures", "warnings", NOTES, "citations")
     return ("title", "study.title"), VERSION, inputs, *numbers, *more
 
 
@@ -75,9 +76,10 @@ class _Result(MappedRecord, TableRecord):
         """Notes of reading and of solving the study, one sentence each."""
         return tuple(dict.fromkeys((*self.study.notes, *self.run_warnings)))
 
-    def _notes(self) -> list[dict[str, object]]:
-        """The warnings taken apart, for programs that read no sentences."""
-        return [note_data(warning) for warning in self.warnings]
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The same as ``warnings``: sentences, most with ``code``, ``effect`` and ``action``."""
+        return self.warnings
 
     @property
     def citations(self) -> list[str]:
