@@ -26,8 +26,6 @@ from thirdbody.quantities.files import (
 )
 from thirdbody.study import run_film
 from thirdbody.study.analyses import design_study
-from thirdbody.study.dirty_oil import dirty_oil
-from thirdbody.study.oil_what_ifs import what_ifs_of_oil
 from thirdbody.views.html import document
 
 from .test_cli import EXAMPLES
@@ -63,8 +61,6 @@ def found_once(monkeypatch, answers):
     for place, find in (
         ("analyses.design_study", design_study),
         ("run_film", run_film),
-        ("dirty_oil.dirty_oil", dirty_oil),
-        ("oil_what_ifs.what_ifs_of_oil", what_ifs_of_oil),
     ):
         monkeypatch.setattr(f"thirdbody.study.{place}", once(find))
 

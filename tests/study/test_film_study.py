@@ -391,6 +391,21 @@ def test_the_film_of_any_contact_is_told(settings, said):
     assert said in " ".join(done.stdout.split())
 
 
+@pytest.mark.parametrize("fine", [None, "5=75, 10=1000"])
+def test_python_hands_out_what_the_command_prints(fine):
+    """The oil, behind a filter too, and what its answer hangs on."""
+    few = ["film.speed=1", *([f'film.filter="{fine}"'] if fine else [])]
+    done = run(EXAMPLE, *(part for each in few for part in ("--set", each)), "--json")
+    plain = run_film(load_study(EXAMPLE, few)).to_dict()
+    assert plain == json.loads(done.stdout)
+    assert ("oil_filtered" in plain) == (fine is not None)
+    assert plain["oil"]["populations"]
+    assert plain["what_ifs"]
+    clean = {name: table for name, table in data_of().items() if name != "particles"}
+    alone = run_film(check(clean)).to_dict()
+    assert not {"oil", "oil_filtered", "what_ifs"} & set(alone)
+
+
 @pytest.mark.check
 def test_json_csv_and_figure(tmp_path):
     numbers, figure = tmp_path / "o.csv", tmp_path / "o.svg"

@@ -32,8 +32,10 @@ from ..systems.film_conditions import FilmConditions
 from ..systems.film_formulas import full_range
 from ..systems.natures import Nature, natures
 from ..systems.stribeck import OF_CURVE, RegimeSpeeds
+from .dirty_oil import DirtyOil, dirty_oil
 from .film import note_without_oil
 from .load import force_sentences
+from .oil_what_ifs import OilWhatIf, what_ifs_of_oil
 from .what_ifs import WhatIf, what_ifs_of_states
 from .whole import Study
 
@@ -310,14 +312,17 @@ class FilmResult(_Result):
     `to_dict` has title, version, inputs (SI), states (a list each, one entry a speed), the speeds
     at which the regime changes, what of each population passes the film, how many particles one
     Hertz contact holds, what the oil brings, what the particles of each population are, warnings,
-    the same taken apart as ``notes``, citations. What the dirt of the oil does is for
-    `thirdbody.study.dirty_oil.dirty_oil`.
+    the same taken apart as ``notes``, citations; of an oil with particles ``oil``, what they do,
+    ``oil_filtered``, the same behind the filter of the study, and ``what_ifs``, what this hangs on.
     """
 
-    in_dict = _entries(
-        ("film", "conditions"),
-        *("states", ("regime_speeds", with_names("regime_speeds")), "passing", "particles_held"),
-        "entrainment",
+    in_dict = (
+        *_entries(
+            ("film", "conditions"),
+            *("states", ("regime_speeds", with_names("regime_speeds")), "passing"),
+            *("particles_held", "entrainment"),
+        ),
+        ("", "_of_oil"),
     )
     states: dict[str, np.ndarray]
     regime_speeds: RegimeSpeeds
@@ -341,6 +346,27 @@ class FilmResult(_Result):
         """Warnings, inputs, version and citations."""
         said = {"warnings": "\n".join(self.warnings)}
         return provenance(self.study.contact) | said | {"citations": "\n".join(self.citations)}
+
+    @cached_property
+    def oil(self) -> DirtyOil | None:
+        """What the particles of the oil do; None where there are none, or no state with them."""
+        return dirty_oil(self.study)
+
+    @cached_property
+    def oil_filtered(self) -> DirtyOil | None:
+        """The same behind the filter of the study; None where it names none."""
+        fine = self.study.filter
+        return None if fine is None else dirty_oil(self.study, filter=fine)
+
+    @cached_property
+    def what_ifs(self) -> tuple[OilWhatIf, ...]:
+        """What the dents and the life hang on, the most first."""
+        return () if self.oil is None else what_ifs_of_oil(self.study, self.oil)
+
+    def _of_oil(self) -> dict[str, object]:
+        """What there is of the oil and its particles."""
+        every = {name: getattr(self, name) for name in ("oil", "oil_filtered", "what_ifs")}
+        return {name: value for name, value in every.items() if value}
 
     @property
     def conditions(self) -> FilmConditions:

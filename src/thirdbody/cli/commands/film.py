@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -73,25 +73,21 @@ def command(options: Options) -> None:
     Of a lubricated contact, at one speed or over many.
     """
     from ...study import run_film
-    from ...study.dirty_oil import dirty_oil, need_particles, read_filter
-    from ...study.oil_what_ifs import what_ifs_of_oil
+    from ...study.dirty_oil import need_particles, read_filter
 
     fine = None if options.filter_text is None else read_filter(options.filter_text)
     files = TableFiles(options.csv, options.xlsx, options.parquet, options.json)
     study = read_study(options.study, options.settings, writes=[*files.paths, options.figure])
     if fine is not None:
         need_particles(study)
-    fine = fine or study.filter
+        study = replace(study, filter=fine)
     files.need(options.figure, force=options.force)
     if options.figure is not None:
         figure_format(options.figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(study)
-        oil = dirty_oil(study)
-        filtered = None if fine is None else dirty_oil(study, filter=fine)
-        what_ifs = () if oil is None else what_ifs_of_oil(study, oil)
+        film = _Found(result, result.oil, result.oil_filtered, result.what_ifs)
     warn_of(result.run_warnings)
-    film = _Found(result, oil, filtered, what_ifs)
     drawn = None
     if options.figure is not None:
         from ...views.film_figure import draw_film
@@ -100,7 +96,7 @@ def command(options: Options) -> None:
     files.write(
         *film.table(),
         sheets=partial(_sheets, film),
-        data=partial(_data, film),
+        data=result.to_dict,
     )
     tell_written(*files.paths)
     if options.figure is not None and drawn is not None:
@@ -161,14 +157,6 @@ class _Found(NamedTuple):
         from ...views.film_words import summary
 
         return summary(self.result)[self.oil is None :]
-
-
-def _data(film: _Found) -> dict[str, object]:
-    oils = {"oil": film.oil, "oil_filtered": film.filtered}
-    out: dict[str, object] = {name: oil.to_dict() for name, oil in oils.items() if oil is not None}
-    if film.what_ifs:
-        out["what_ifs"] = [what_if.to_dict() for what_if in film.what_ifs]
-    return film.result.to_dict() | out
 
 
 def _sheets(film: _Found) -> list[Sheet]:
