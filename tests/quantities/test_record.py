@@ -225,6 +225,39 @@ def test_results_of_a_study_are_read_by_attribute_and_by_key(run):
         assert found.particles_in(0) == float("inf")  # without particles nobody counts them
 
 
+def test_a_misspelt_name_is_asked_back():
+    """Of an attribute, an output, a key; what there is not stays so for `hasattr` and the like."""
+    state = tb.solve(CONTACT.replace(outputs=(tb.outputs.Friction(tau_ss=5e8),)), pressure=5e6)
+    for name, meant in {"A_tt": "A_t", "mu": "mu", "too_dict": "to_dict", "xyz": None}.items():
+        with pytest.raises(AttributeError) as no_attribute:
+            getattr(state, name)
+        assert no_attribute.value.args[0].meant == meant
+    for key, meant in {"muu": "mu", "colour": None}.items():
+        with pytest.raises(KeyError) as error:
+            state.outputs[key]
+        assert (error.value.args[0], error.value.args[1].meant) == (key, meant)
+        assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+    assert not hasattr(state, "mu")
+    assert "muu" not in state.outputs
+    assert state.outputs.get("muu") is None
+    assert getattr(tb.transitions(CONTACT), "outputs", None) is None
+    assert is_its_copy(state)
+    with pytest.raises(KeyError) as error:
+        run_study(check(STUDY))["state"]
+    assert error.value.args[1].meant == "states"
+
+
+def test_a_property_that_fails_says_why():
+    @dataclass(frozen=True)
+    class Found(Record):
+        @property
+        def value(self):
+            return None.real_cause
+
+    with pytest.raises(AttributeError, match="real_cause"):
+        assert Found().value
+
+
 def test_a_column_that_there_is_not_is_refused(every):
     for state in every.values():
         assert state.about("A_t").unit == "1"

@@ -23,6 +23,7 @@ from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, Mistake, NoEquilibrium, NotCompiled, Note, Problem, tell_of_range
 from ..quantities.arguments import is_empty, need_one, only_one
 from ..quantities.carried import takes_units
+from ..quantities.nearest import ValuesByName
 from ..quantities.say import percent, value_of
 from ..quantities.units import to_si
 from .columns import Equilibrium, PopulationShare, as_columns
@@ -517,7 +518,7 @@ def _state(
         contact=contact,
         warnings=notes,
         populations=shares,
-        outputs=outputs,
+        outputs=ValuesByName(outputs),
         engine=places.path,
         status_code=codes,
         **columns,
@@ -593,7 +594,7 @@ def _population_shares(
             values = {name: value[0].item() for name, value in values.items()}
             mine = {name: value[0].item() for name, value in mine.items()}
         name = particles.name or f"particles {number + 1}"
-        out.append(PopulationShare(name=name, outputs=mine, **values))
+        out.append(PopulationShare(name=name, outputs=ValuesByName(mine), **values))
     return tuple(out)
 
 

@@ -6,10 +6,12 @@ import difflib
 import re
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
-from typing import Self
+from typing import Self, TypeVar
 
 __all__ = [
     "Guess",
+    "UnknownName",
+    "ValuesByName",
     "guess",
     "name_of_meaning",
     "near_path",
@@ -17,7 +19,10 @@ __all__ = [
     "nearest_paths",
     "nearest_word",
     "no_attribute",
+    "no_attribute_of",
 ]
+
+T = TypeVar("T")
 
 CLOSE = 0.8
 """Likeness from which a misspelt word is taken for another, whatever else is near."""
@@ -213,3 +218,53 @@ def no_attribute(module: str, name: str, names: Iterable[str]) -> AttributeError
     """
     meant = "" if name.startswith("_") else guess(name, names, otherwise=None)
     return AttributeError(f"module {module!r} has no attribute {name!r}{meant and '; '}{meant}")
+
+
+def no_attribute_of(
+    kind: str, name: str, names: Iterable[str], within: Iterable[str] = ()
+) -> Guess:
+    """The sentence on a name that an object has not, with the one that was probably meant.
+
+    ``within`` are names that its mapping ``outputs`` has.
+
+    >>> no_attribute_of("Equilibrium", "A_tt", ["A_t", "d"])
+    "'Equilibrium' object has no attribute 'A_tt'; did you mean A_t?"
+    >>> no_attribute_of("Equilibrium", "mu", ["A_t", "d"], ["mu", "mu_ss"])
+    "'Equilibrium' object has no attribute 'mu'; did you mean outputs['mu']?"
+    """
+    inner = list(within)
+    meant = guess(
+        name,
+        [*names, *inner],
+        meant=name if name in inner else None,
+        show=lambda option: f"outputs[{option!r}]" if option in inner else option,
+        otherwise=None,
+    )
+    return f"{kind!r} object has no attribute {name!r}{meant and '; '}" + meant
+
+
+class UnknownName(KeyError):
+    """A key that there is not, said in a sentence with the one that was probably meant."""
+
+    def __init__(self, key: object, sentence: str):
+        super().__init__(key, sentence)
+
+    def __str__(self) -> str:
+        return str(self.args[1])
+
+
+class ValuesByName(dict[str, T]):
+    """Values by their names: a dict that asks for the name that was probably meant.
+
+    >>> ValuesByName(mu=0.1)["muu"]
+    Traceback (most recent call last):
+    thirdbody.quantities.nearest.UnknownName: there is no 'muu'; did you mean 'mu'?
+    """
+
+    __slots__ = ()
+
+    def __missing__(self, key: str) -> T:
+        sentence = f"there is no {key!r}"
+        if self and isinstance(key, str):
+            sentence += "; " + guess(key, self, show=repr, otherwise="there are ")
+        raise UnknownName(key, sentence)

@@ -14,6 +14,7 @@ from ..errors import InvalidValue, Mistake, note_data
 from ..version import __version__
 from .alike import has_same_fields, hash_of_fields
 from .arguments import names_arguments
+from .nearest import ValuesByName, no_attribute_of
 from .notebook import Card, Row, Shown, words_of
 from .plain_data import plain_data
 
@@ -148,6 +149,17 @@ class Record(Shown):
     def __hash__(self) -> int:
         return hash_of_fields(self)
 
+    if not TYPE_CHECKING:  # which would take every name for an attribute
+
+        def __getattr__(self, name: str) -> object:
+            """No attribute: an error that asks for the name that was probably meant."""
+            kind = type(self)
+            if name.startswith("_") or hasattr(kind, name):  # a property that raised, a copy
+                return object.__getattribute__(self, name)
+            names = (option for option in dir(self) if not option.startswith("_"))
+            outputs = getattr(self, "outputs", ()) if hasattr(kind, "outputs") else ()
+            raise AttributeError(no_attribute_of(kind.__name__, name, names, outputs))
+
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON: None for what is not a finite number, lists for arrays."""
         names = (item.name for item in fields(self))  # type: ignore[arg-type]
@@ -213,7 +225,7 @@ class MappedRecord(Record, Mapping[str, Any]):
 
     @cached_property
     def _data(self) -> dict[str, object]:
-        return self.to_dict()
+        return ValuesByName(self.to_dict())
 
     def __getitem__(self, key: str) -> Any:
         return self._data[key]
