@@ -247,6 +247,15 @@ def test_a_misspelt_name_is_asked_back():
     assert error.value.args[1].meant == "states"
 
 
+@pytest.mark.parametrize("name", ["Equilibrium", "MixedFilm", "ExplicitState"])
+def test_dir_shows_what_users_read(every, name):
+    state = every[name]
+    shown = {one for one in dir(state) if not one.startswith("_")}
+    methods = {"about", "columns", "to_dict", "to_dataset", "to_dataframe"}
+    assert {*declared_columns(type(state)), *methods} <= shown
+    assert not {"along", "in_dict", "more_columns", "variables"} & shown
+
+
 def test_a_property_that_fails_says_why():
     @dataclass(frozen=True)
     class Found(Record):

@@ -39,6 +39,14 @@ function of the record; or a dict of entries of its own. Under the key "" stand 
 mapping, each with a key of its own. A key that comes again stands where it comes last.
 """
 
+INSIDE = frozenset(
+    {
+        *("in_dict", "not_in_dict", "in_columns", "along", "more_columns"),
+        *("variables", "coordinates", "attributes"),
+    }
+)
+"""Names by which records are made and rooms read them; nobody else is shown them."""
+
 VERSION: Entry = ("version", lambda record: __version__)
 """The version of the library."""
 NOTES: Entry = ("notes", lambda record: [note_data(warning) for warning in record.warnings])
@@ -148,6 +156,10 @@ class Record(Shown):
 
     def __hash__(self) -> int:
         return hash_of_fields(self)
+
+    def __dir__(self) -> list[str]:
+        """What a user reads: without the names by which its forms are made."""
+        return sorted({*object.__dir__(self)} - INSIDE)
 
     if not TYPE_CHECKING:  # which would take every name for an attribute
 

@@ -27,3 +27,7 @@ __all__ = [
     "run_study",
     "study_schema",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
