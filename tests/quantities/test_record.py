@@ -1,7 +1,7 @@
 """Results as records: their columns say what they are, and every form holds the same numbers."""
 
 import copy
-import importlib
+import importlib.util
 import inspect
 import json
 import pickle
@@ -120,6 +120,19 @@ def test_states_are_equal_by_their_values():
     assert tb.solve(CONTACT, pressure=1e6) == tb.solve(CONTACT, pressure=1e6)
     assert tb.transitions(CONTACT) == tb.transitions(CONTACT)  # with NaN in them
     assert len({one, two, tb.solve(CONTACT, pressure=1e6)}) == 2
+
+
+def test_a_state_without_a_number_has_one_mode_in_every_form(tmp_path):
+    """An empty word; in plain data None, as the JSON of a study has null."""
+    state = tb.solve(CONTACT, pressure=[1e6, 1e15])
+    asked = {"pressure": [1e6, 1e15], "columns": ["A_t", "mode"]}
+    forms = [state.mode, state.columns()["mode"], state.to_dataset()["mode"].values]
+    forms += [state.to_dataframe()["mode"], tb.sweep(CONTACT, **asked)["mode"].values]
+    if importlib.util.find_spec("zarr"):
+        forms += [tb.sweep(CONTACT, **asked, out=tmp_path / "out")["mode"].values]
+    assert [list(form) for form in forms] == [["s-s", ""]] * len(forms)
+    assert state.to_dict()["mode"] == ["s-s", None]
+    assert run_study(check(STUDY)).to_dict()["states"]["mode"] == ["s-s", None]
 
 
 def test_warnings_are_notes_that_stand_taken_apart_in_plain_data():

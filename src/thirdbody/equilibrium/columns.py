@@ -104,7 +104,9 @@ class Equilibrium(_ContactRecord):
     particle_load_share: Number = column("F_sa/F_t", "1", "load share of particles")
     particle_area_share: Number = column("A_sa,t*", "1", "area share of particles")
     mode: str | NDArray[np.str_] = column("mode", "", "contact mode")
-    """p-s, hybrid or s-s by area; empty where nothing touches, and in a state without a number."""
+    """p-s, hybrid or s-s by area. Where nothing touches, and in a state without a number, it is "",
+    in data sets and tables too; None in `to_dict` and null in JSON.
+    """
     status: str | NDArray[np.str_] = column("status", "", "ok, or why there is no state")
     residual: Number = column("r", "1", "relative imbalance |F_t/F − 1|")
     iterations: int | NDArray[np.int_] = column("n", "", "evaluations of the load")

@@ -389,11 +389,11 @@ class StateRecord(TableRecord):
     """A result with columns, one number of each for every state.
 
     A subclass declares them with `column`; ``outputs``, where it has such a field, holds more
-    of them by name.
+    of them by name. As plain data a word that is empty is None, as a number that is not finite.
     """
 
     __slots__ = ()
-    in_dict: ClassVar[tuple[Entry, ...]] = (("", "columns"),)
+    in_dict: ClassVar[tuple[Entry, ...]] = (("", "_plain_columns"),)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -419,6 +419,13 @@ class StateRecord(TableRecord):
         every = stored | dict(getattr(self, "outputs", {}))
         every |= {name: getattr(self, name) for name in self.more_columns}
         return {name: np.ravel(v) for name, v in every.items() if v is not None}
+
+    def _plain_columns(self) -> dict[str, list[object]]:
+        """The columns as plain data."""
+        columns = plain_data(self.columns()).items()
+        return {
+            name: [None if value == "" else value for value in values] for name, values in columns
+        }
 
     def variables(self) -> Mapping[str, Variable]:
         """The columns, along ``state``."""
