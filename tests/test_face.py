@@ -11,6 +11,7 @@ from types import ModuleType
 import pytest
 
 import thirdbody as tb
+import thirdbody.study
 
 pytestmark = pytest.mark.check
 REFERENCE = Path(__file__).parent.parent / "docs" / "reference.md"
@@ -97,6 +98,18 @@ def test_modules_are_imported_by_the_names_that_they_have_at_the_top():
 def test_the_first_page_names_every_name_at_the_top():
     words = set(re.findall(r"\w+", tb.__doc__))
     assert set(tb.__all__) <= words
+
+
+def test_the_first_page_says_what_each_function_gives():
+    """By its type; functions and methods of study files too."""
+    pairs = re.findall(r"`(\w+)`:\s+(?:an?\s+)?`([\w.]+)`", tb.__doc__)
+    assert {name for name, _ in pairs} >= {"solve", "sweep", "stribeck", "run_study", "run_film"}
+    homes = [tb, thirdbody.study, thirdbody.study.Study]
+    for name, kind in pairs:
+        functions = [each for home in homes if inspect.isroutine(each := getattr(home, name, None))]
+        assert functions, name
+        for function in functions:
+            assert kind in inspect.signature(inspect.unwrap(function)).return_annotation, name
 
 
 def test_names_of_the_top_are_all_accounted_for():

@@ -5,13 +5,20 @@ integrates laws over populations, and `solve` finds the separation that balances
 
 Describe
     `Contact`, `MaterialPair`, `Material`, `materials`, `Roughness`, `Particles`,
-    `TruncatedGaussian`, `LogNormal`; `load_study` reads a study file
-Solve
-    `solve`, `sweep`, `transitions`, `compare`, `table`
+    `TruncatedGaussian`, `LogNormal`
+Solve, and what each gives
+    `solve`: an `Equilibrium`; `transitions`: `Transitions`; `table`: a `ContactTable`;
+    `sweep`: an `xarray.Dataset`; `compare`: an `xarray.Dataset`
 How sure
-    `assess`, `sensitivity`, `propagate`, `Uncertain`
+    `assess`: an `Assessment`; `sensitivity`: a `Sensitivity`; `propagate`: a `Propagation` of
+    inputs that are `Uncertain`
 Decide
-    `design`, `life`; `cite` names the works behind an answer
+    `design`: a `Best`; `life`: a `LifeHistory`, or without oil a `DryHistory`; `cite`: a `str`, the
+    works behind an answer
+A study file
+    `load_study`: a `Study`, with methods `solve`: an `Equilibrium`, and `stribeck`: an
+    `xarray.Dataset`. In `thirdbody.study` stand `run_study`: a `StudyResult`, all that the command
+    ``solve`` prints; and `run_film`: a `FilmResult`, all that ``film`` prints
 
 Modules hold the rest:
 
