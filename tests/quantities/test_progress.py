@@ -230,6 +230,19 @@ def test_parts_of_a_work_tell_what_is_done_of_each(clock, capsys):
     ]
 
 
+def test_what_takes_much_longer_is_promised_anew(clock, capsys):
+    with progress.stages("assess", 1) as work:
+        work("ways")
+        work.expect(40)
+        with progress.count_contacts(30, work.report_contacts):
+            for k in range(60):  # more of them, and dearer ones
+                clock.now += 0.5 if k < 10 else 4.0
+                progress.advance()
+        assert work.promised == pytest.approx(clock.now, rel=0.5)
+    promises = [line for line in capsys.readouterr().err.splitlines() if "s each" in line]
+    assert 2 <= len(promises) <= 5
+
+
 def test_what_is_compiled_before_is_no_cost_of_a_contact(clock, capsys):
     with progress.stages("assess", 1) as work:
         work("samples")

@@ -33,7 +33,16 @@ from ..errors import (
     tell_of_range,
 )
 from ..quantities.carried import takes_units
-from ..quantities.progress import LONG, SURE, Cost, Stages, count_contacts, duration, solving
+from ..quantities.progress import (
+    FAR_OFF,
+    LONG,
+    SURE,
+    Cost,
+    Stages,
+    count_contacts,
+    duration,
+    solving,
+)
 from ..quantities.say import number, percent, span, value_of
 from ..quantities.value import problem_with
 from .assessment import (
@@ -193,7 +202,7 @@ def assess_each(
     held = [value for value, state in zip(loads, states, strict=True) if isinstance(state, _Own)]
     progress(PARTS[0])
     count = 0 if none else power_of_two(enough(contact, samples, vary))
-    work = _Work(progress, contact, vary or _usual(contact), count)
+    work = _Work(progress, contact, vary or _usual(contact), count, len(held))
     work.first(load, held, states)
     outputs = min(count, MOST_OUTPUTS) * len(held) if contact.outputs else 0
     if held and not none:
@@ -261,10 +270,16 @@ class _Work:
     """
 
     def __init__(
-        self, progress: Callable[[str], None], contact: Contact, vary: Collection[str], count: int
+        self,
+        progress: Callable[[str], None],
+        contact: Contact,
+        vary: Collection[str],
+        count: int,
+        loads: int,
     ):
         self.ends = (2 + SLOPES) * len(vary) if count else 0
-        self.ways = 2 * len(vary) * (len(range(0, COARSE - 1, EACH_COSTLY)) + HALVED)
+        ways = len(range(0, COARSE - 1, EACH_COSTLY)) + HALVED * loads
+        self.ways = 2 * len(vary) * ways
         self.within: Callable[[int, int], None] | None = None
         self.progress: Stages | None = None
         self.critical = 0
@@ -377,10 +392,9 @@ def _seconds_of_outputs(
     return seconds
 
 
-FAR_OFF = 1.5
-"""Times of what was promised from which on it is promised anew."""
 SLOPES, HALVED = 8, 2
-"""Contacts of the derivatives with one input, and of the mean search for a change of mode."""
+"""Contacts of the derivatives with one input, and of the mean search for a change of mode at
+a load."""
 ALONE, TOGETHER, CRITICAL_COST, EVALUATED = 2, 24, 6, 20
 """States of costly contacts by which those of all are priced; states with outputs, so many that
 they are solved as many are; what the critical loads of a sample take, in states, and at how many

@@ -154,9 +154,12 @@ class Stages:
         """Report the number of contacts done in the present part, of about so many."""
         if done == 1:
             self.counted_from, self.uncounted = time.monotonic(), 1
-        if self.expected and not self.said and done >= MEASURED:
+        if self.expected and done >= MEASURED:
             seconds = (time.monotonic() - self.counted_from) / (done - self.uncounted)
-            self.cost((self.expected, seconds, "contacts"))
+            every = max(self.expected, done)
+            if not self.said or every * seconds > FAR_OFF * self.promised > 0:
+                self.said = False
+                self.cost((every, seconds, "contacts"))
             self.said = True
         self.report_progress(done, total)
 
@@ -179,8 +182,9 @@ class Stages:
         print(f"{self.title}: {sentence}", file=sys.stderr, flush=True)
 
 
-MEASURED, LONG = 3, 10.0
-"""Contacts after which their cost is known, and seconds that are worth telling."""
+MEASURED, LONG, FAR_OFF = 3, 10.0, 2.0
+"""Contacts after which their cost is known, seconds that are worth telling, and times of what was
+promised from which on it is promised anew."""
 
 
 def duration(seconds: float) -> str:
