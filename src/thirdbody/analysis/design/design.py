@@ -95,7 +95,7 @@ class Best(TableRecord):
     at_bound : tuple of str
         Variables whose best value is an end of their range: the optimum may lie beyond.
     slopes : dict
-        d m/d ln y of every metric asked for, per variable, at the load in the middle; at a
+        d m/d ln y of every metric asked for, per variable, at ``middle_load``; at a
         constant concentration where there is a `Suspension`.
     hypervolume : float or None
         Of the front against the worst feasible value of each objective; None for one objective.
@@ -155,6 +155,11 @@ class Best(TableRecord):
             rows.append(Row(name, [_in_words(value, column)], column.meaning))
         notes = (self.reason,) if self.reason else ()
         yield Card("Best values, and objectives there", rows, (*notes, *self.warnings))
+
+    @property
+    def middle_load(self) -> float:
+        """The load at which slopes are taken, in SI: of an even number the upper middle one."""
+        return _middle(self.loads)
 
     def variables(self) -> dict[str, Variable]:
         """Every point tried."""
@@ -470,6 +475,11 @@ def _last_good(
     return int(side[-1]) if len(side) else place
 
 
+def _middle(loads: Array) -> float:
+    """The load in the middle of some, of an even number the upper one."""
+    return float(np.sort(loads)[len(loads) // 2])
+
+
 def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float]]:
     """d m/d ln y at the load in the middle, by the exact sensitivities."""
     smooth = set(columns_of(made)) - NOT_SMOOTH
@@ -481,7 +491,7 @@ def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float
         labels.append(DENSITY)
     if not (wanted and labels):
         return {}
-    middle = as_load(task.load, float(np.sort(task.loads)[len(task.loads) // 2]))
+    middle = as_load(task.load, _middle(task.loads))
     try:
         sensitivities = sensitivity(made, of=wanted, to=labels, **middle)
     except ThirdBodyError:

@@ -154,13 +154,13 @@ def _page(study: Study, best: Best) -> None:
         ends = f"{said.amount(name, low)} to {said.amount(name, high)}"
         out.print(f"{said.name(name)}: from {ends}, equal within {percent(FLAT)}.")
     for label, value in best.objectives.items():
-        out.print(f"{said.objective(label)} = {said.metric(label, value)}")
+        out.print(said.reached(label, value))
     out.print(f"limits in force: {said.limits('; '.join(best.active)) or 'none'}")
     _against_load(out, best, said)
     if best.slopes:
         out.print(
-            "change of a number for a relative change of an input, d/d ln, at the middle load; "
-            "units as above"
+            "change of a number for a relative change of an input, d/d ln, at "
+            f"{said.middle_load()}; units as above"
         )
         inputs = {name: said.name(name) for name in next(iter(best.slopes.values()))}
         table = Table(("change of", *inputs.values()), right=True, words=["change of"], wrap=True)
@@ -237,7 +237,7 @@ class _Words:
                 within = f" (within 5 % of the best from {low} to {high})"
             chosen.append(f"{self.name(name)} {self.amount(name, value)}{within}")
         gives = [
-            f"{self.aim(label)}{self.objective(label)} = {self.metric(label, value)}"
+            self.aim(label) + self.reached(label, value)
             for label, value in self.best.objectives.items()
         ]
         best = "Best" if len(gives) == 1 else "One of the best"
@@ -248,6 +248,19 @@ class _Words:
         """What is sought of an objective, before its name; nothing where nothing is reached."""
         aim = self.study_objectives[label].aim
         return f"the {aim} " if self.best.feasible and aim != "window" else ""
+
+    def reached(self, label: str, value: float) -> str:
+        """An objective, its value, and of which of several loads it is."""
+        objective = self.study_objectives[label]
+        one = len(self.best.loads) == 1 or objective.aim == "window"
+        of = {"mean": " (mean over the loads)", "worst": " (at the worst of the loads)"}
+        over = "" if one else of[objective.over_loads]
+        return f"{self.objective(label)} = {self.metric(label, value)}{over}"
+
+    def middle_load(self) -> str:
+        """The load at which slopes are taken."""
+        middle = value_of(self.best.middle_load, "Pa" if self.best.load == "pressure" else "1")
+        return f"{self.best.load} = {middle}"
 
     def about(self, of: str) -> tuple[str, str]:
         """Unit and meaning of a number of the states."""
