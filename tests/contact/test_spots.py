@@ -329,16 +329,46 @@ def test_outputs_of_particles_that_sink_in_are_known_to_eight_digits(hardness, m
     few = tb.solve(case, F_star=loads).outputs
     monkeypatch.setattr(particle_averages, "SIZE_NODES", 24)
     monkeypatch.setattr(particle_averages, "SPOT_NODES", (32, 28))
+    monkeypatch.setattr(particle_averages, "MOST", 0)  # by rows of gaps
     many = tb.solve(case, F_star=loads).outputs
     assert few["mu"][0] != many["mu"][0]  # more nodes are used
     for name in ("mu", "mu_sa_roll", "rolling_share", "hc_sa"):
         assert few[name] == pytest.approx(many[name], rel=1e-8, abs=1e-300), name
 
 
-# ------------------------------------------------- seats so high that the gap is closed
 FRICTION, DENTS = tb.outputs.Friction(tau_ss=4e8, tau_sa=2e8), tb.outputs.Dents()
 
 
+@pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+@pytest.mark.parametrize(
+    "sizes",
+    [
+        tb.LogNormal(median=100e-9, gsd=1.5),
+        tb.TruncatedGaussian(mean=300e-9, std=3e-9),
+        tb.distributions.Uniform(low=20e-9, high=400e-9),
+        tb.distributions.Weibull(scale=200e-9, shape=1.5),
+    ],
+)
+def test_sums_over_squeezes_are_those_over_rows_of_gaps(sizes, monkeypatch):
+    from thirdbody.contact import particle_averages
+
+    steel = tb.materials["S45C"]
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel.replace(H=4e9)),
+        roughness=tb.Roughness(sigma=60e-9, R=2e-6),
+        particles=tb.Particles(material=tb.materials["SiO2"], areal_density=1e10, diameter=sizes),
+        outputs=(FRICTION, tb.outputs.Counts(), tb.outputs.Wear(K_ss=1e-5, K_sa=1e-4)),
+    )
+    for F_star in (1e-7, 1e-4, 1e-2):  # from open gaps to closed ones
+        monkeypatch.undo()
+        few = tb.solve(case, F_star=F_star).outputs
+        monkeypatch.setattr(particle_averages, "MOST", 0)
+        rows = tb.solve(case, F_star=F_star).outputs
+        for name in rows:
+            assert few[name] == pytest.approx(rows[name], rel=2e-9, abs=1e-300, nan_ok=True), name
+
+
+# ------------------------------------------------- seats so high that the gap is closed
 @pytest.mark.spread(2)
 @pytest.mark.parametrize(
     ("hardness", "second", "sizes", "deep", "outputs"),
@@ -367,6 +397,7 @@ def test_outputs_in_closed_gaps_are_known_to_eight_digits(
     few = tb.solve(case, F_star=loads).outputs
     monkeypatch.setattr(particle_averages, "SIZE_NODES", 16)
     monkeypatch.setattr(particle_averages, "SPOT_NODES", (22, 19))
+    monkeypatch.setattr(particle_averages, "MOST", 0)  # by rows of gaps
     many = tb.solve(case, F_star=loads).outputs
     names = [
         name

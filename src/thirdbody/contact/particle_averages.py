@@ -525,10 +525,77 @@ class SeatAverage:
             weights = np.concatenate([weight, weights])
         near = self._within_reach(gaps, mean_gap)
         gaps, rise, weights = gaps[near], rise[near], weights[near]
-        z = (mean_gap[:, None] - gaps) / self.width
-        share = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
+        if (open_gaps := self._over_squeezes(mean_gap, splits)) is not None:
+            return self._spots_by_squeeze(open_gaps, mean_gap, splits, (gaps, rise, weights))
+        share = self._density_of_seats(gaps, mean_gap)
         spots = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
         return average.laid_out(spots, gaps, mean_gap, self.width)
+
+    def _density_of_seats(self, gaps: Array, mean_gap: Array) -> Array:
+        """Part of the seats with a local gap, per gap, at mean gaps (N,): (N, M)."""
+        z = (mean_gap[:, None] - gaps) / self.width
+        return np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
+
+    def _over_squeezes(
+        self, mean_gap: Array, splits: Sequence[float]
+    ) -> tuple[Array, Array, Array] | None:
+        """Diameters, squeezes ε and weights (M,) of sums over open gaps for few states.
+
+        A regime begins at one ε whatever the size, so that panels of sizes and of ε end nowhere
+        else; in rows of gaps they do for every size at which the density jumps, but many states
+        share a row. None where rows of gaps take less time; both sums are to 1e-9 of the load.
+        """
+        average = self.average
+        sizes, (low, top) = average.sizes, average.sizes.support
+        step = SPOT_WIDTHS * self.width
+        plain = type(average) is SizeAverage and not isinstance(sizes, Monodisperse)
+        if not plain or len(mean_gap) > FEW or top > MOST * step:
+            return None
+        marks = np.unique([0.0, *average.particle.panels, *splits, 1.0])
+        edges = subdivide(_distinct(marks[(marks >= 0) & (marks <= 1)]), width=step / top)
+        # densities keep all digits by how far sizes are from the largest
+        narrow = low > 0.5 * top
+        pieces = top - np.array(sizes.pieces)[::-1] if narrow else np.array(sizes.pieces)
+        places = subdivide(_distinct(pieces), width=step)
+        if SPOT_SQUEEZES * len(edges) * SPOT_SIZES * len(places) > MOST:
+            return None
+        # ends like powers of a root: there regimes set in, or end
+        nodes, weights = gauss_legendre(SPOT_SQUEEZES)
+        angle = 0.25 * np.pi * (1 + nodes)
+        squeezed = (edges[:-1, None] + np.diff(edges)[:, None] * np.sin(angle) ** 2).ravel()
+        of_eps = (0.25 * np.pi * np.diff(edges)[:, None] * np.sin(2 * angle) * weights).ravel()
+        place, of_sizes = panel_rule(places, SPOT_SIZES)
+        x = top - place if narrow else place
+        of_sizes = of_sizes * (sizes.pdf_below(place) if narrow else sizes.pdf(place))
+        every = np.broadcast_arrays(x, squeezed[:, None], of_eps[:, None] * (x * of_sizes))
+        x, eps, weight = (values.ravel() for values in every)
+        near = self._within_reach(x * (1 - eps), mean_gap)
+        return x[near], eps[near], weight[near]
+
+    def _spots_by_squeeze(
+        self,
+        open_gaps: tuple[Array, Array, Array],
+        mean_gap: Array,
+        splits: Sequence[float],
+        rule: tuple[Array, Array, Array],
+    ) -> ParticleSpots:
+        """Spots in open gaps by their squeeze, and in closed ones by rows of the rule of gaps."""
+        (x, eps, number), (gaps, rise, weights) = open_gaps, rule
+        delta, gap = eps * x, x * (1 - eps)
+        if np.any(closed := gaps < 0):
+            more, squeeze, part = self.average.of_sizes(
+                gaps[closed, None], rise[closed, None], splits, SIZE_NODES
+            )
+            used = part > 0
+            rows = np.broadcast_to(gaps[closed, None], part.shape)[used]
+            x, delta = np.append(x, more[used]), np.append(delta, squeeze[used])
+            number = np.append(number, (part * weights[closed, None])[used])
+            gap = np.append(gap, rows)
+        share = self._density_of_seats(gap, mean_gap)
+        spots = self.average.particle.spots(
+            x[:, None], np.maximum(delta, 0.0)[:, None], share=share, number=number[:, None]
+        )
+        return self.average.laid_out(spots, gap, mean_gap, self.width)
 
     def _closed_gaps(self, splits: Sequence[float]) -> Array:
         """Negative gaps, dense near none, and where splits cross the bulk of the sizes.
@@ -566,4 +633,7 @@ SEAT_NODES = (14, 10)
 SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.6, 10
 """The same for spots, whose sums need 1e-9 of the load; width of their panels over that of the seat
 under particles of one size, and over that of seat and sizes together; nodes of sizes."""
+SPOT_SQUEEZES, SPOT_SIZES, MOST, FEW = 14, 10, 70_000, 16
+"""Nodes of a panel of squeezes, and of sizes, where sums are over both; how many in all at most,
+and for how many states."""
 WIDEST = 1e5
