@@ -357,7 +357,11 @@ def test_sums_over_squeezes_are_those_over_rows_of_gaps(sizes, monkeypatch):
         surfaces=tb.MaterialPair(steel, steel.replace(H=4e9)),
         roughness=tb.Roughness(sigma=60e-9, R=2e-6),
         particles=tb.Particles(material=tb.materials["SiO2"], areal_density=1e10, diameter=sizes),
-        outputs=(FRICTION, tb.outputs.Counts(), tb.outputs.Wear(K_ss=1e-5, K_sa=1e-4)),
+        outputs=(
+            FRICTION,
+            tb.outputs.Counts(),
+            tb.outputs.Wear(K_ss=1e-5, K_sa=1e-4, f_ab=0.1, f_roll=0.01),
+        ),
     )
     for F_star in (1e-7, 1e-4, 1e-2):  # from open gaps to closed ones
         monkeypatch.undo()

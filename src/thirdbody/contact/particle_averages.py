@@ -633,7 +633,7 @@ SEAT_NODES = (14, 10)
 SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.6, 10
 """The same for spots, whose sums need 1e-9 of the load; width of their panels over that of the seat
 under particles of one size, and over that of seat and sizes together; nodes of sizes."""
-SPOT_SQUEEZES, SPOT_SIZES, MOST, FEW = 14, 10, 70_000, 16
+SPOT_SQUEEZES, SPOT_SIZES, MOST, FEW = 16, 10, 70_000, 16
 """Nodes of a panel of squeezes, and of sizes, where sums are over both; how many in all at most,
 and for how many states."""
 WIDEST = 1e5
