@@ -725,6 +725,23 @@ def reference(states, over, name):
 
 @pytest.mark.spread(3)
 @FORMATS
+@pytest.mark.parametrize("chunk", [3, 1000])
+def test_inputs_of_samples_that_are_kept_are_those_drawn(format, chunk, tmp_path):
+    """Loads are reduced away, and the samples stay: with what was drawn, not with what was free."""
+    drawn = dict(
+        vary={"roughness.sigma": {"low": 1e-7, "high": 2e-7}, "particle_law.seat": ["rough"]},
+        design="sobol",
+        samples=5,
+        F_star=[1e-6, 1e-5],
+    )
+    every = tb.sweep(DUSTY, **drawn)["roughness.sigma"].values
+    reduced = drawn | dict(reduce={"mean": True, "over": ["F_star", "particle_law.seat"]})
+    assert_array_equal(tb.sweep(DUSTY, **reduced, chunk=chunk)["roughness.sigma"].values, every)
+    with tb.sweep(DUSTY, **reduced, out=tmp_path, format=format, chunk=chunk) as kept:
+        assert_array_equal(kept["roughness.sigma"].values, every)
+
+
+@FORMATS
 @pytest.mark.parametrize("over", [["sample"], ["particle_law.seat", "pressure"]])
 @pytest.mark.parametrize("chunk", [4, 1000])
 def test_reductions_are_numpys(tmp_path, format, over, chunk):

@@ -9,7 +9,7 @@ import json
 import math
 import warnings
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -151,6 +151,17 @@ class Block:
                 out[name][which] = column
         return {name: column.reshape(self.sizes) for name, column in out.items()}
 
+    def sampled_inputs(self, kept: int) -> Arrays:
+        """Inputs drawn along the first dimensions, so many of which are kept.
+
+        They are made by whichever block comes first along the others.
+        """
+        out: Arrays = {}
+        for dim in self.dims[:kept]:
+            if isinstance(dim, Sampled) and all(d.start == 0 for d in self.dims if d != dim):
+                out |= dim.inputs()
+        return out
+
     def parts(self, most: int) -> Iterator[tuple[Box, Block]]:
         """The block in boxes of at most so many states."""
         for box in _boxes(self.sizes, _box(self.sizes, most)):
@@ -201,11 +212,7 @@ class Task:
                 out["status"] = solved[CODE]
         elif "status" in out:
             out[CODE] = solved[CODE]
-        for dim in self.block.dims:
-            # made by whoever comes first along the other dimensions
-            if isinstance(dim, Sampled) and all(d.start == 0 for d in self.block.dims if d != dim):
-                out |= dim.inputs()
-        return out, summary
+        return out | self.block.sampled_inputs(len(self.block.dims)), summary
 
 
 @dataclass(frozen=True)
@@ -288,6 +295,12 @@ class Plan(Record):
 
         block = self.whole.cut(self.region(number))
         return Task(block, self.columns, self.reduction, self.outer, coded, __version__)
+
+    def reduce_parts(self, first: int, parts: Iterable[Arrays]) -> Arrays:
+        """What is kept of the blocks of a cell, of which this is the first, and its inputs."""
+        assert self.reduction is not None
+        kept = self.reduction.result(self.reduction.merge_parts(list(parts)))
+        return kept | self.whole.cut(self.region(first)).sampled_inputs(self.outer)
 
     def layout(self) -> Layout:
         from ...version import __version__

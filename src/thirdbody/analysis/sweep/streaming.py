@@ -31,7 +31,6 @@ from .folder import (
     unchecked_words,
 )
 from .plan import STORED, Arrays, Layout, Plan, all_notes
-from .reduction import Reduction
 from .stores import _NetCDF, _Zarr
 
 if TYPE_CHECKING:
@@ -81,7 +80,7 @@ def in_memory(
     if plan.reduction is not None:
         for row in range(plan.count // _parts(plan)):
             numbers = range(row * _parts(plan), (row + 1) * _parts(plan))
-            kept = _reduce_parts(plan.reduction, (rows.pop(number) for number in numbers))
+            kept = plan.reduce_parts(numbers[0], (rows.pop(number) for number in numbers))
             _write_block(data, layout, plan, numbers[0], kept)
     words &= set(data)
     data |= {name: data[name].astype(str) for name in words}
@@ -117,10 +116,6 @@ def _where(plan: Plan, number: int) -> dict[str, slice]:
 def _parts(plan: Plan) -> int:
     """Blocks that a cell is cut into."""
     return math.prod(plan.grid[plan.outer :])
-
-
-def _reduce_parts(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
-    return reduction.result(reduction.merge_parts(list(parts)))
 
 
 def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
@@ -343,7 +338,7 @@ def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, objec
     step = 1 if plan.reduction is None else _parts(plan)
     for first in range(0, plan.count, step):
         parts = (_load_part(folder.part_file(number)) for number in range(first, first + step))
-        arrays = next(parts) if plan.reduction is None else _reduce_parts(plan.reduction, parts)
+        arrays = next(parts) if plan.reduction is None else plan.reduce_parts(first, parts)
         store.write(_where(plan, first), arrays)
     store.label(attrs)
     store.close()
