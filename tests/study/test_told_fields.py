@@ -137,3 +137,10 @@ def test_a_value_that_may_be_written_is_one_of_the_quantity():
     for unit in {*UNITS.values()} - {"1"}:
         written = tomllib.loads(f"example = {example_of(unit)}")["example"]
         assert to_si(written, unit) > 0
+
+
+@pytest.mark.parametrize("ends", [["50 nm", "400 nm"], [5e-8, 4e-7]])
+def test_a_list_of_numbers_to_choose_from_is_told_as_a_range(ends):
+    (problem,) = problems(design={"vary": {MEDIAN: ends}, "objective": {"of": "A_t"}})
+    assert (problem.code, problem.place) == (Mistake.KIND, f'design.vary."{MEDIAN}"')
+    assert "low = " in problem.hint

@@ -583,13 +583,13 @@ class SeatAverage:
         (x, eps, number), (gaps, rise, weights) = open_gaps, rule
         delta, gap = eps * x, x * (1 - eps)
         if np.any(closed := gaps < 0):
-            more, squeeze, part = self.average.of_sizes(
+            sizes, squeeze, weight = self.average.of_sizes(
                 gaps[closed, None], rise[closed, None], splits, SIZE_NODES
             )
-            used = part > 0
-            rows = np.broadcast_to(gaps[closed, None], part.shape)[used]
-            x, delta = np.append(x, more[used]), np.append(delta, squeeze[used])
-            number = np.append(number, (part * weights[closed, None])[used])
+            used = weight > 0
+            rows = np.broadcast_to(gaps[closed, None], weight.shape)[used]
+            x, delta = np.append(x, sizes[used]), np.append(delta, squeeze[used])
+            number = np.append(number, (weight * weights[closed, None])[used])
             gap = np.append(gap, rows)
         share = self._density_of_seats(gap, mean_gap)
         spots = self.average.particle.spots(

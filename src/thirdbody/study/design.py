@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from functools import partial
 from typing import Any
@@ -45,6 +46,8 @@ WORDS = {
     "over_scatter": ("mean", "nominal", "worst", "robust", "tail"),
 }
 FIXED = "what is not to be chosen needs no range: write it in its own table"
+NUMBER = re.compile(r"[-+]?\.?\d[\d.]*(e[-+]?\d+)?( .*)?", re.IGNORECASE)
+"""A value with its unit or without; the name of no material ("100Cr6")."""
 EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
@@ -80,6 +83,10 @@ def _variable(reader: Reader, where: str, variable: tuple[str, object]) -> tuple
     """One variable: its name in the library, and its range or its materials."""
     label, entry = variable
     if isinstance(entry, list):
+        if entry and all(NUMBER.fullmatch(str(value)) for value in entry):
+            hint = f"write {{ low = {say(entry[0])}, high = {say(entry[-1])} }}"
+            rule = "must be a range of numbers, or a list of materials"
+            raise wrong(where, rule, entry, hint=hint, code=Mistake.KIND)
         items = {f"{where}.{i}": material for i, material in enumerate(entry)}
         return label, list(reader.read_each(items, MATERIAL.read_any))
     if not (isinstance(entry, dict) and set(entry) == {"low", "high"}):

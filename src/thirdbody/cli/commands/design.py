@@ -154,7 +154,7 @@ def _page(study: Study, best: Best) -> None:
         ends = f"{said.amount(name, low)} to {said.amount(name, high)}"
         out.print(f"{said.name(name)}: from {ends}, equal within {percent(FLAT)}.")
     for label, value in best.objectives.items():
-        out.print(said.reached(label, value))
+        out.print(said.result_of(label, value))
     out.print(f"limits in force: {said.limits('; '.join(best.active)) or 'none'}")
     _against_load(out, best, said)
     if best.slopes:
@@ -237,7 +237,7 @@ class _Words:
                 within = f" (within 5 % of the best from {low} to {high})"
             chosen.append(f"{self.name(name)} {self.amount(name, value)}{within}")
         gives = [
-            self.aim(label) + self.reached(label, value)
+            self.aim(label) + self.result_of(label, value)
             for label, value in self.best.objectives.items()
         ]
         best = "Best" if len(gives) == 1 else "One of the best"
@@ -249,7 +249,7 @@ class _Words:
         aim = self.study_objectives[label].aim
         return f"the {aim} " if self.best.feasible and aim != "window" else ""
 
-    def reached(self, label: str, value: float) -> str:
+    def result_of(self, label: str, value: float) -> str:
         """An objective, its value, and of which of several loads it is."""
         objective = self.study_objectives[label]
         one = len(self.best.loads) == 1 or objective.aim == "window"
