@@ -413,6 +413,7 @@ def test_panels_end_where_gaps_are_widest_or_narrowest():
     u = rng.normal(size=(40, 13)) * np.exp(-0.5 * np.arange(13))
     turns, zeta = seat._turning_points(np.zeros(40), u)[2], np.linspace(-3.999, 3.999, 40001)
     gaps = seat._gap(np.zeros(40), u, np.broadcast_to(zeta, (40, len(zeta))))
+    assert np.count_nonzero(turns > turns.min()) > 20
     for mine, gap in zip(turns, gaps, strict=True):
         scanned = zeta[1:-1][np.diff(np.sign(np.diff(gap))) != 0]
         mine = mine[mine > turns.min()]

@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from scipy.interpolate import BarycentricInterpolator
 
 import thirdbody as tb
+from thirdbody.systems import elastic_balance
 from thirdbody.systems.elastic_balance import Outline, Skin
 from thirdbody.systems.rough_body import curve, rough_cylinder, rough_sphere
 
@@ -276,15 +277,21 @@ def test_an_outline_keeps_to_the_law(particles):
 
 
 def test_pressure_beyond_a_grid_is_not_left_out(monkeypatch):
-    """An outline that ends too early leads to a grid that is asked for once more."""
+    """An outline that ends too early leads to a grid that is laid once more: 8e-4 off without."""
     contact = steel_contact(600e-9, particles=PLATEAU)
     whole = rough_cylinder(contact, radius=5e-3, load=1e-4)
-    law = Outline.__call__
+    law, ends_early, asked = Outline.__call__, elastic_balance._ends_early, []
 
     def end_early(outline, gap):
-        edge = float(np.max(gap)) if np.size(gap) == 90 else math.inf
-        p, slope = law(outline, gap)
-        return np.where(gap < edge, p, 0.0), slope
+        beyond = (gap > 22.5e-6) & (np.size(gap) > 1)  # on grids, and not where ends are sought
+        return tuple(np.where(beyond, 0.0, values) for values in law(outline, gap))
+
+    def look(*state):
+        asked.append(ends_early(*state))
+        return asked[-1]
 
     monkeypatch.setattr(Outline, "__call__", end_early)
-    assert rough_cylinder(contact, radius=5e-3, load=1e-4).peak_pressure == whole.peak_pressure
+    monkeypatch.setattr(elastic_balance, "_ends_early", look)
+    again = rough_cylinder(contact, radius=5e-3, load=1e-4)
+    assert asked == [True]
+    assert again.peak_pressure == pytest.approx(whole.peak_pressure, rel=1e-10)
